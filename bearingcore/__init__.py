@@ -1,0 +1,24 @@
+"""The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
+
+from bearingcore.bearing import Bearing
+from bearingcore.defect import EDGES, RACES, Defect
+from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
+from bearingcore.presets import preset_notes, presets
+from bearingcore.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
+
+__all__ = [
+    "CONTACT_LAWS",
+    "DOF_NAMES",
+    "EDGES",
+    "RACES",
+    "STIFFNESS_TERMS",
+    "Bearing",
+    "Defect",
+    "Equilibrium",
+    "Load",
+    "Scene",
+    "Support",
+    "equilibrium",
+    "preset_notes",
+    "presets",
+]

@@ -1,0 +1,69 @@
+"""Refusing bad input: one sentence that names the field, its value and what is allowed."""
+
+from __future__ import annotations
+
+import math
+from typing import SupportsFloat
+
+
+def refuse(field: str, value: object, allowed: str) -> ValueError:
+    """The error to raise for `field`: its value and what is allowed stand in the message."""
+    shown = f"{value:g}" if isinstance(value, float) else repr(value)
+    return ValueError(f"{field} is {shown}; allowed: {allowed}")
+
+
+def number(
+    field: str,
+    value: SupportsFloat,
+    *,
+    at_least: float = -math.inf,
+    at_most: float = math.inf,
+    above: float = -math.inf,
+    below: float = math.inf,
+    unit: str = "",
+) -> float:
+    """`value` as a finite float inside the given limits [unit].
+
+    Raises
+    ------
+    ValueError
+        naming `field`, its value and the allowed range.
+    """
+    limits = []
+    if at_least > -math.inf:
+        limits.append(f"at least {at_least:g}")
+    if above > -math.inf:
+        limits.append(f"above {above:g}")
+    if at_most < math.inf:
+        limits.append(f"at most {at_most:g}")
+    if below < math.inf:
+        limits.append(f"below {below:g}")
+    allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
+    if unit:
+        allowed += f" [{unit}]"
+    try:
+        x = float(value)
+    except (TypeError, ValueError):
+        raise refuse(field, value, allowed) from None
+    inside = at_least <= x <= at_most and above < x < below
+    if not (math.isfinite(x) and inside):
+        raise refuse(field, x, allowed)
+    return x
+
+
+def choice(field: str, value: object, options: tuple[str, ...]) -> str:
+    """`value` if it is one of `options`, else ValueError."""
+    if not (isinstance(value, str) and value in options):
+        raise refuse(field, value, ", ".join(options))
+    return value
+
+
+def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> int:
+    """`value` as an int inside the limits, else ValueError. 14.0 counts as 14, True does not."""
+    allowed = f"a whole number from {at_least} to {at_most}"
+    if isinstance(value, bool):
+        raise refuse(field, value, allowed)
+    x = number(field, value, at_least=at_least, at_most=at_most)  # type: ignore[arg-type]
+    if x != round(x):
+        raise refuse(field, x, allowed)
+    return round(x)

@@ -1,0 +1,24 @@
+"""Files the page is made of: styles, scripts, the logo."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+_HERE = Path(__file__).resolve().parent
+_PLACES = (_HERE / "_assets", _HERE.parent / "assets")  # installed; in a checkout
+
+
+def asset_path(name: str) -> Path:
+    """Where the asset called `name` lies."""
+    for place in _PLACES:
+        path = place / name
+        if path.is_file():
+            return path
+    raise FileNotFoundError(f"asset {name!r} is in none of {[str(place) for place in _PLACES]}")
+
+
+@cache
+def asset_text(name: str) -> str:
+    """The text of the asset called `name`."""
+    return asset_path(name).read_text(encoding="utf-8")

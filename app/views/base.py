@@ -1,0 +1,129 @@
+"""What a view is: figures made once, numbers pushed through the wire, one live sentence.
+
+A view never computes physics. It says in `needs` which attributes of `app.results.Results` it
+reads; only those are computed, and only while the view is on screen.
+
+To write one, subclass `View`, set the class attributes, and give it
+
+- `build(wire)`: make figures, sources and ranges, once, and return what goes on the page;
+- `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
+- `sentence(results)`: one sentence that says what is to be seen, for everyone;
+- `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
+
+`data`, `sentence` and `table` may run in a worker thread: they touch no model.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import panel as pn
+import param
+from panel.custom import JSComponent
+
+from app.assets import asset_path, asset_text
+from app.wire import Wire
+
+if TYPE_CHECKING:
+    from app.results import Results
+
+#: {source: {column: array}}
+Sources = dict[str, dict[str, np.ndarray]]
+#: {range: (start, end)}
+Ranges = dict[str, tuple[float, float]]
+
+
+class Caption(JSComponent):
+    """Head of a view: its title, what it shows, and a button that saves its numbers."""
+
+    title = param.String()
+    about = param.String()
+    file_name = param.String()
+
+    _esm = asset_path("caption.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
+
+
+class Sentence(JSComponent):
+    """One live sentence: text that screen readers announce, set without a layout pass."""
+
+    text = param.String()
+
+    _esm = asset_path("sentence.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("sentence.css")]
+
+
+class View:
+    """One picture of the scene. See the head of this module for what a subclass provides."""
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    about: ClassVar[str] = ""
+    needs: ClassVar[frozenset[str]]
+
+    def __init__(self, wire: Wire) -> None:
+        self._results: Results | None = None
+        self._caption = Caption(
+            title=self.title,
+            about=self.about,
+            file_name=f"{self.name}.csv",
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+        self._caption.on_msg(self._answer)
+        self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
+        self.panel: pn.viewable.Viewable = pn.Column(
+            self._caption,
+            self.build(wire),
+            self._sentence,
+            css_classes=["view", f"view-{self.name}"],
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+    def build(self, wire: Wire) -> Any:
+        """Make the figures, once; return a Panel object or a Bokeh layout."""
+        raise NotImplementedError
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """What to send for these results."""
+        raise NotImplementedError
+
+    def sentence(self, results: Results) -> str:
+        """One sentence that says what the figure shows now, numbers with units."""
+        raise NotImplementedError
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
+        raise NotImplementedError
+
+    def say(self, results: Results, sentence: str) -> None:
+        """Show the sentence and keep the results for the table. On the event loop only."""
+        self._results = results
+        self._sentence.text = sentence
+
+    def csv(self) -> str:
+        """The table of what is drawn now as comma-separated values; empty before the first."""
+        return "" if self._results is None else as_csv(self.table(self._results))
+
+    def _answer(self, event: Any) -> None:
+        if event.data == "csv":
+            self._caption._send_msg({"csv": self.csv()})
+
+
+def as_csv(table: dict[str, np.ndarray]) -> str:
+    """Columns as comma-separated text; shorter columns end in empty cells."""
+    columns = [np.asarray(column).ravel() for column in table.values()]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(table)
+    for row in range(max((column.size for column in columns), default=0)):
+        writer.writerow([_cell(column[row]) if row < column.size else "" for column in columns])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.9g}" if isinstance(value, float | np.floating) else str(value)

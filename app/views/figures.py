@@ -1,0 +1,274 @@
+"""The house style: one way to make a figure, one palette, one way to write numbers with units.
+
+Data go to the browser in SI. The prefix (kN, µm, MN/m) is chosen there, from the range that the
+axis shows, by the same rule as `with_prefix` uses for sentences: so an axis, its label and its
+numbers cannot disagree, and nothing is rescaled on the way.
+
+Colours have one meaning each on the whole page and stay apart for colour-blind eyes (Okabe-Ito).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bokeh.models import (
+    Axis,
+    ColumnDataSource,
+    CustomJS,
+    CustomJSExpr,
+    CustomJSTickFormatter,
+    FixedTicker,
+    GlyphRenderer,
+    LinearAxis,
+    Range1d,
+)
+from bokeh.plotting import figure
+
+DEFECTIVE = "#0072B2"
+"""The bearing as the sliders have it."""
+SOUND = "#9AA0A6"
+"""The same bearing without its defect."""
+DEFECT = "#E69F00"
+"""Where the defect is."""
+INK = "#20262D"
+"""Text, and the mark of the current cage angle."""
+FAINT_INK = "#5B6470"
+STEEL = "#E7EAEE"
+STEEL_EDGE = "#A9B1BB"
+GRID = "#EDEFF2"
+
+DIRECTIONS = ("x", "y", "z", "rx", "ry")
+DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
+"""Colour of each direction of motion, in the order of `DIRECTIONS`."""
+BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+"""Colours of balls that are told apart, taken in turn."""
+
+FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+TEXT_SIZE = "12px"
+SMALL_TEXT_SIZE = "11px"
+
+_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+
+# `step` gives the power of ten of the prefix for a greatest value; the same rule as `_power`.
+_JS_PREFIX = """
+const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
+const power = (top) => !(top > 0) || !isFinite(top) ? 0 :
+  Math.max(-12, Math.min(12, 3*Math.floor(Math.log10(top*1.0000001)/3)))
+const minus = (text) => text.replace('-', '\u2212')
+const rounded = (value, digits) => minus(Math.abs(value) >= 10**(digits - 1)
+  ? value.toFixed(0) : String(Number(value.toPrecision(digits))))
+const si = (value, unit, digits = 3) => {
+  const e = power(Math.abs(value))
+  return rounded(value/10**e, digits) + '\u00a0' + names[e] + unit
+}
+"""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What an axis shows: name, symbol and unit.
+
+    `prefixed` lets the axis choose an SI prefix for `unit`; the data are in `unit` always.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    prefixed: bool = False
+
+    def label(self, top: float = 1.0) -> str:
+        """Text of the axis for a range whose greatest absolute value is `top` [unit]."""
+        prefix = _PREFIXES[_power(top)] if self.prefixed else ""
+        return f"{' '.join(filter(None, (self.name, self.symbol)))} ({prefix}{self.unit})"
+
+
+BALL_ANGLE = Quantity("Angular position", "φ", "°")
+CAGE_ANGLE = Quantity("Cage angle", "φ_c", "°")
+
+
+def house_figure(
+    x: Quantity,
+    y: Quantity,
+    x_range: Range1d,
+    y_range: Range1d,
+    *,
+    height: int = 300,
+    title: str | None = None,
+    right: int = 14,
+    **options: Any,
+) -> figure:
+    """A figure in the house style on two fixed ranges, both axes labelled and prefixed.
+
+    `right` is the room [px] right of the frame, for labels that stand beside their lines.
+    """
+    plot = figure(
+        x_range=x_range,
+        y_range=y_range,
+        height=height,
+        title=title,
+        tools="save",
+        toolbar_location="right",
+        output_backend="canvas",
+        sizing_mode="stretch_width",
+        min_border_right=right,
+        min_border_left=64,
+        min_border_top=10,
+        min_width=280,
+        background_fill_color=None,
+        border_fill_color="white",
+        outline_line_color=None,
+        **options,
+    )
+    plot.toolbar.logo = None
+    plot.toolbar.autohide = True
+    plot.toolbar_inner = True
+    plot.grid.grid_line_color = GRID
+    plot.title.text_font = FONT
+    plot.title.text_font_size = TEXT_SIZE
+    plot.title.text_font_style = "normal"
+    plot.title.text_color = FAINT_INK
+    for axis, quantity, shown in ((plot.xaxis[0], x, x_range), (plot.yaxis[0], y, y_range)):
+        _style(axis)
+        write_units(axis, quantity, shown)
+    return plot
+
+
+def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: Any) -> figure:
+    """A figure without axes and grid, for drawings."""
+    plot = house_figure(
+        Quantity("", "", ""), Quantity("", "", ""), x_range, y_range, height=height, **options
+    )
+    plot.axis.visible = False
+    plot.grid.visible = False
+    plot.min_border_left = plot.min_border_right = plot.min_border_top = 0
+    plot.min_border_bottom = 0
+    return plot
+
+
+def _style(axis: Axis) -> None:
+    axis.axis_label_text_font = axis.major_label_text_font = FONT
+    axis.axis_label_text_font_style = "normal"
+    axis.axis_label_text_font_size = TEXT_SIZE
+    axis.axis_label_text_color = INK
+    axis.major_label_text_font_size = SMALL_TEXT_SIZE
+    axis.major_label_text_color = FAINT_INK
+    axis.axis_line_color = STEEL_EDGE
+    axis.major_tick_line_color = STEEL_EDGE
+    axis.major_tick_in = 0
+    axis.major_tick_out = 4
+    axis.minor_tick_line_color = None
+    axis.axis_label_standoff = 6
+
+
+def write_units(axis: LinearAxis, quantity: Quantity, shown: Range1d) -> None:
+    """Label `axis`; numbers and label follow the prefix that the range `shown` asks for."""
+    top = max(abs(shown.start), abs(shown.end))
+    axis.axis_label = quantity.label(top)
+    axis.formatter = tick_formatter(quantity, shown)
+    if quantity.prefixed:
+        words = " ".join(filter(None, (quantity.name, quantity.symbol)))
+        follow = CustomJS(
+            args={"axis": axis, "shown": shown, "words": words, "unit": quantity.unit},
+            code=_JS_PREFIX
+            + """
+const e = power(Math.max(Math.abs(shown.start), Math.abs(shown.end)))
+const label = `${words} (${names[e]}${unit})`
+if (axis.axis_label != label) axis.axis_label = label
+""",
+        )
+        shown.js_on_change("start", follow)
+        shown.js_on_change("end", follow)
+
+
+def tick_formatter(quantity: Quantity, shown: Range1d) -> CustomJSTickFormatter:
+    """Numbers of an axis over the range `shown`, with a true minus sign."""
+    return CustomJSTickFormatter(
+        args={"shown": shown, "prefixed": quantity.prefixed},
+        code=_JS_PREFIX
+        + """
+const e = prefixed ? power(Math.max(Math.abs(shown.start), Math.abs(shown.end))) : 0
+return minus(String(Number((tick/10**e).toPrecision(6))))
+""",
+    )
+
+
+def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
+    """Put the numbers of an axis at `ticks` whatever its range."""
+    axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
+
+
+def words_of(source: ColumnDataSource, code: str) -> CustomJSExpr:
+    """Text made in the browser from the numbers of `source`, as the wire carries no words.
+
+    `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
+    ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.
+    """
+    return CustomJSExpr(
+        args={"source": source},
+        code=_JS_PREFIX
+        + """
+const data = source.data
+const columns = Object.keys(data)
+const count = columns.length ? data[columns[0]].length : 0
+const write = (row) => {"""
+        + code
+        + """}
+const texts = []
+for (let i = 0; i < count; i++) {
+  const row = {}
+  for (const column of columns) row[column] = data[column][i]
+  texts.push(String(write(row)))
+}
+return texts
+""",
+    )
+
+
+def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:
+    """The upright line at the current cage angle; the same look in every figure."""
+    return plot.vspan(x=column, source=source, line_color=INK, line_width=1.2, line_alpha=0.75)
+
+
+def _power(top: float) -> int:
+    """Power of ten of the SI prefix for numbers up to `top`."""
+    if not (top > 0.0 and math.isfinite(top)):
+        return 0
+    return max(-12, min(12, 3 * math.floor(math.log10(top * 1.0000001) / 3)))
+
+
+def number(value: float, digits: int = 3) -> str:
+    """`value` to `digits` significant digits, never in powers of ten, with a true minus sign."""
+    if not math.isfinite(value):
+        return "no value"
+    if value == 0.0:
+        return "0"
+    places = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{places}f}".replace("-", "−")
+
+
+def with_prefix(value: float, unit: str, digits: int = 3) -> str:
+    """`value` [unit] for a sentence: ``with_prefix(2061.6, "N")`` is "2.06 kN"."""
+    if not math.isfinite(value):
+        return "no value"
+    power = _power(abs(value))
+    scaled = float(f"{value / 10.0**power:.{digits}g}")
+    if abs(scaled) >= 1000.0 and power < 12:  # 999.96 N is 1.00 kN
+        power, scaled = power + 3, scaled / 1000.0
+    return f"{number(scaled, digits)} {_PREFIXES[power]}{unit}"
+
+
+def in_degrees(angle: float, digits: int = 1) -> str:
+    """`angle` [rad] for a sentence, between 0° and 360°."""
+    turned = math.degrees(angle) % 360.0
+    text = f"{turned:.{digits}f}"
+    whole = f"{360.0:.{digits}f}"
+    text = f"{0.0:.{digits}f}" if text == whole else text
+    return text.rstrip("0").rstrip(".") + "°" if "." in text else text + "°"
+
+
+def list_words(words: Sequence[str]) -> str:
+    """ "a", "a and b", "a, b and c" """
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""

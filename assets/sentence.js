@@ -1,0 +1,9 @@
+// One live sentence. Only the text changes: no layout, no repaint of the figure above it.
+export function render({ model }) {
+  const line = document.createElement("p")
+  line.setAttribute("role", "status")
+  const write = () => { line.textContent = model.text }
+  model.on("text", write)
+  write()
+  return line
+}

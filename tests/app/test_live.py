@@ -1,0 +1,84 @@
+"""Newest inputs win; a failure does not stop the worker."""
+
+import asyncio
+
+from app.live import LatestWins, in_thread, one_message, send_at_once
+
+
+def test_inputs_overtaken_while_at_work_are_dropped() -> None:
+    worked: list[int] = []
+
+    async def drag() -> None:
+        async def work(value: int) -> None:
+            worked.append(value)
+            await asyncio.sleep(0.02)
+
+        worker = LatestWins(work)
+        for value in range(50):
+            worker.submit(value)
+            await asyncio.sleep(0.001)
+        assert worker.waiting
+        while not worker.idle:
+            await asyncio.sleep(0.005)
+
+    asyncio.run(drag())
+    assert worked[0] == 0
+    assert worked[-1] == 49, "the last position of the slider must be drawn"
+    assert worked == sorted(set(worked))
+    assert len(worked) < 15, "what was overtaken must not be drawn"
+
+
+def test_the_worker_survives_a_failure_and_says_so() -> None:
+    worked: list[int] = []
+    failures: list[str] = []
+
+    async def drag() -> None:
+        async def work(value: int) -> None:
+            if value == 1:
+                raise RuntimeError("the first scene is broken")
+            worked.append(value)
+
+        worker = LatestWins(work, failed=lambda error: failures.append(str(error)))
+        for value in (1, 2):
+            worker.submit(value)
+            while not worker.idle:
+                await asyncio.sleep(0.001)
+
+    asyncio.run(drag())
+    assert worked == [2]
+    assert failures == ["the first scene is broken"]
+
+
+def test_a_stopped_worker_takes_nothing_more() -> None:
+    worked: list[int] = []
+
+    async def drag() -> None:
+        async def work(value: int) -> None:
+            worked.append(value)
+
+        worker = LatestWins(work)
+        worker.stop()
+        worker.submit(1)
+        await asyncio.sleep(0.01)
+
+    asyncio.run(drag())
+    assert worked == []
+
+
+def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
+    import threading
+
+    async def where() -> tuple[str, str]:
+        return threading.current_thread().name, await in_thread(
+            lambda: threading.current_thread().name
+        )
+
+    here, there = asyncio.run(where())
+    assert here != there
+    assert there.startswith("compute")
+
+
+def test_without_a_session_there_is_nothing_to_send_to() -> None:
+    assert send_at_once(None) == 0
+    with one_message(None):
+        pass

@@ -1,0 +1,88 @@
+"""A real server and a real browser for the tests in this folder.
+
+Without Chromium they are skipped; where the environment says CI they fail instead. What a
+failed test saw is kept in `failures/`: a screenshot and the server's log.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import BrowserContext, Page, sync_playwright
+
+from tests.browser.helpers import (
+    Server,
+    Watch,
+    chromium,
+    explorer_server,
+    find_chromium,
+    serving,
+    slug,
+)
+
+FAILURES = Path(__file__).parent / "failures"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Everything in this folder drives the browser."""
+    for item in items:
+        if Path(__file__).parent in item.path.parents:
+            item.add_marker(pytest.mark.browser)
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
+    """Let fixtures know whether their test failed."""
+    outcome = yield
+    report = outcome.get_result()  # type: ignore[attr-defined]
+    if report.when == "call" and report.failed:
+        item.stash[_FAILED] = True
+
+
+_FAILED = pytest.StashKey[bool]()
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[BrowserContext]:
+    """One Chromium for all tests."""
+    if find_chromium() is None:
+        if os.environ.get("CI"):
+            pytest.fail("there is no chromium; in CI the browser tests must run")
+        pytest.skip("there is no chromium")
+    with sync_playwright() as playwright, chromium(playwright) as context:
+        yield context
+
+
+@pytest.fixture(scope="session")
+def explorer() -> Iterator[Server]:
+    """The explorer, served."""
+    with serving(explorer_server()) as server:
+        yield server
+
+
+@pytest.fixture
+def watch(request: pytest.FixtureRequest, browser: BrowserContext) -> Iterator[tuple[Page, Watch]]:
+    """A new page that must end without errors and without strangers."""
+    page = browser.new_page()
+    watching = Watch()
+    watching.follow(page)
+    yield page, watching
+    if request.node.stash.get(_FAILED, False) or watching.errors or watching.strangers:
+        _keep(request, page, watching)
+    page.close()
+    if not request.node.stash.get(_FAILED, False):
+        watching.assert_clean()
+
+
+def _keep(request: pytest.FixtureRequest, page: Page, watching: Watch) -> None:
+    FAILURES.mkdir(exist_ok=True)
+    name = slug(request.node.name)
+    page.screenshot(path=FAILURES / f"{name}.png", full_page=True)
+    servers = [value for value in request.node.funcargs.values() if isinstance(value, Server)]
+    log = "\n".join(server.log for server in servers)
+    (FAILURES / f"{name}.log").write_text(
+        "\n".join([*watching.errors, *watching.strangers, "", log]), encoding="utf-8"
+    )

@@ -1,0 +1,207 @@
+"""What the browser tests share: a real server, a real browser, and a record of what went wrong."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.error import URLError
+from urllib.parse import urlparse
+from urllib.request import urlopen
+
+from playwright.sync_api import BrowserContext, Locator, Page, Playwright
+
+CHROMIUM_OPTIONS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = Path(__file__).parent / "pages"
+
+
+def find_chromium() -> str | None:
+    """The browser's program, if there is one."""
+    return shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+def free_port() -> int:
+    """A port that nobody listens on."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@dataclass
+class Server:
+    """A server in a process of its own, with what it printed."""
+
+    command: Sequence[str]
+    port: int
+    path: str = "/"
+    environment: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._log = tempfile.NamedTemporaryFile("w+b", suffix=".log")  # noqa: SIM115
+        self.process = subprocess.Popen(
+            self.command,
+            stdout=self._log,
+            stderr=subprocess.STDOUT,
+            cwd=ROOT,
+            env={**os.environ, **self.environment, "PYTHONUNBUFFERED": "1"},
+            start_new_session=True,
+        )
+
+    @property
+    def url(self) -> str:
+        """Where the page is."""
+        return f"http://localhost:{self.port}{self.path}"
+
+    @property
+    def log(self) -> str:
+        """What the server has printed so far."""
+        return Path(self._log.name).read_text(encoding="utf-8", errors="replace")
+
+    def wait(self, seconds: float = 120.0) -> None:
+        """Wait until the page answers."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if self.process.poll() is not None:
+                raise RuntimeError(f"the server ended with {self.process.returncode}:\n{self.log}")
+            try:
+                with urlopen(self.url, timeout=5):
+                    return
+            except (URLError, OSError):
+                time.sleep(0.1)
+        raise TimeoutError(f"no page at {self.url} after {seconds} s:\n{self.log}")
+
+    def stop(self, number: int = signal.SIGTERM) -> int:
+        """Ask the server to end and return its exit code."""
+        if self.process.poll() is None:
+            self.process.send_signal(number)
+            try:
+                self.process.wait(15)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+        return int(self.process.returncode)
+
+
+def explorer_server(*options: str) -> Server:
+    """The explorer as a person starts it."""
+    port = free_port()
+    command = [sys.executable, "-m", "app", "--port", str(port), "--no-browser", *options]
+    return Server(command, port)
+
+
+def page_server(name: str) -> Server:
+    """One of the small pages of tests/browser/pages, under `panel serve`."""
+    port = free_port()
+    command = [sys.executable, "-m", "panel", "serve", str(PAGES / f"{name}.py")]
+    return Server([*command, "--port", str(port)], port, path=f"/{name}")
+
+
+@contextmanager
+def serving(server: Server) -> Iterator[Server]:
+    """The server, up for as long as the block lasts."""
+    try:
+        server.wait()
+        yield server
+    finally:
+        server.stop()
+
+
+@contextmanager
+def chromium(
+    playwright: Playwright, width: int = 1366, height: int = 768
+) -> Iterator[BrowserContext]:
+    """A new browser with nothing remembered."""
+    folder = tempfile.mkdtemp(prefix="chromium-")
+    context = playwright.chromium.launch_persistent_context(
+        folder,
+        executable_path=find_chromium(),
+        args=list(CHROMIUM_OPTIONS),
+        viewport={"width": width, "height": height},
+    )
+    try:
+        yield context
+    finally:
+        context.close()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+@dataclass
+class Watch:
+    """What a page did wrong: console errors, exceptions, requests that leave the server."""
+
+    errors: list[str] = field(default_factory=list)
+    strangers: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
+    frames_sent: int = 0
+
+    def follow(self, page: Page) -> None:
+        """Listen to `page` from now on."""
+        page.on("console", lambda m: self._note(m.text) if m.type == "error" else None)
+        page.on("pageerror", lambda error: self._note(str(error)))
+        page.on("request", lambda request: self._request(request.url))
+        page.on("websocket", self._websocket)
+
+    def assert_clean(self) -> None:
+        """Nothing went wrong and nothing left the server."""
+        assert not self.errors, "errors in the browser:\n" + "\n".join(self.errors)
+        assert not self.strangers, "requests that left the server:\n" + "\n".join(self.strangers)
+
+    def _note(self, text: str) -> None:
+        self.errors.append(text)
+
+    def _request(self, url: str) -> None:
+        self.requests.append(url)
+        parts = urlparse(url)
+        if parts.scheme in ("http", "https", "ws", "wss") and parts.hostname not in (
+            "localhost",
+            "127.0.0.1",
+        ):
+            self.strangers.append(url)
+
+    def _websocket(self, websocket: object) -> None:
+        self._request(websocket.url)  # type: ignore[attr-defined]
+        websocket.on("framesent", self._frame)  # type: ignore[attr-defined]
+
+    def _frame(self, _: object) -> None:
+        self.frames_sent += 1
+
+
+def drag(page: Page, slider: Locator, start: float, end: float, steps: int = 12) -> None:
+    """Drag the thumb of a slider with the mouse; `start` and `end` are fractions of its track."""
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    assert box is not None, "the slider is not on the page"
+    y = box["y"] + box["height"] / 2
+    # The thumb's middle stays half a thumb away from the ends of the track.
+    thumb = 16.0
+    x = [box["x"] + thumb / 2 + f * (box["width"] - thumb) for f in (start, end)]
+    page.mouse.move(x[0], y)
+    page.mouse.down()
+    for step in range(1, steps + 1):
+        page.mouse.move(x[0] + (x[1] - x[0]) * step / steps, y)
+    page.mouse.up()
+
+
+def slug(text: str) -> str:
+    """A name a file can have."""
+    return re.sub(r"[^A-Za-z0-9]+", "-", text).strip("-")

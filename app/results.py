@@ -13,13 +13,15 @@ from collections.abc import Callable, Hashable
 from concurrent.futures import Future
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
 import bearingcore as core
-from bearingcore import Equilibrium, Modes, Motion, Scene
-from bearingcore.spectrum import Spectrum
+from bearingcore.equilibrium import default_cage_angles
+
+if TYPE_CHECKING:
+    from bearingcore import Equilibrium, Modes, Motion, Scene, Spectrum
 
 Answer = TypeVar("Answer")
 
@@ -57,7 +59,7 @@ class ComputedOnce(Generic[Answer]):
 class Settings:
     """How finely a session wants its results.
 
-    `n_cage_angles` over one ball spacing; `duration` [s] and `sample_rate` [Hz] of motions.
+    `n_cage_angles` to a ball spacing; `duration` [s] and `sample_rate` [Hz] of motions.
     """
 
     n_cage_angles: int = 121
@@ -66,7 +68,7 @@ class Settings:
 
 
 def _over_spacing(scene: Scene, n_cage_angles: int) -> Equilibrium:
-    return core.equilibrium(scene, cage_angles_over_spacing(scene, n_cage_angles))
+    return core.equilibrium(scene, default_cage_angles(scene, n_cage_angles))
 
 
 def _at(scene: Scene, cage_angle: float) -> Equilibrium:
@@ -74,7 +76,7 @@ def _at(scene: Scene, cage_angle: float) -> Equilibrium:
 
 
 def _modes(scene: Scene, n_cage_angles: int) -> Modes:
-    return core.modes(scene, cage_angles_over_spacing(scene, n_cage_angles))
+    return core.modes(scene, default_cage_angles(scene, n_cage_angles))
 
 
 def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
@@ -96,19 +98,14 @@ motions = ComputedOnce(_motion, 8)  # about 20 MB each
 spectra = ComputedOnce(_spectra, 64)
 
 
-def cage_angles_over_spacing(scene: Scene, n_cage_angles: int) -> np.ndarray:
-    """Equally spaced cage angles [rad] over one ball spacing, both ends included."""
-    return np.linspace(0.0, scene.bearing.ball_spacing, n_cage_angles)
-
-
 class Results:
     """What the views read. Attributes are computed when first asked for, in any thread.
 
     scene: the Scene shown
     cage_angle: the cage angle shown [rad]
-    equilibrium, sound_equilibrium: over one ball spacing, with the defect and without
+    equilibrium, sound_equilibrium: over one period of the curves, with the defect and without
     now, sound_now: at `cage_angle` alone (arrays of length 1)
-    modes, sound_modes: over one ball spacing
+    modes, sound_modes: over the same cage angles
     motion, sound_motion: simulated motion with the loads of the balls
     spectra, sound_spectra: {dof: Spectrum} of the housing's acceleration
     """
@@ -125,7 +122,7 @@ class Results:
 
     @cached_property
     def equilibrium(self) -> Equilibrium:
-        """Static answers over one ball spacing."""
+        """Static answers over one period: a ball spacing, or a shaft turn for an inner race."""
         return equilibria(self.scene, self.settings.n_cage_angles)
 
     @cached_property
@@ -145,7 +142,7 @@ class Results:
 
     @cached_property
     def modes(self) -> Modes:
-        """Natural frequencies over one ball spacing."""
+        """Natural frequencies over the same cage angles."""
         return modes(self.scene, self.settings.n_cage_angles)
 
     @cached_property

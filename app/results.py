@@ -18,7 +18,11 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 import numpy as np
 
 import bearingcore as core
+from app.excerpt import Excerpt, excerpt
+from app.profile import Profile, profile
+from bearingcore.defect import RACES
 from bearingcore.equilibrium import default_cage_angles
+from bearingcore.passes import ball_drop
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Modes, Motion, Scene, Spectrum
@@ -83,6 +87,10 @@ def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
     return core.simulate(scene, duration, sample_rate, ball_loads=True)
 
 
+def _excerpt(scene: Scene, duration: float, sample_rate: float) -> Excerpt:
+    return excerpt(scene, motions(scene, duration, sample_rate))
+
+
 def _spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spectrum]:
     motion = motions(scene, duration, sample_rate)
     return {
@@ -95,6 +103,7 @@ equilibria = ComputedOnce(_over_spacing, 512)
 single_equilibria = ComputedOnce(_at, 2048)
 modes = ComputedOnce(_modes, 256)
 motions = ComputedOnce(_motion, 8)  # about 20 MB each
+excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
 
 
@@ -106,12 +115,15 @@ class Results:
     equilibrium, sound_equilibrium: over one period of the curves, with the defect and without
     now, sound_now: at `cage_angle` alone (arrays of length 1)
     modes, sound_modes: over the same cage angles
+    drop: how far each ball has sunk into each race at `cage_angle`
+    profile: the race around the defect and a ball's path over it
     motion, sound_motion: simulated motion with the loads of the balls
+    excerpt: the last ball passes of the motion
     spectra, sound_spectra: {dof: Spectrum} of the housing's acceleration
     """
 
     #: attributes that take long enough to be drawn after the others
-    slow = frozenset({"motion", "sound_motion", "spectra", "sound_spectra"})
+    slow = frozenset({"motion", "sound_motion", "excerpt", "spectra", "sound_spectra"})
 
     def __init__(
         self, scene: Scene, cage_angle: float = 0.0, settings: Settings | None = None
@@ -151,6 +163,17 @@ class Results:
         return modes(self.scene.sound(), self.settings.n_cage_angles)
 
     @cached_property
+    def drop(self) -> dict[str, np.ndarray]:
+        """Drop [m] of each ball's centre into the outer and the inner race, by race."""
+        angle = self.now.ball_angle[0]
+        return {race: ball_drop(self.scene, angle, self.cage_angle, race) for race in RACES}
+
+    @cached_property
+    def profile(self) -> Profile:
+        """The race around the defect and the path of a ball's centre over it."""
+        return profile(self.scene, self.cage_angle)
+
+    @cached_property
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing, with the load of each ball."""
         return motions(self.scene, self.settings.duration, self.settings.sample_rate)
@@ -159,6 +182,11 @@ class Results:
     def sound_motion(self) -> Motion:
         """The same without the defect."""
         return motions(self.scene.sound(), self.settings.duration, self.settings.sample_rate)
+
+    @cached_property
+    def excerpt(self) -> Excerpt:
+        """The last ball passes of the motion, with static loads beside the moving ones."""
+        return excerpts(self.scene, self.settings.duration, self.settings.sample_rate)
 
     @cached_property
     def spectra(self) -> dict[str, Spectrum]:

@@ -16,6 +16,7 @@ from typing import Any
 
 from bokeh.models import (
     Axis,
+    ColorBar,
     ColumnDataSource,
     CustomJS,
     CustomJSExpr,
@@ -52,7 +53,7 @@ SMALL_TEXT_SIZE = "11px"
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
-# `step` gives the power of ten of the prefix for a greatest value; the same rule as `_power`.
+# `power` gives the power of ten of the prefix for a greatest value: the rule of `_power` below.
 _JS_PREFIX = """
 const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
 const power = (top) => !(top > 0) || !isFinite(top) ? 0 :
@@ -68,7 +69,7 @@ const si = (value, unit, digits = 3) => {
 
 
 @dataclass(frozen=True)
-class Quantity:
+class AxisQuantity:
     """What an axis shows: name, symbol and unit.
 
     `prefixed` lets the axis choose an SI prefix for `unit`; the data are in `unit` always.
@@ -79,19 +80,25 @@ class Quantity:
     unit: str
     prefixed: bool = False
 
+    @property
+    def words(self) -> str:
+        """Name and symbol."""
+        return f"{self.name} {self.symbol}".strip()
+
     def label(self, top: float = 1.0) -> str:
         """Text of the axis for a range whose greatest absolute value is `top` [unit]."""
         prefix = _PREFIXES[_power(top)] if self.prefixed else ""
-        return f"{' '.join(filter(None, (self.name, self.symbol)))} ({prefix}{self.unit})"
+        return f"{self.words} ({prefix}{self.unit})"
 
 
-BALL_ANGLE = Quantity("Angular position", "φ", "°")
-CAGE_ANGLE = Quantity("Cage angle", "φ_c", "°")
+BALL_LOAD = AxisQuantity("Ball load", "Q", "N", prefixed=True)
+BALL_ANGLE = AxisQuantity("Angular position", "φ", "°")
+CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
 
 
 def house_figure(
-    x: Quantity,
-    y: Quantity,
+    x: AxisQuantity,
+    y: AxisQuantity,
     x_range: Range1d,
     y_range: Range1d,
     *,
@@ -126,10 +133,11 @@ def house_figure(
     plot.toolbar.autohide = True
     plot.toolbar_inner = True
     plot.grid.grid_line_color = GRID
-    plot.title.text_font = FONT
-    plot.title.text_font_size = TEXT_SIZE
-    plot.title.text_font_style = "normal"
-    plot.title.text_color = FAINT_INK
+    if title is not None:
+        plot.title.text_font = FONT
+        plot.title.text_font_size = TEXT_SIZE
+        plot.title.text_font_style = "normal"
+        plot.title.text_color = FAINT_INK
     for axis, quantity, shown in ((plot.xaxis[0], x, x_range), (plot.yaxis[0], y, y_range)):
         _style(axis)
         write_units(axis, quantity, shown)
@@ -139,7 +147,12 @@ def house_figure(
 def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: Any) -> figure:
     """A figure without axes and grid, for drawings."""
     plot = house_figure(
-        Quantity("", "", ""), Quantity("", "", ""), x_range, y_range, height=height, **options
+        AxisQuantity("", "", ""),
+        AxisQuantity("", "", ""),
+        x_range,
+        y_range,
+        height=height,
+        **options,
     )
     plot.axis.visible = False
     plot.grid.visible = False
@@ -163,27 +176,32 @@ def _style(axis: Axis) -> None:
     axis.axis_label_standoff = 6
 
 
-def write_units(axis: LinearAxis, quantity: Quantity, shown: Range1d) -> None:
-    """Label `axis`; numbers and label follow the prefix that the range `shown` asks for."""
-    top = max(abs(shown.start), abs(shown.end))
-    axis.axis_label = quantity.label(top)
+def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Range1d) -> None:
+    """Label an axis or colour bar; numbers and label follow the prefix that `shown` asks for."""
+    field = "title" if isinstance(axis, ColorBar) else "axis_label"
+    setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
     axis.formatter = tick_formatter(quantity, shown)
     if quantity.prefixed:
-        words = " ".join(filter(None, (quantity.name, quantity.symbol)))
         follow = CustomJS(
-            args={"axis": axis, "shown": shown, "words": words, "unit": quantity.unit},
+            args={
+                "axis": axis,
+                "field": field,
+                "shown": shown,
+                "words": quantity.words,
+                "unit": quantity.unit,
+            },
             code=_JS_PREFIX
             + """
 const e = power(Math.max(Math.abs(shown.start), Math.abs(shown.end)))
 const label = `${words} (${names[e]}${unit})`
-if (axis.axis_label != label) axis.axis_label = label
+if (axis[field] != label) axis[field] = label
 """,
         )
         shown.js_on_change("start", follow)
         shown.js_on_change("end", follow)
 
 
-def tick_formatter(quantity: Quantity, shown: Range1d) -> CustomJSTickFormatter:
+def tick_formatter(quantity: AxisQuantity, shown: Range1d) -> CustomJSTickFormatter:
     """Numbers of an axis over the range `shown`, with a true minus sign."""
     return CustomJSTickFormatter(
         args={"shown": shown, "prefixed": quantity.prefixed},
@@ -270,5 +288,5 @@ def in_degrees(angle: float, digits: int = 1) -> str:
 
 
 def list_words(words: Sequence[str]) -> str:
-    """ "a", "a and b", "a, b and c" """
+    """The words as a sentence lists them: "a", "a and b", "a, b and c"."""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""

@@ -50,9 +50,7 @@ class StickyRange:
         outside = low < self.start or high > self.end
         roomy = high - low < self._shrink_below * (self.end - self.start)
         if outside or roomy or not self._fitted:
-            new = nice_range(low, high)
-            # a flat line keeps asking to shrink: changing from one fit to its equal is no change
-            self.start, self.end = new
+            self.start, self.end = nice_range(low, high)
             self._fitted = True
         return self.start, self.end
 

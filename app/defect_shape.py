@@ -1,0 +1,72 @@
+"""Where the defects of a scene lie at a cage angle, for shading and drawing."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore import Scene
+
+TWO_PI = 2.0 * math.pi
+
+
+class Span(NamedTuple):
+    """A stretch of a race that is missing: first edge and extent [rad], depth [m]."""
+
+    start: float
+    extent: float
+    depth: float
+    race: str
+
+
+def spans(scene: Scene, cage_angle: float) -> list[Span]:
+    """The defects of `scene` with the cage at `cage_angle` [rad]; `start` between 0 and 2π.
+
+    An inner-race defect has turned with the shaft, further than the cage.
+    """
+    return [
+        Span(
+            start=(
+                defect.center + defect.turn_ratio(scene.bearing) * cage_angle - 0.5 * defect.extent
+            )
+            % TWO_PI,
+            extent=defect.extent,
+            depth=defect.depth,
+            race=defect.race,
+        )
+        for defect in scene.defects
+    ]
+
+
+def pieces(span: Span) -> list[tuple[float, float]]:
+    """`span` as intervals within 0 to 2π [rad]: two where it lies across 0."""
+    end = span.start + span.extent
+    if end <= TWO_PI:
+        return [(span.start, end)]
+    return [(span.start, TWO_PI), (0.0, end - TWO_PI)]
+
+
+def slot_depth(found: list[Span], race: str, angle: ArrayLike) -> NDArray[np.float64]:
+    """Depth [m] of what is missing from `race` at the angles [rad]: the square floor, no edges."""
+    angles = np.asarray(angle, dtype=float)
+    depth = np.zeros_like(angles)
+    for span in found:
+        if span.race == race:
+            inside = (angles - span.start) % TWO_PI <= span.extent
+            depth = np.where(inside, np.maximum(depth, span.depth), depth)
+    return depth
+
+
+def race_angles(found: list[Span], race: str, n: int = 361) -> NDArray[np.float64]:
+    """Angles [rad] from 0 to 2π that draw `race` with upright walls: a pair at every edge."""
+    edges = [
+        edge
+        for span in found
+        if span.race == race
+        for at in (span.start, (span.start + span.extent) % TWO_PI)
+        for edge in (at - 1e-9, at + 1e-9)
+    ]
+    return np.sort(np.concatenate([np.linspace(0.0, TWO_PI, n), edges]))

@@ -1,0 +1,115 @@
+"""Depth profile of the defect: the race itself and the path of a ball's centre (Figs. 2, 8f)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from app.views import figures
+from app.views.base import Ranges, Sources, View
+from app.views.sticky_range import StickyRange
+from app.wire import Wire
+
+if TYPE_CHECKING:
+    from app.results import Results
+
+DEPTH = figures.AxisQuantity("Depth", "d", "m", prefixed=True)
+EDGE_WORDS = {
+    "published": "the published edge model (Eq. 6 with its factor of a quarter)",
+    "chord": "the edge model of a flat chord",
+    "exact": "a ball that pivots on the corner of the curved race",
+}
+
+
+class DepthProfile(View):
+    """The race around the defect and the way a ball's centre takes over it."""
+
+    name = "depth-profile"
+    title = "Depth profile"
+    about = (
+        "Solid: the race as it is, down is into the ring. Dashed: how far the centre of a ball "
+        "sinks as it rolls over. Dots: balls that are there at this cage angle."
+    )
+    needs = frozenset({"profile", "drop", "now"})
+
+    def build(self, wire: Wire) -> Any:
+        self._range = StickyRange(-5e-6, 60e-6, anchor="zero", least_span=1e-6)
+        plot = figures.house_figure(
+            figures.BALL_ANGLE,
+            DEPTH,
+            wire.range("depth_profile_angle", 240.0, 300.0),
+            wire.range("depth_profile_depth", 60e-6, -5e-6),
+            height=260,
+        )
+        surface = wire.source("depth_profile_surface", "angle", "depth", "bottom")
+        plot.varea(
+            "angle", "depth", "bottom", source=surface, fill_color=figures.STEEL, fill_alpha=1.0
+        )
+        plot.line("angle", "depth", source=surface, line_color=figures.FAINT_INK, line_width=1.6)
+        plot.line(
+            "angle",
+            "drop",
+            source=wire.source("depth_profile_path", "angle", "drop"),
+            line_color=figures.DEFECTIVE,
+            line_width=2.0,
+            line_dash=[6, 4],
+        )
+        plot.scatter(
+            "angle",
+            "drop",
+            source=wire.source("depth_profile_balls", "angle", "drop"),
+            size=8,
+            fill_color="white",
+            line_color=figures.INK,
+            line_width=1.6,
+        )
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        profile = results.profile
+        angle = np.degrees(profile.angle)
+        depth_range = self._range.fit(profile.depth, -0.08 * np.max(profile.depth))
+        start, end = float(angle[0]), float(angle[-1])
+        balls = np.degrees(results.now.ball_angle[0])
+        # the picture may run past 360°: a ball is drawn in whichever turn it is seen
+        balls = start + (balls - start) % 360.0
+        sources = {
+            "depth_profile_surface": {
+                "angle": angle,
+                "depth": profile.depth,
+                "bottom": np.full(angle.size, depth_range[1]),
+            },
+            "depth_profile_path": {"angle": angle, "drop": profile.path},
+            "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race]},
+        }
+        return sources, {
+            "depth_profile_angle": (start, end),
+            "depth_profile_depth": (depth_range[1], depth_range[0]),  # depth grows downwards
+        }
+
+    def sentence(self, results: Results) -> str:
+        scene, profile = results.scene, results.profile
+        if not scene.defects:
+            return "The race has no defect: the profile is flat."
+        defect = scene.defects[0]
+        floor = figures.with_prefix(defect.depth, "m")
+        deepest = float(np.max(profile.path))
+        reaches = (
+            f"a ball reaches its floor of {floor}"
+            if deepest >= defect.depth * (1.0 - 1e-9)
+            else f"a ball sinks {figures.with_prefix(deepest, 'm')} and does not reach the floor "
+            f"of {floor}"
+        )
+        return (
+            f"The {defect.race}-race defect is {figures.number(np.degrees(defect.extent))}° long; "
+            f"with {EDGE_WORDS[defect.edge]} {reaches}."
+        )
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        profile = results.profile
+        return {
+            "angle_deg": np.degrees(profile.angle),
+            "race_depth_um": 1e6 * profile.depth,
+            "ball_center_drop_um": 1e6 * profile.path,
+        }

@@ -1,0 +1,47 @@
+"""Load of a ball over its angular position: the curve of Fig. 3."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from bearingcore import Equilibrium
+
+Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+TWO_PI = 2.0 * math.pi
+BINS = 720
+
+
+def load_curve(equilibrium: Equilibrium) -> Curve:
+    """Angle from 0 to 2π [rad] and load [N] of a ball there, every position of every ball.
+
+    With a defect that stands still the load depends on the ball's angle alone and this is one
+    curve. A defect of the inner race comes by everywhere: then the greatest load at each half
+    degree is given.
+    """
+    angle = np.mod(equilibrium.ball_angle, TWO_PI).ravel()
+    load = equilibrium.ball_load.ravel()
+    if any(defect.race == "inner" for defect in equilibrium.scene.defects):
+        angle, load = _greatest(angle, load)
+    order = np.argsort(angle, kind="stable")
+    angle, load = angle[order], load[order]
+    # the ends of the turn are the same place: both belong to the curve
+    return (
+        np.concatenate([[angle[-1] - TWO_PI], angle, [angle[0] + TWO_PI]]),
+        np.concatenate([[load[-1]], load, [load[0]]]),
+    )
+
+
+def _greatest(angle: NDArray[np.float64], load: NDArray[np.float64]) -> Curve:
+    """The greatest finite load in each of `BINS` equal parts of the turn; NaN where none is."""
+    part = np.minimum((angle / TWO_PI * BINS).astype(int), BINS - 1)
+    most = np.full(BINS, -np.inf)
+    known = np.isfinite(load)
+    np.maximum.at(most, part[known], load[known])
+    most[most == -np.inf] = np.nan
+    return (np.arange(BINS) + 0.5) * (TWO_PI / BINS), most

@@ -1,0 +1,137 @@
+"""Load distribution: what a ball carries at each angular position (Fig. 3)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.models import HoverTool, Range1d
+
+from app.defect_shape import pieces, spans
+from app.views import figures
+from app.views.base import Ranges, Sources, View
+from app.views.load_curve import load_curve
+from app.views.sticky_range import StickyRange
+from app.wire import Wire
+
+if TYPE_CHECKING:
+    from app.results import Results
+    from bearingcore import Scene
+
+
+class LoadDistribution(View):
+    """Load of a ball over its angle, the balls of this cage angle on the curve."""
+
+    name = "load-distribution"
+    title = "Load distribution"
+    about = (
+        "What a ball carries when it stands at each angle. Blue: this bearing. Grey: the same "
+        "bearing without its defect. Shaded: the defect. Dots: the balls at this cage angle."
+    )
+    needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+
+    def build(self, wire: Wire) -> Any:
+        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        plot = figures.house_figure(
+            figures.BALL_ANGLE,
+            figures.BALL_LOAD,
+            Range1d(0.0, 360.0, syncable=False),
+            wire.range("load_distribution_load", 0.0, 100.0),
+            height=320,
+        )
+        figures.fixed_ticks(plot.xaxis[0], range(0, 361, 30))
+        plot.xgrid.ticker = plot.xaxis[0].ticker
+        plot.vstrip(
+            "start",
+            "end",
+            source=wire.source("load_distribution_defect", "start", "end"),
+            fill_color=figures.DEFECT,
+            fill_alpha=0.16,
+            line_color=None,
+        )
+        plot.line(
+            "angle",
+            "load",
+            source=wire.source("load_distribution_sound", "angle", "load"),
+            line_color=figures.SOUND,
+            line_width=2.0,
+        )
+        curve = plot.line(
+            "angle",
+            "load",
+            source=wire.source("load_distribution_curve", "angle", "load"),
+            line_color=figures.DEFECTIVE,
+            line_width=2.0,
+        )
+        plot.scatter(
+            "angle",
+            "load",
+            source=wire.source("load_distribution_balls", "angle", "load"),
+            size=8,
+            fill_color="white",
+            line_color=figures.INK,
+            line_width=1.6,
+        )
+        plot.add_tools(
+            HoverTool(
+                renderers=[curve],
+                mode="vline",
+                line_policy="nearest",
+                tooltips=[("Ball at", "@angle{0.0}°"), ("carries", "@load{0,0.0} N")],
+            )
+        )
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        angle, load = load_curve(results.equilibrium)
+        sound_angle, sound_load = load_curve(results.sound_equilibrium)
+        now = results.now
+        sources = {
+            "load_distribution_defect": shaded(results.scene, results.cage_angle),
+            "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
+            "load_distribution_sound": {"angle": np.degrees(sound_angle), "load": sound_load},
+            "load_distribution_balls": {
+                "angle": np.degrees(now.ball_angle[0]) % 360.0,
+                "load": now.ball_load[0],
+            },
+        }
+        return sources, {"load_distribution_load": self._range.fit(load, sound_load)}
+
+    def sentence(self, results: Results) -> str:
+        angle, load = load_curve(results.equilibrium)
+        if not np.isfinite(load).any():
+            reason = results.equilibrium.reason(0)
+            return f"There is no load distribution to show: {reason}."
+        most = int(np.nanargmax(load))
+        words = (
+            f"A ball carries most, {figures.with_prefix(load[most], 'N')}, at "
+            f"{figures.in_degrees(angle[most])}"
+        )
+        _, sound = load_curve(results.sound_equilibrium)
+        if results.scene.defects and np.isfinite(sound).any():
+            words += f"; without the defect {figures.with_prefix(np.nanmax(sound), 'N')}"
+        now = results.now
+        if now.converged[0]:
+            count = int(now.loaded_balls[0])
+            words += (
+                f". At this cage angle {count} of {results.scene.bearing.n_balls} balls "
+                f"{'carries' if count == 1 else 'carry'} load"
+            )
+        return words + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        angle, load = load_curve(results.equilibrium)
+        sound_angle, sound_load = load_curve(results.sound_equilibrium)
+        return {
+            "ball_angle_deg": np.degrees(angle[1:-1]),
+            "ball_load_N": load[1:-1],
+            "sound_ball_angle_deg": np.degrees(sound_angle[1:-1]),
+            "sound_ball_load_N": sound_load[1:-1],
+        }
+
+
+def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:
+    """The defects as intervals of ball angle [deg]: two where one lies across 0°."""
+    found = [piece for span in spans(scene, cage_angle) for piece in pieces(span)]
+    start, end = np.degrees(np.array(found).reshape(-1, 2)).T
+    return {"start": start, "end": end}

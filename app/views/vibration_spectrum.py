@@ -1,0 +1,194 @@
+"""Spectra of the housing's acceleration with the bands of the natural frequencies (Fig. 10)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import Checkbox, GlyphRenderer, Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from app.views import figures
+from app.views.base import Ranges, Sources, View
+from app.views.modes import BAND_WORDS, band_rows, spread
+from app.views.sticky_range import StickyRange
+from app.wire import Wire
+
+if TYPE_CHECKING:
+    from app.results import Results
+    from bearingcore import Scene
+
+FREQUENCY = figures.AxisQuantity("Frequency", "f", "Hz")
+SHOWN = ("x", "y")
+HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
+LABEL_WIDTH = 0.17  # of the width of the figure
+LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
+
+_PASS_WORDS = "return `${row.inner ? 'BPFI' : 'BPFO'} ${rounded(row.frequency, 4)} Hz`"
+
+
+class VibrationSpectra(View):
+    """Power spectral density of the housing's acceleration along x and y."""
+
+    name = "vibration-spectrum"
+    title = "Spectrum of the vibration"
+    about = (
+        "Power spectral density of the housing's acceleration (Welch, Hann window, 32 Hz "
+        "resolution). Grey: the bearing without its defect, where it vibrates within the picture. "
+        "Shaded: the bands in which the natural frequencies along this direction move."
+    )
+    needs = frozenset({"spectra", "sound_spectra", "modes"})
+
+    def build(self, wire: Wire) -> Any:
+        self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        frequency = wire.range("spectrum_frequency", 0.0, HIGHEST)
+        level = wire.range("spectrum_level", -80.0, -20.0)
+        lines = wire.source("spectrum_lines", "frequency", *SHOWN)
+        sound = wire.source("spectrum_sound", "frequency", *SHOWN)
+        passes = wire.source("spectrum_passes", "frequency")
+        first = wire.source("spectrum_first_pass", "frequency", "inner")
+        plots, marks = [], []
+        for dof in SHOWN:
+            plot = figures.house_figure(
+                FREQUENCY,
+                figures.AxisQuantity(f"Density along {dof}", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+                frequency,
+                level,
+                height=250,
+            )
+            plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+            color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
+            self._shade_bands(plot, wire, dof, color)
+            marks.append(
+                plot.vspan("frequency", source=passes, line_color=figures.DEFECT, line_alpha=0.6)
+            )
+            marks.append(self._name_pass(plot, first))
+            plot.line("frequency", dof, source=sound, line_color=figures.SOUND, line_width=1.5)
+            plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
+            plots.append(plot)
+        toggle = Checkbox(label="Mark the ball-pass frequency and its harmonics", active=False)
+        for mark in marks:
+            mark.visible = False
+            toggle.js_link("active", mark, "visible")
+        return pn.Column(toggle, *plots, sizing_mode="stretch_width", margin=0)
+
+    def _shade_bands(self, plot: figure, wire: Wire, dof: str, color: str) -> None:
+        bands = wire.source(
+            f"spectrum_bands_{dof}", "low", "high", "direction", "number", "label_at"
+        )
+        plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.12, line_color=None)
+        plot.text(
+            "label_at",
+            0.94,
+            y_range_name="rows",
+            text=figures.words_of(bands, BAND_WORDS),
+            source=bands,
+            text_align="center",
+            text_baseline="middle",
+            text_font=figures.FONT,
+            text_font_size=figures.SMALL_TEXT_SIZE,
+            text_color=color,
+        )
+
+    def _name_pass(self, plot: figure, first: Any) -> GlyphRenderer:
+        return plot.text(
+            "frequency",
+            0.06,
+            y_range_name="rows",
+            text=figures.words_of(first, _PASS_WORDS),
+            source=first,
+            x_offset=4,
+            text_baseline="middle",
+            text_font=figures.FONT,
+            text_font_size=figures.SMALL_TEXT_SIZE,
+            text_color=figures.INK,
+            background_fill_color="white",
+            background_fill_alpha=0.85,
+        )
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        bands = band_rows(results.modes)
+        top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
+        drawn = levels(results.spectra, top)
+        in_view = np.concatenate([drawn[dof] for dof in SHOWN])
+        # a level far below everything is silence, not something to make room for
+        loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
+        low, high = self._levels.fit(np.maximum(in_view, loudest - 80.0), loudest + 6.0)
+        passing = pass_frequencies(results.scene, top)
+        sources: Sources = {
+            "spectrum_lines": drawn,
+            "spectrum_sound": levels(results.sound_spectra, top),
+            "spectrum_passes": {"frequency": passing},
+            "spectrum_first_pass": {
+                "frequency": passing[:1],
+                "inner": np.full(passing[:1].size, float(_inner(results.scene))),
+            },
+        }
+        for index, dof in enumerate(figures.DIRECTIONS):
+            if dof in SHOWN:
+                own = {name: column[bands["direction"] == index] for name, column in bands.items()}
+                middle = 0.5 * (own["low"] + own["high"])
+                own["label_at"] = spread(middle, LABEL_WIDTH * top, 0.0, top)
+                sources[f"spectrum_bands_{dof}"] = own
+        return sources, {"spectrum_frequency": (0.0, top), "spectrum_level": (low, high)}
+
+    def sentence(self, results: Results) -> str:
+        words = []
+        for dof in SHOWN:
+            if dof in results.spectra:
+                frequency, density = results.spectra[dof]
+                heard = (frequency >= 100.0) & (frequency <= HIGHEST)
+                most = np.flatnonzero(heard)[np.argmax(density[heard])]
+                words.append(
+                    f"along {dof} {figures.number(decibels(density[most]), 2)} dB at "
+                    f"{frequency[most]:.0f} Hz"
+                )
+        text = "Above 100 Hz the housing vibrates most " + figures.list_words(words)
+        scene = results.scene
+        rate = scene.bearing.bpfi if _inner(scene) else scene.bearing.bpfo
+        frequency = figures.number(rate(scene.shaft_speed), 4)
+        race = "inner" if _inner(scene) else "outer"
+        return f"{text}; balls pass a point of the {race} race at {frequency} Hz."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        table: dict[str, np.ndarray] = {}
+        for who, spectra in (("", results.spectra), ("sound_", results.sound_spectra)):
+            for dof, (frequency, density) in spectra.items():
+                table.setdefault("frequency_Hz", frequency)
+                unit = "rad2_per_s4_per_Hz" if dof.startswith("r") else "m2_per_s4_per_Hz"
+                table[f"{who}density_{dof}_{unit}"] = density
+        return table
+
+
+def decibels(density: Any) -> Any:
+    """Level of a density [(m/s²)²/Hz] in dB re 1 (m/s²)²/Hz; silence is `LEVEL_FLOOR`."""
+    return 10.0 * np.log10(np.maximum(density, 10.0 ** (LEVEL_FLOOR / 10.0)))
+
+
+def levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]]:
+    """Levels [dB] of the directions shown up to `top` [Hz]; NaN for one that is not free."""
+    frequency = next(iter(spectra.values())).frequency
+    shown = frequency <= top
+    missing = np.full(int(shown.sum()), np.nan)
+    return {
+        "frequency": frequency[shown],
+        **{
+            dof: decibels(spectra[dof].density[shown]) if dof in spectra else missing
+            for dof in SHOWN
+        },
+    }
+
+
+def _inner(scene: Scene) -> bool:
+    return bool(scene.defects) and scene.defects[0].race == "inner"
+
+
+def pass_frequencies(scene: Scene, top: float) -> NDArray[np.float64]:
+    """Frequency at which balls pass the defect and its harmonics [Hz], up to `top`."""
+    bearing = scene.bearing
+    first = (bearing.bpfi if _inner(scene) else bearing.bpfo)(scene.shaft_speed)
+    count = int(top / first) if first > 0.0 else 0
+    return first * np.arange(1.0, count + 1.0)

@@ -80,6 +80,7 @@ class View:
             self.build(wire),
             self._sentence,
             css_classes=["view", f"view-{self.name}"],
+            stylesheets=[asset_text("view.css")],
             sizing_mode="stretch_width",
             margin=0,
         )
@@ -100,9 +101,12 @@ class View:
         """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
         raise NotImplementedError
 
-    def say(self, results: Results, sentence: str) -> None:
-        """Show the sentence and keep the results for the table. On the event loop only."""
-        self._results = results
+    def say(self, results: Results | None, sentence: str) -> None:
+        """Show the sentence and keep the results for the table. On the event loop only.
+
+        Without results the last ones stay, as the last picture does.
+        """
+        self._results = results or self._results
         self._sentence.text = sentence
 
     def csv(self) -> str:

@@ -1,0 +1,108 @@
+"""``bearing-explorer``: compile and warm the kernels, then serve the page."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from typing import Any
+
+
+def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(
+        prog="bearing-explorer",
+        description="Serve a page on which a damaged ball bearing follows its sliders.",
+    )
+    parser.add_argument("--port", type=int, default=5006, help="port to listen on (5006)")
+    parser.add_argument(
+        "--address",
+        default="localhost",
+        help="address to listen on (localhost: this machine only; 0.0.0.0: all networks)",
+    )
+    parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
+    parser.add_argument(
+        "--allow-websocket-origin",
+        action="append",
+        metavar="HOST[:PORT]",
+        help="host name under which browsers reach the page, where it is not localhost; repeatable",
+    )
+    parser.add_argument(
+        "--num-procs", type=int, default=1, help="processes that share the port (1)"
+    )
+    parser.add_argument(
+        "--root-path", default="", help="path in front of the page behind a proxy, such as /lab"
+    )
+    return parser.parse_args(arguments)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code."""
+    chosen = options(arguments)
+    logging.basicConfig(
+        stream=sys.stderr, level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s"
+    )
+    started = time.perf_counter()
+    _say("Bearing explorer starts.")
+    _say("Loading the page ...")
+    import panel as pn
+
+    from app.page import page
+
+    _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
+    import bearingcore
+
+    bearingcore.warm(report=_say)
+
+    server_options: dict[str, Any] = {}
+    if chosen.allow_websocket_origin:
+        server_options["websocket_origin"] = chosen.allow_websocket_origin
+    if chosen.root_path:
+        server_options["prefix"] = chosen.root_path
+    try:
+        server = pn.serve(
+            {"/": page},
+            port=chosen.port,
+            address=chosen.address,
+            title="Bearing explorer",
+            show=False,
+            start=False,
+            liveness=True,
+            num_procs=chosen.num_procs,
+            **server_options,
+        )
+    except OSError as error:
+        _say(f"Cannot listen on {chosen.address} port {chosen.port}: {error.strerror}.")
+        return 1
+
+    loop = server.io_loop
+
+    def stop(number: int, _: object) -> None:
+        _say(f"{signal.Signals(number).name}: stopping.")
+        loop.add_callback_from_signal(loop.stop)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
+    server.start()
+    shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
+    url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
+    _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
+    if not chosen.no_browser:
+        loop.add_callback(lambda: server.show("/"))
+    try:
+        loop.start()
+    finally:
+        server.stop()
+    _say("Stopped.")
+    return 0
+
+
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

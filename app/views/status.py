@@ -1,0 +1,75 @@
+"""The line that always says how the computation went: in words and in colour."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import numpy as np
+import param
+from panel.custom import JSComponent
+
+from app.assets import asset_path, asset_text
+from app.results import Results
+
+DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
+
+
+class StatusLine(JSComponent):
+    """Converged or not, residual, degrees of freedom, time taken."""
+
+    #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
+    line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
+
+    _esm = asset_path("status.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("status.css")]
+
+
+class Tabs(JSComponent):
+    """Which section of the page is on screen."""
+
+    names = param.List(default=[])  # [[name, title], ...]
+    active = param.String()
+
+    _esm = asset_path("tabs.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("tabs.css")]
+
+    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+        super().__init__(margin=0, **params)
+        self.on_msg(lambda event: asked(event.data))
+
+
+def status_of(results: Results, seconds: float) -> dict[str, Any]:
+    """What the status line says about these results, computed in `seconds` [s]."""
+    found = results.equilibrium
+    n_angles = found.converged.size
+    bad = np.flatnonzero(~found.converged)
+    if bad.size == 0:
+        mood, words = "good", "Converged"
+    elif bad.size == n_angles:
+        mood, words = "bad", f"No answer: {found.reason(int(bad[0]))}"
+    else:
+        reason = found.reason(int(bad[0]))
+        mood = "bad"
+        words = f"No answer at {bad.size} of {n_angles} cage angles: {reason}"
+    details = []
+    finite = found.residual[found.converged & np.isfinite(found.residual)]
+    if finite.size:
+        details.append(f"residual at most {scientific(float(finite.max()))}")
+    symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
+    plural = "" if len(found.dofs) == 1 else "s"
+    details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")
+    details.append(f"{n_angles} cage angles")
+    details.append(f"{1e3 * seconds:.1f} ms")
+    return {"mood": mood, "words": words, "details": details}
+
+
+def scientific(value: float) -> str:
+    """`value` as people write it: 3·10⁻¹²."""
+    if value == 0.0:
+        return "0"
+    mantissa, exponent = f"{value:.0e}".split("e")
+    return f"{mantissa}·10" + str(int(exponent)).translate(_RAISED)
+
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -1,0 +1,299 @@
+"""All 15 stiffness traces over cage angle in one light drawing, and the number of loaded balls.
+
+One canvas instead of sixteen: the cells of the upper triangle of the symmetric 5×5 matrix are
+drawn in one plane, where column j and row i of the matrix are the unit square at (j, -i). A line
+of all traces is one line with gaps. That paints several times faster than a figure for each
+trace, and shows where in the matrix each term stands. Below the diagonal, where the matrix only
+repeats itself, stand the legend and the number of loaded balls.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from bokeh.core.properties import value
+from bokeh.models import ColumnDataSource, Range1d
+from bokeh.plotting import figure
+
+from app.results import Results
+from app.views.base import Ranges, Sources, View
+from app.views.figures import (
+    DEFECTIVE,
+    FAINT_INK,
+    FONT,
+    GRID,
+    INK,
+    SOUND,
+    STEEL_EDGE,
+    bare_figure,
+    in_degrees,
+    with_prefix,
+    words_of,
+)
+from app.views.sticky_range import StickyRange
+from app.wire import Wire
+from bearingcore import DOF_NAMES, STIFFNESS_TERMS, Equilibrium
+
+_SUBSCRIPTS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
+_UNITS = ("N/m", "N/rad", "N·m/rad")  # with no, one and two rotations
+_NEGLIGIBLE = 1e-6  # of the geometric mean of the two diagonal terms: rounding, not coupling
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Where a trace stands in the drawing: its frame, in matrix columns and rows."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    def x(self, share: np.ndarray) -> np.ndarray:
+        """Places along the frame for shares of 0 to 1."""
+        return self.left + (self.right - self.left) * share
+
+    def y(self, value: np.ndarray, limits: tuple[float, float]) -> np.ndarray:
+        """Heights of values on an axis with these limits."""
+        low, high = limits
+        return self.bottom + (self.top - self.bottom) * (value - low) / (high - low)
+
+
+def _cell(row: int, column: int) -> Cell:
+    return Cell(column + 0.215, column + 0.985, -row - 0.86, -row - 0.27)
+
+
+_PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
+_CELLS = [_cell(i, j) for i, j in _PLACES]
+_BALLS = Cell(0.215, 2.6, -4.86, -3.5)
+_TERM_UNITS = [_UNITS[(i > 2) + (j > 2)] for i, j in _PLACES]
+_FRAMES = [*_CELLS, _BALLS]
+_IS_FOOT = np.array([i == j for i, j in _PLACES] + [True])  # lowest of its column
+_PLACE_COLUMNS = {
+    **{
+        side: np.array([getattr(cell, side) for cell in _FRAMES])
+        for side in ("left", "right", "bottom", "top")
+    },
+    "unit": np.array([_UNITS.index(unit) for unit in _TERM_UNITS] + [len(_UNITS)]),
+}
+_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
+
+
+class Stiffness(View):
+    """15 stiffness traces, defective against sound, the current cage angle marked."""
+
+    name = "stiffness"
+    title = "Stiffness of the bearing"
+    about = (
+        "The 15 independent terms of its symmetric 5×5 stiffness matrix while the cage turns: "
+        "how hard the inner ring resists each displacement (column) with each load (row)."
+    )
+    needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+
+    def build(self, wire: Wire) -> Any:
+        """One canvas for all traces."""
+        self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
+        self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
+        plot = bare_figure(Range1d(-0.02, 5.03), Range1d(-5.08, 0.0), height=566)
+        plot.min_width = 760
+        _static_parts(plot)
+        cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
+        sound = wire.source("stiffness_sound", "x", "y")
+        defective = wire.source("stiffness_defective", "x", "y")
+        now = wire.source("stiffness_now", "x", "y", "low", "high")
+        _moving_parts(plot, cells)
+        plot.segment("x", "low", "x", "high", source=now, line_color=INK, line_alpha=0.45)
+        plot.line("x", "y", source=sound, line_color=SOUND, line_width=1.6)
+        plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
+        plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """All traces, scaled into their cells."""
+        found, sound, now = results.equilibrium, results.sound_equilibrium, results.now
+        period = float(found.cage_angles[-1])
+        share = found.cage_angles / period
+        now_share = (results.cage_angle % period) / period
+        scales = _scales(found, sound)
+        lines: dict[str, list[np.ndarray]] = {"x": [], "defective": [], "sound": []}
+        marks: list[tuple[float, float, float, float]] = []
+        heads: list[tuple[float, float, float, float]] = []
+
+        def put(cell: Cell, limits: tuple[float, float], x: np.ndarray, *y: np.ndarray) -> None:
+            lines["x"] += [cell.x(x), _GAP]
+            for key, values in zip(("defective", "sound"), y, strict=True):
+                lines[key] += [cell.y(values, limits), _GAP]
+
+        for cell, sticky, term, scale in zip(
+            _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
+        ):
+            a, b = _cleaned(found.term(term), scale), _cleaned(sound.term(term), scale)
+            at_now = float(_cleaned(now.term(term), scale)[0])
+            limits = _trace_limits(sticky, scale, a, b)
+            put(cell, limits, share, a, b)
+            at = float(cell.y(np.array(at_now), limits))
+            marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
+            zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
+            heads.append((limits[0], limits[1], at_now, zero))
+
+        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, sound)]
+        low, high = self._ball_limits.fit(*counts)
+        limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
+        steps = _stepped(share)
+        put(_BALLS, limits, steps, *(np.repeat(count, 2) for count in counts))
+        balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
+        at = float(_BALLS.y(np.array(balls), limits))
+        marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
+        heads.append((limits[0], limits[1], balls, _BALLS.bottom))
+
+        x = np.concatenate(lines["x"])
+        mark, head = np.array(marks).T, np.array(heads).T
+        return {
+            "stiffness_defective": {"x": x, "y": np.concatenate(lines["defective"])},
+            "stiffness_sound": {"x": x, "y": np.concatenate(lines["sound"])},
+            "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
+            "stiffness_cells": {
+                **_PLACE_COLUMNS,
+                "foot": _IS_FOOT * math.degrees(period),
+                **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
+            },
+        }, {}
+
+    def sentence(self, results: Results) -> str:
+        """How far the radial stiffness and the number of loaded balls vary."""
+        found, sound = results.equilibrium, results.sound_equilibrium
+        if not found.converged.any():
+            return "There is no equilibrium here, so there is no stiffness to show."
+        parts = []
+        for term in ("k_xx", "k_yy"):
+            values, sounds = found.term(term), sound.term(term)
+            least, most = np.nanmin(values), np.nanmax(values)
+            line = f"{term.replace('_', '')} goes from {with_prefix(least, 'N/m')}"
+            line += f" to {with_prefix(most, 'N/m')}"
+            if sound.converged.any():
+                line += f" (sound: {with_prefix(float(np.nanmean(sounds)), 'N/m')} on average)"
+            parts.append(line)
+        balls = found.loaded_balls[found.converged]
+        count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
+        at = in_degrees(results.cage_angle)
+        return f"{'; '.join(parts)}. {count} balls carry load. Marked: cage angle {at}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """Every trace in SI, defective and sound."""
+        found, sound = results.equilibrium, results.sound_equilibrium
+        columns = {"cage_angle_deg": np.degrees(found.cage_angles)}
+        for kind, answer in (("defective", found), ("sound", sound)):
+            for term, unit in zip(STIFFNESS_TERMS, _TERM_UNITS, strict=True):
+                name = unit.replace("N·m", "n_m").replace("/", "_per_").replace("N", "n")
+                columns[f"{kind}_{term}_{name}"] = answer.term(term)
+            columns[f"{kind}_loaded_balls"] = answer.loaded_balls
+        return columns
+
+
+_GAP = np.array([np.nan])
+
+
+def _scales(*answers: Equilibrium) -> list[float]:
+    """For each term the size that counts as one: geometric mean of its two diagonal terms."""
+    tops = []
+    for dof in DOF_NAMES:
+        values = np.concatenate([answer.term(f"k_{dof}{dof}") for answer in answers])
+        finite = np.abs(values[np.isfinite(values)])
+        tops.append(float(finite.max()) if finite.size else 0.0)
+    return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in _PLACES]
+
+
+def _cleaned(values: np.ndarray, scale: float) -> np.ndarray:
+    """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
+    return np.where(np.abs(values) < _NEGLIGIBLE * scale, 0.0, values)
+
+
+def _trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
+    if all(np.all(trace[np.isfinite(trace)] == 0.0) for trace in traces):
+        return -1.0, 1.0
+    middle = np.nanmean(np.concatenate(traces)) if np.isfinite(np.concatenate(traces)).any() else 0
+    return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
+
+
+def _stepped(share: np.ndarray) -> np.ndarray:
+    """Edges of steps halfway between the angles, two for each angle."""
+    middles = 0.5 * (share[1:] + share[:-1])
+    return np.concatenate([share[:1], np.repeat(middles, 2), share[-1:]])
+
+
+def _text(plot: figure, source: ColumnDataSource, **options: Any) -> None:
+    style = {"text_font": value(FONT), "text_font_size": "11px", "text_color": FAINT_INK}
+    plot.text(source=source, **{"x": "x", "y": "y", **style, **options})
+
+
+def _static_parts(plot: figure) -> None:
+    """Frames, names and legend: painted from the page's own numbers, never sent again."""
+    plot.quad(
+        left=[cell.left for cell in _FRAMES],
+        right=[cell.right for cell in _FRAMES],
+        bottom=[cell.bottom for cell in _FRAMES],
+        top=[cell.top for cell in _FRAMES],
+        fill_color="#FAFBFC",
+        line_color=GRID,
+    )
+    names = {
+        "x": [cell.left for cell in _CELLS],
+        "y": [cell.top for cell in _CELLS],
+        "text": ["k"] * len(_CELLS),
+        "below": [_SUBSCRIPTS[DOF_NAMES[i]] + _SUBSCRIPTS[DOF_NAMES[j]] for i, j in _PLACES],
+    }
+    source = ColumnDataSource(names)
+    serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": INK}
+    _text(plot, source, text="text", y_offset=-6, text_font_size="15px", **serif)
+    _text(plot, source, text="below", x_offset=9, y_offset=-3, text_font_size="11px", **serif)
+    balls = ColumnDataSource({"x": [_BALLS.left], "y": [_BALLS.top], "text": ["Loaded balls"]})
+    _text(plot, balls, text="text", y_offset=-6, text_font_size="12px", text_color=INK)
+
+    y = [-2.36, -2.52, -2.68]
+    colors, widths = [DEFECTIVE, SOUND, INK], [2.4, 2.0, 1.2]
+    plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
+    words = ["with the defect", "sound bearing", "cage angle now"]
+    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": words})
+    _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
+
+
+def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:
+    """Zero lines, limits and values of the cells, and the ends of their cage angles."""
+    plot.segment("left", "zero", "right", "zero", source=cells, line_color=STEEL_EDGE)
+    names = f"const unit = {[*_UNITS, '']}[row.unit]\n"
+    limit = """
+const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
+return minus(String(Number((row.%s/10**e).toPrecision(4))))
+"""
+    now = """
+if (isNaN(row.now)) return 'no value'
+if (!unit) return rounded(row.now, 3)
+const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
+return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
+"""
+    words = {end: words_of(cells, names + limit % end) for end in ("low", "high")}
+    beside = {"x": "left", "x_offset": -5, "text_align": "right"}
+    _text(plot, cells, **beside, y="bottom", text=words["low"], text_baseline="bottom")
+    _text(plot, cells, **beside, y="top", text=words["high"], text_baseline="top")
+    _text(
+        plot,
+        cells,
+        x="right",
+        y="top",
+        text=words_of(cells, names + now),
+        y_offset=-6,
+        text_align="right",
+    )
+    foot = "return row.foot ? rounded(%s, 4) + '°' : ''"
+    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
+    _text(plot, cells, x="left", **below, text=words_of(cells, foot % "0*row.foot"))
+    _text(
+        plot,
+        cells,
+        x="right",
+        **below,
+        text=words_of(cells, foot % "row.foot"),
+        text_align="right",
+    )

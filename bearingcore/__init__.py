@@ -3,8 +3,12 @@
 from bearingcore.bearing import Bearing
 from bearingcore.defect import EDGES, RACES, Defect
 from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
+from bearingcore.modes import Modes, contact_damping, modes
+from bearingcore.motion import Motion, simulate
 from bearingcore.presets import preset_notes, presets
 from bearingcore.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
+from bearingcore.spectrum import Spectrum, spectrum
+from bearingcore.warm_up import warm
 
 __all__ = [
     "CONTACT_LAWS",
@@ -16,9 +20,17 @@ __all__ = [
     "Defect",
     "Equilibrium",
     "Load",
+    "Modes",
+    "Motion",
     "Scene",
+    "Spectrum",
     "Support",
+    "contact_damping",
     "equilibrium",
+    "modes",
     "preset_notes",
     "presets",
+    "simulate",
+    "spectrum",
+    "warm",
 ]

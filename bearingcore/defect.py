@@ -124,11 +124,9 @@ class Defect:
         `cage_angle` [rad] says how far the cage has turned, and with it the shaft: it moves an
         inner-race defect and leaves an outer-race one where it is. Shapes broadcast.
         """
-        angles, cage = np.broadcast_arrays(
-            np.asarray(ball_angle, dtype=float), np.asarray(cage_angle, dtype=float)
-        )
-        rows = self.path_row(bearing)[None, :]
-        drop = kernels.ball_path(angles.ravel(), cage.ravel(), rows)
+        angles = np.asarray(ball_angle, dtype=float) + np.zeros_like(cage_angle, dtype=float)
+        cage = np.asarray(cage_angle, dtype=float) + np.zeros_like(angles)
+        drop = kernels.ball_path(angles.ravel(), cage.ravel(), path_rows([self], bearing))
         return drop.reshape(angles.shape)
 
 

@@ -96,9 +96,7 @@ class Equilibrium:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
         rows = path_rows(self.scene.defects, self.scene.bearing)
         n_balls, ca, sa, A0, rL, _ = self.scene.bearing.contact_numbers
-        angles = kernels.contact_angles(
-            self.cage_angles, rows, self.state, n_balls, ca, sa, A0, rL
-        )
+        angles = kernels.contact_angles(self.cage_angles, rows, self.state, n_balls, ca, sa, A0, rL)
         angles[self.status >= kernels.NOT_CARRIED] = math.nan
         return angles
 
@@ -113,15 +111,13 @@ class Equilibrium:
         """In words, what became of cage angle i."""
         code = int(self.status[i])
         free = [
-            name
-            for name in self.dofs
-            if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
+            name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
         return REASONS[code].format(free=", ".join(free), residual=self.residual[i])
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
-    """n equally spaced cage angles [rad] over one period of the scene's curves, ends included.
+    """N equally spaced cage angles [rad] over one period of the scene's curves, ends included.
 
     The period is a ball spacing, as the balls are alike. A defect of the inner race turns with the
     shaft and breaks it: its curves are given over the cage angle in which the shaft turns once.
@@ -255,4 +251,4 @@ def _runs_away(
         b_eq=zero,
         bounds=(-1.0, 1.0),
     )
-    return bool(answer.status == 0 and -answer.fun > 1e-9)
+    return bool(answer.status == 0 and answer.fun is not None and answer.fun < -1e-9)

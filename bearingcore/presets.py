@@ -46,9 +46,7 @@ presets: Mapping[str, Scene] = MappingProxyType(
                 outer_raceway_radius=22.65e-3,
                 inner_raceway_radius=16.65e-3,
             ),
-            defect=Defect(
-                extent=math.radians(40.0), depth=50e-6, center=math.radians(270.0)
-            ),
+            defect=Defect(extent=math.radians(40.0), depth=50e-6, center=math.radians(270.0)),
             load=Load(fy=-2000.0, fz=500.0),
             shaft_speed=2.0 * math.pi * 7.0,
             support=_FAN_RIG_SUPPORT,
@@ -66,9 +64,7 @@ presets: Mapping[str, Scene] = MappingProxyType(
                 outer_raceway_radius=26.5e-3,
                 inner_raceway_radius=18.5e-3,
             ),
-            defect=Defect(
-                extent=math.radians(12.9), depth=50e-6, center=math.radians(270.0)
-            ),
+            defect=Defect(extent=math.radians(12.9), depth=50e-6, center=math.radians(270.0)),
             load=Load(fy=-100.0),
             shaft_speed=2.0 * math.pi * 7.0,
             support=_FAN_RIG_SUPPORT,

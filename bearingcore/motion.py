@@ -1,0 +1,312 @@
+"""Simulated motion of the rotor in its bearing and of the housing (Eqs. 18-23)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import NDArray
+
+from bearingcore import checks, kernels
+from bearingcore.defect import path_rows
+from bearingcore.equilibrium import equilibrium
+from bearingcore.modes import contact_damping, highest_natural_frequency
+from bearingcore.scene import DOF_NAMES, Scene
+
+STEPS_A_CYCLE = 16.0
+"""Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
+error of the spectrum near 0.02 dB; half as many leave 0.25 dB."""
+
+STEPS_A_PASSAGE = 24.0
+"""Least number of steps while a ball passes a defect, by default."""
+
+MOST_STEPS = 10_000_000
+
+
+class _BodyNumbers(NamedTuple):
+    """What `kernels.march` needs of the bodies along the active directions, each (n,)."""
+
+    force: NDArray[np.float64]
+    inner_mass: NDArray[np.float64]
+    outer_mass: NDArray[np.float64]
+    stiffness: NDArray[np.float64]
+    damping: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Motion of inner and outer ring, n samples along the directions `dofs`.
+
+    Attributes
+    ----------
+    scene, dofs, sample_rate [Hz], step_rate [Hz]
+        what was simulated and how.
+    completed
+        True where the motion stayed finite to its end; `status` says it in words. A motion that
+        did not is NaN from where it broke off.
+    right_hand_side_calls
+        how often the accelerations were evaluated.
+    time : (n,) [s]
+    cage_angle : (n,) [rad]
+    inner_displacement, outer_displacement : (n, len(dofs)) [m, rad]
+    inner_velocity, outer_velocity : (n, len(dofs)) [m/s, rad/s]
+    inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
+        the outer one is what a sensor on the housing measures.
+    ball_load : (n, N_b) [N] or None
+        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if they were asked for.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    sample_rate: float
+    step_rate: float
+    completed: bool
+    status: str
+    right_hand_side_calls: int
+    time: NDArray[np.float64]
+    ball_load: NDArray[np.float64] | None
+    history: NDArray[np.float64] = field(repr=False)
+
+    @cached_property
+    def cage_angle(self) -> NDArray[np.float64]:
+        """(n,) [rad], 0 at the start."""
+        return self.scene.cage_speed * self.time
+
+    @cached_property
+    def inner_displacement(self) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m, rad]"""
+        return self._sampled("inner", 0)
+
+    @cached_property
+    def outer_displacement(self) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m, rad]"""
+        return self._sampled("outer", 0)
+
+    @cached_property
+    def inner_velocity(self) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s, rad/s]"""
+        return self._sampled("inner", 1)
+
+    @cached_property
+    def outer_velocity(self) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s, rad/s]"""
+        return self._sampled("outer", 1)
+
+    @cached_property
+    def inner_acceleration(self) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s², rad/s²]"""
+        return self._sampled("inner", 2)
+
+    @cached_property
+    def outer_acceleration(self) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s², rad/s²]"""
+        return self._sampled("outer", 2)
+
+    def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
+        """A quantity of one body at the sample times, between steps by quintic interpolation."""
+        scaled = _sample(
+            self.history, body, derivative, self.sample_rate, self.step_rate, len(self.time)
+        )
+        return scaled / _units(self.scene, self.dofs)
+
+
+def simulate(
+    scene: Scene,
+    duration: float = 1.4,
+    sample_rate: float = 65536.0,
+    *,
+    ball_loads: bool = False,
+    step_rate: float | None = None,
+) -> Motion:
+    """Motion of `scene` from its static state at cage angle 0, by Runge-Kutta steps of order 4.
+
+    Parameters
+    ----------
+    scene
+        its active directions move; support and inertia must be known along them.
+    duration
+        [s]
+    sample_rate
+        [Hz] of what is returned.
+    ball_loads
+        whether to return the balls' loads too.
+    step_rate
+        [Hz] steps a second: a multiple or a whole fraction of the sample rate. None takes enough
+        for STEPS_A_CYCLE steps in a period of the highest natural frequency and STEPS_A_PASSAGE
+        while a ball passes the defect. Samples between steps come from quintic interpolation.
+
+    Returns
+    -------
+    Motion
+        with a status: a motion that diverges, or a scene without a static state to start from, is
+        told there.
+
+    Raises
+    ------
+    ValueError
+        for a sample rate below twice the highest natural frequency, a step rate that does not fit
+        it, a shaft that stands still, or a support that lacks a number.
+    """
+    duration = checks.number("duration", duration, above=0.0, unit="s")
+    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    if scene.shaft_speed == 0.0:
+        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a simulated motion")
+    dofs = scene.active_dofs
+    bodies = _bodies(scene, dofs)
+    highest = highest_natural_frequency(scene)
+    if sample_rate < 2.0 * highest:
+        raise checks.refuse(
+            "sample_rate",
+            sample_rate,
+            f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
+            f"of {highest:.0f} Hz",
+        )
+    if step_rate is None:
+        step_rate = _default_step_rate(scene, sample_rate, highest)
+    _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
+    n = max(round(duration * sample_rate), 1)
+    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
+    if n_steps > MOST_STEPS:
+        raise checks.refuse(
+            "duration",
+            duration,
+            f"at most {MOST_STEPS / step_rate:.3g} s at {step_rate:.6g} steps a second",
+        )
+    time = np.arange(n) / sample_rate
+    active = np.array([DOF_NAMES.index(name) for name in dofs])
+    start = equilibrium(scene, [0.0], dofs)
+    history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
+    rows = path_rows(scene.defects, scene.bearing)
+    if start.status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+        history[:] = math.nan
+        done, status = 0, f"no static state to start from: {start.reason(0)}"
+    else:
+        y = np.zeros((4, len(dofs)))
+        y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
+        y[0] = y[2] + start.state[0, active]
+        flat = dofs == DOF_NAMES[:2] and scene.bearing.contact_angle == 0.0
+        h = 1.0 / step_rate
+        pull = scene.contact_law == "published"
+        common = (y.ravel(), max(n_steps, 1), h, 0.0, scene.cage_speed, rows)
+        n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
+        c = contact_damping(scene)
+        if flat:
+            done = kernels.march_flat(*common, *bodies, n_balls, rL, K, c, pull, history)
+        else:
+            force, *others = bodies
+            done = kernels.march(
+                *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, pull, history
+            )
+        status = "completed"
+        if done < n_steps:
+            history[done + 1 :] = math.nan
+            status = f"diverged after {done * h:.3g} s: {step_rate:g} steps a second are too few"
+    loads = None
+    if ball_loads:
+        inner, outer = (
+            _sample(history, body, 0, sample_rate, step_rate, n) for body in ("inner", "outer")
+        )
+        turn = scene.cage_speed / sample_rate
+        loads = kernels.elastic_ball_loads(
+            inner - outer, active, 0.0, turn, rows, *scene.bearing.contact_numbers
+        )
+        loads[~np.isfinite(inner[:, 0])] = math.nan
+    return Motion(
+        scene=scene,
+        dofs=dofs,
+        sample_rate=sample_rate,
+        step_rate=step_rate,
+        completed=status == "completed",
+        status=status,
+        right_hand_side_calls=4 * done,
+        time=time,
+        ball_load=loads,
+        history=history,
+    )
+
+
+def _units(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64]:
+    """What a scaled displacement is divided by: 1 [m], or r_d for tilts [m/rad]."""
+    lever = scene.bearing.groove_center_radius
+    return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
+
+
+def _bodies(scene: Scene, dofs: tuple[str, ...]) -> _BodyNumbers:
+    """Load, inertia and support along `dofs`, tilts scaled to lengths as in the kernels."""
+    units = _units(scene, dofs)
+    index = [DOF_NAMES.index(name) for name in dofs]
+    return _BodyNumbers(
+        scene.load.vector[index] / units,
+        scene.support.inertia("inner", dofs) / units**2,
+        scene.support.inertia("outer", dofs) / units**2,
+        scene.support.stiffness(dofs) / units**2,
+        scene.support.damping(dofs) / units**2,
+    )
+
+
+def _default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
+    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do."""
+    needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
+    for defect in scene.defects:
+        across = defect.extent / abs(1.0 - defect.turn_ratio(scene.bearing))
+        needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / across)
+    if needed <= sample_rate:
+        return sample_rate / math.floor(sample_rate / needed)
+    return sample_rate * math.ceil(needed / sample_rate)
+
+
+def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
+    """(samples a step, steps a sample), one of them 1; ValueError where neither is whole."""
+    step_rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+    ratio = max(sample_rate, step_rate) / min(sample_rate, step_rate)
+    whole = round(ratio)
+    if abs(ratio - whole) > 1e-9 * ratio:
+        raise checks.refuse(
+            "step_rate",
+            step_rate,
+            f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz",
+        )
+    return (whole, 1) if sample_rate > step_rate else (1, whole)
+
+
+def _sample(
+    history: NDArray[np.float64],
+    body: str,
+    derivative: int,
+    sample_rate: float,
+    step_rate: float,
+    n: int,
+) -> NDArray[np.float64]:
+    """Displacement (0), velocity (1) or acceleration (2) of a body at n sample times, scaled."""
+    a_step, a_sample = _ratio(sample_rate, step_rate)
+    first = 0 if body == "inner" else 3
+    if a_step == 1:
+        rows = slice(0, (n - 1) * a_sample + 1, a_sample)
+        return np.ascontiguousarray(history[rows, first + derivative])
+    out = np.empty((n, history.shape[2]))
+    kernels.between_steps(history, first, _weights(a_step, derivative, 1.0 / step_rate), out)
+    return out
+
+
+def _weights(ratio: int, derivative: int, h: float) -> NDArray[np.float64]:
+    """Quintic Hermite weights (ratio, 6) of x, v, a at both ends of a step of h [s]."""
+    basis = (
+        (Polynomial([1, 0, 0, -10, 15, -6]), 0),
+        (Polynomial([0, 1, 0, -6, 8, -3]), 1),
+        (Polynomial([0, 0, 0.5, -1.5, 1.5, -0.5]), 2),
+        (Polynomial([0, 0, 0, 10, -15, 6]), 0),
+        (Polynomial([0, 0, 0, -4, 7, -3]), 1),
+        (Polynomial([0, 0, 0, 0.5, -1, 0.5]), 2),
+    )
+    fractions = np.arange(ratio) / ratio
+    return np.stack(
+        [
+            (p.deriv(derivative) if derivative else p)(fractions) * h ** (power - derivative)
+            for p, power in basis
+        ],
+        axis=1,
+    )

@@ -11,6 +11,7 @@ from typing import Any
 
 import panel as pn
 
+from app.assets import asset_text
 from app.controls import Controls
 from app.live import LatestWins, in_thread, one_message, send_at_once
 from app.quantities import CAGE_ANGLE, Values, limits_of, read, scene_with, values_of
@@ -72,7 +73,8 @@ class Explorer:
         self._doc = pn.state.curdoc
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
 
-        self._preset = preset
+        self.values: Values = {}
+        self._refused: set[str] = set()
         self._take_preset(preset)
         self.controls = Controls(self._asked)
         self.controls.state = self._state()
@@ -84,7 +86,7 @@ class Explorer:
             active=self._shown,
         )
         self.main = pn.Column(sizing_mode="stretch_width", margin=0)
-        self._show(self._shown)
+        self._bring(self._shown)
 
     @property
     def inputs(self) -> Inputs:
@@ -159,7 +161,7 @@ class Explorer:
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None
         if name in self._sections:
-            self._show(name)
+            self._shown = name
             self.draw()
 
     def _take_preset(self, name: str) -> None:
@@ -167,29 +169,33 @@ class Explorer:
         self._base = presets[name]
         self._edge = next((defect.edge for defect in self._base.defects), EDGES[0])
         self._limits = limits_of(self._base)
-        self._refused: set[str] = set()
-        self.values: Values = values_of(self._base)
+        self._refused = set()
+        self.values = values_of(self._base)
         self.scene = scene_with(self._base, self.values, edge=self._edge)
 
     def _state(self) -> dict[str, Any]:
         choices = {"preset": self._preset, "edge": self._edge}
         return Controls.state_of(self.values, self._limits, choices)
 
-    def _show(self, name: str) -> None:
-        """Put a section on screen; its figures are made when it is first asked for."""
+    def _bring(self, name: str) -> None:
+        """Put a section on screen; its figures are made when it is first asked for.
+
+        Done by the worker, in the same order of messages as what is drawn on them: the browser
+        must know a figure before it hears of its numbers.
+        """
         if name not in self._containers:
             views = [view(self.wire) for view in self._sections[name].views]
             self._views[name] = views
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
-                css_classes=["section", f"section-{name}"],
+                stylesheets=[asset_text("section.css")],
                 sizing_mode="stretch_width",
                 margin=0,
             )
             self.main.append(self._containers[name])
         for other, container in self._containers.items():
-            container.visible = other == name
-        self._shown = name
+            shown = "on-screen" if other == name else "off-screen"
+            container.css_classes = ["section", f"section-{other}", shown]
         self.tabs.active = name
 
     # Drawing: off the event loop to compute, on it to assign.
@@ -197,6 +203,9 @@ class Explorer:
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
         results = Results(inputs.scene, inputs.cage_angle)
+        if self.tabs.active != self._shown:
+            with one_message(self._doc):
+                self._bring(self._shown)
         views = self._views[self._shown]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]

@@ -1,18 +1,26 @@
-"""How the page is put together."""
+"""How the page is put together: which views stand on which tab, and the frame around them."""
 
 from __future__ import annotations
-
-import logging
 
 import panel as pn
 
 from app.assets import asset_text
 from app.explorer import Explorer, Section
+from app.views.bearing import BearingDrawing
+from app.views.depth_profile import DepthProfile
+from app.views.load_distribution import LoadDistribution
+from app.views.modes import NaturalFrequencies
 from app.views.stiffness import Stiffness
+from app.views.vibration_spectrum import VibrationSpectra
+from app.views.vibration_time import VibrationInTime
 
-SECTIONS = (Section("stiffness", "Stiffness", (Stiffness,)),)
-
-log = logging.getLogger(__name__)
+SECTIONS = (
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
+    Section("stiffness", "Stiffness", (Stiffness,)),
+    Section("modes", "Natural frequencies", (NaturalFrequencies,)),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+)
+"""The tabs. What is not on the tab that is open is neither computed nor sent."""
 
 
 def page() -> pn.Template:

@@ -63,6 +63,7 @@ class Wire:
         self._sent_ranges: dict[str, np.ndarray] = {}
         self._packet = ColumnDataSource(data={"packed": np.zeros(3, np.float32)})
         self._unpack = CustomJS(args=self._args(), code=_UNPACK)
+        self._told = 0  # how many sources and ranges the browser's callback knows
         self._packet.js_on_change("data", self._unpack)
         #: an invisible model that carries the packet into the document; put it on the page once
         self.anchor = Spacer(width=0, height=0, visible=False, tags=[self._packet])
@@ -73,9 +74,10 @@ class Wire:
             raise ValueError(f"source {name!r} is declared twice; names are one per session")
         if not columns:
             raise ValueError(f"source {name!r} has no columns; it needs at least one")
-        source = ColumnDataSource(data={column: [] for column in columns}, syncable=False)
+        source = ColumnDataSource(
+            data={column: [] for column in columns}, name=name, syncable=False
+        )
         self._sources[name], self._columns[name] = source, columns
-        self._unpack.args = self._args()
         return source
 
     def range(self, name: str, start: float, end: float) -> Range1d:
@@ -84,7 +86,6 @@ class Wire:
             raise ValueError(f"range {name!r} is declared twice; names are one per session")
         moved = Range1d(start, end, syncable=False)
         self._ranges[name] = moved
-        self._unpack.args = self._args()
         return moved
 
     def send(
@@ -98,6 +99,10 @@ class Wire:
         `mark` travels with the packet, so that the browser can tell which inputs are drawn.
         """
         packed = self.pack(data, ranges or {}, mark)
+        if self._told != (known := len(self._sources) + len(self._ranges)):
+            # Not when they are declared: the browser must have met them in a figure first.
+            self._unpack.args = self._args()
+            self._told = known
         self._packet.data = {"packed": packed}
         return packed.nbytes
 

@@ -406,11 +406,11 @@ def static_states(cage_angles, rows, F, active, n_balls, ca, sa, A0, rL, K):
         size += F[i] * F[i]
     size = math.sqrt(size)
     state = np.zeros(5)
-    if size > 0.0:
-        # first guess: the clearance and one ball's compression, along the load
-        reach = rL / ca + (size / K) ** (2.0 / 3.0)
-        for i in active:
-            state[i] = reach * F[i] / size
+    # first guess: the clearance and one ball's compression, along the load
+    reach = rL / ca + (size / K) ** (2.0 / 3.0)
+    size = max(size, 1e-300)
+    for i in active:
+        state[i] = reach * F[i] / size
     for k in range(n):
         cage = cage_angles[k]
         cage_c = math.cos(cage)
@@ -421,16 +421,21 @@ def static_states(cage_angles, rows, F, active, n_balls, ca, sa, A0, rL, K):
         if rows.shape[0] > 0:
             for j in range(n_balls):
                 d[j], _ = fall(cage + 2.0 * math.pi / n_balls * j, cage, rows)
-        if k >= 3:
-            # the parabola through the last three answers
+        if k > 0 and status[k - 1] >= NOT_CARRIED:
+            for i in active:
+                state[i] = reach * F[i] / size
+        elif k >= 3:
+            # the parabola through the last three answers, where they stand near and in order
             x1 = cage - cage_angles[k - 1]
             x2 = cage - cage_angles[k - 2]
             x3 = cage - cage_angles[k - 3]
-            u1 = x2 * x3 / ((x2 - x1) * (x3 - x1))
-            u2 = x1 * x3 / ((x1 - x2) * (x3 - x2))
-            u3 = x1 * x2 / ((x1 - x3) * (x2 - x3))
-            for i in active:
-                state[i] = u1 * q[k - 1, i] + u2 * q[k - 2, i] + u3 * q[k - 3, i]
+            if abs(x1) < abs(x2) < abs(x3) < 8.0 * abs(x1) and x1 * x2 > 0.0 and x2 * x3 > 0.0:
+                u1 = x2 * x3 / ((x2 - x1) * (x3 - x1))
+                u2 = x1 * x3 / ((x1 - x2) * (x3 - x2))
+                u3 = x1 * x2 / ((x1 - x3) * (x2 - x3))
+                if abs(u1) + abs(u2) + abs(u3) < 20.0:
+                    for i in active:
+                        state[i] = u1 * q[k - 1, i] + u2 * q[k - 2, i] + u3 * q[k - 3, i]
         now, status[k], residuals[k], iterations[k], evaluations[k] = minimise_energy(
             state, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial
         )

@@ -239,16 +239,17 @@ def test_contact_damping_of_the_fan_rig() -> None:
     ("extent_deg", "ranges"),
     [
         (12.9, {"x1": (365, 480), "y1": (615, 678), "x2": (1684, 1722), "y2": (1793, 1841)}),
-        (38.6, {"x1": (476, 569), "y1": (536, 616)}),
+        # Near a cage angle of 0 x1 and y1 come close (569 and 536 Hz) and repel each other.
+        (38.6, {"x1": (476, 571), "y1": (532, 616), "x2": (1721, 1766), "y2": (1745, 1794)}),
     ],
 )
 def test_bands_of_the_fan_rig(extent_deg: float, ranges: dict[str, tuple[float, float]]) -> None:
-    """Printed to whole Hz, from 120 angles a ball spacing; damping moves them by less than 1 Hz."""
+    """In whole Hz, each mode named after the direction that moves most; damping moves them less."""
     scene = presets["fan-rig"].replace(extent=math.radians(extent_deg))
     bands = modes(scene, table_angles(scene)).bands()
     for label, (least, greatest) in ranges.items():
-        assert bands[label][0] == pytest.approx(least, abs=1.0), label
-        assert bands[label][1] == pytest.approx(greatest, abs=1.0), label
+        assert bands[label][0] == pytest.approx(least, abs=0.6), label
+        assert bands[label][1] == pytest.approx(greatest, abs=0.6), label
 
 
 def test_the_larger_defect_raises_x_and_lowers_y() -> None:

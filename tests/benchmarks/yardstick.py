@@ -1,0 +1,169 @@
+"""The plain C loops of `c_loops/`, built when asked for and called through ctypes.
+
+They are yardsticks, not part of the program: the same work as a competent engineer writes it in
+C, compiled by gcc on the machine that runs it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import Scene
+
+SOURCES = Path(__file__).parent / "c_loops"
+FLAGS = ("-O3", "-march=native")
+FAST_MATH = ("-O3", "-march=native", "-ffast-math")
+ARC = {"published": 0.5, "chord": 1.0}
+
+Array = NDArray[np.float64]
+_DOUBLES = ctypes.POINTER(ctypes.c_double)
+
+
+def compiler() -> str | None:
+    """Path of gcc, None without one."""
+    return shutil.which("gcc")
+
+
+def build(name: str, flags: tuple[str, ...]) -> Any:
+    """Compile `c_loops/<name>.c` into a new temporary library and load it."""
+    gcc = compiler()
+    if gcc is None:
+        raise RuntimeError("no gcc on this machine: install it to build the yardsticks")
+    library = Path(tempfile.mkdtemp(prefix="yardstick-")) / f"{name}.so"
+    command = [gcc, *flags, "-shared", "-fPIC", "-o", str(library)]
+    subprocess.run([*command, str(SOURCES / f"{name}.c"), "-lm"], check=True)
+    return ctypes.CDLL(str(library))
+
+
+def _at(array: Array) -> Any:
+    return array.ctypes.data_as(_DOUBLES)
+
+
+def _outer_defect(scene: Scene) -> tuple[float, float, float, float]:
+    """Extent, depth, centre and part of the arc; the C loops know nothing else."""
+    if not scene.defects:
+        return 0.0, 0.0, 0.0, ARC["published"]
+    (defect,) = scene.defects
+    if defect.race != "outer" or defect.edge not in ARC:
+        raise ValueError("the C loops know outer-race defects with published or chord edges")
+    return defect.extent, defect.depth, defect.center, ARC[defect.edge]
+
+
+class CStatics:
+    """Static equilibrium and stiffness, five DOFs; outputs are kept from call to call."""
+
+    def __init__(self, flags: tuple[str, ...] = FLAGS, tolerance: float = 1e-10) -> None:
+        self._library = build("statics", flags)
+        self._tolerance = tolerance
+
+    def _numbers(self, scene: Scene) -> Array:
+        bearing = scene.bearing
+        return np.array(
+            [
+                bearing.n_balls,
+                bearing.ball_radius,
+                bearing.contact_angle,
+                bearing.groove_center_radius,
+                bearing.groove_center_distance,
+                bearing.radial_clearance,
+                bearing.load_deflection_factor,
+                bearing.outer_raceway_radius,
+                *_outer_defect(scene),
+                *scene.load.vector,
+                self._tolerance,
+            ]
+        )
+
+    def curve(self, scene: Scene, angles: int, step: float) -> dict[str, Array]:
+        """`angles` cage angles from 0, `step` rad apart: displacement, 15 terms, ball loads."""
+        out = {
+            "displacement": np.empty((angles, 5)),
+            "stiffness": np.empty((angles, 15)),
+            "ball_load": np.empty((angles, scene.bearing.n_balls)),
+            "residual": np.empty(angles),
+        }
+        evaluations = self._library.statics(
+            _at(self._numbers(scene)),
+            angles,
+            ctypes.c_double(0.0),
+            ctypes.c_double(step),
+            *(_at(array) for array in out.values()),
+        )
+        if evaluations < 0:
+            raise RuntimeError("the C loop did not converge")
+        return out
+
+    def maps(self, scene: Scene, extents: int, extent_step: float, angles: int, step: float) -> Any:
+        """All 15 terms (extents, angles, 15) and the loaded balls (extents, angles)."""
+        stiffness = np.empty((extents, angles, 15))
+        loaded = np.empty((extents, angles))
+        scratch = (np.empty((angles, 5)), np.empty((angles, 64)), np.empty(angles))
+        evaluations = self._library.statics_maps(
+            _at(self._numbers(scene)),
+            extents,
+            ctypes.c_double(extent_step),
+            angles,
+            ctypes.c_double(step),
+            _at(stiffness),
+            _at(loaded),
+            *(_at(array) for array in scratch),
+        )
+        if evaluations < 0:
+            raise RuntimeError("the C loop did not converge")
+        return stiffness, loaded
+
+
+class CMotion:
+    """Motion in x and y of both bodies by classical Runge-Kutta, one step a sample."""
+
+    def __init__(self, flags: tuple[str, ...] = FLAGS, nodes: int = 2048) -> None:
+        self._library = build("motion", flags)
+        self._nodes = nodes
+
+    def march(
+        self, scene: Scene, start: Array, samples: int, rate: float, damping: float
+    ) -> tuple[Array, Array]:
+        """States (n, 8) and the outer ring's acceleration (n, 2) from the state `start` (8,)."""
+        bearing, support = scene.bearing, scene.support
+        numbers = np.array(
+            [
+                bearing.n_balls,
+                bearing.ball_radius,
+                bearing.radial_clearance,
+                bearing.load_deflection_factor,
+                bearing.outer_raceway_radius,
+                *_outer_defect(scene),
+                1.0 / support.inner_mass,
+                1.0 / support.outer_mass,
+                support.stiffness_x,
+                support.stiffness_y,
+                support.damping_x,
+                support.damping_y,
+                damping,
+                scene.load.fx,
+                scene.load.fy,
+                scene.cage_speed,
+            ]
+        )
+        states, acceleration = np.empty((samples, 8)), np.empty((samples, 2))
+        now = np.array(start, dtype=float)
+        status = self._library.motion(
+            _at(numbers),
+            _at(now),
+            samples,
+            ctypes.c_double(1.0 / rate),
+            self._nodes,
+            _at(states),
+            _at(acceleration),
+        )
+        if status:
+            raise RuntimeError("the C loop has no room for this scene")
+        return states, acceleration

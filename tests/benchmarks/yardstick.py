@@ -60,7 +60,7 @@ def _outer_defect(scene: Scene) -> tuple[float, float, float, float]:
 class CStatics:
     """Static equilibrium and stiffness, five DOFs; outputs are kept from call to call."""
 
-    def __init__(self, flags: tuple[str, ...] = FLAGS, tolerance: float = 1e-10) -> None:
+    def __init__(self, flags: tuple[str, ...] = FLAGS, tolerance: float = 1e-12) -> None:
         self._library = build("statics", flags)
         self._tolerance = tolerance
 

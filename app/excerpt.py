@@ -40,11 +40,13 @@ class Excerpt:
     events
         entries and exits within the stretch.
     balls : (k,)
-        the balls that enter or leave, counted from 0.
+        the balls that enter or leave, counted from 0; if none does, the two that carry most.
     ball_load : (n, k) [N]
         what they carry as they move.
     static_time : (p,) [s], static_load : (p, k) [N]
         what they would carry at rest at each of these instants.
+    broke_off
+        why the motion ended early; empty if it did not.
     """
 
     time: NDArray[np.float64]
@@ -55,6 +57,7 @@ class Excerpt:
     ball_load: NDArray[np.float64]
     static_time: NDArray[np.float64]
     static_load: NDArray[np.float64]
+    broke_off: str
 
 
 def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
@@ -68,13 +71,11 @@ def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
         Event(_time_at(scene, motion, found.cage_angle) - zero, found.ball, found.enters)
         for found in crossings(scene, float(cage[cut][0]), float(cage[cut][-1]))
     )
-    balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
     static_time = np.linspace(time[cut][0], time[cut][-1], STATIC_POINTS)
-    static = (
-        equilibrium(scene, np.interp(static_time, time, cage)).ball_load[:, balls]
-        if balls.size
-        else np.empty((STATIC_POINTS, 0))
-    )
+    static = equilibrium(scene, np.interp(static_time, time, cage)).ball_load
+    balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
+    if not balls.size:
+        balls = np.sort(np.argsort(np.nan_to_num(static).max(axis=0), kind="stable")[-2:])
     loads = motion.ball_load
     return Excerpt(
         time=time[cut] - zero,
@@ -86,7 +87,8 @@ def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
         balls=balls,
         ball_load=np.empty((last - first, 0)) if loads is None else loads[cut][:, balls],
         static_time=static_time - zero,
-        static_load=static,
+        broke_off="" if motion.completed else motion.status,
+        static_load=static[:, balls],
     )
 
 

@@ -23,10 +23,11 @@ if TYPE_CHECKING:
     from bearingcore import Load, Scene
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
-HALF_WIDTH = 1.6
+HALF_WIDTH = 1.56
 BAR_START = 0.05  # beyond the outer ring
-BAR_LENGTH = 0.30  # of a ball that carries the greatest load of the colour bar
-TOP_LINE, LINE_HEIGHT = 1.5, 0.1
+BAR_LENGTH = 0.32  # of a ball that carries the greatest load of the colour bar
+TOP_LINE, LINE_HEIGHT = 1.47, 0.1
+KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
 # pale to dark, even steps to the eye, told apart by colour-blind eyes and in grey print
@@ -61,9 +62,8 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "Seen along the shaft, z towards you. Bars outside the ring and the colour of a ball show "
-        "what it carries; the grey rim is what balls carry in the sound bearing. The arrow is the "
-        "load on the inner ring, the notch in the inner ring turns with the shaft."
+        "Seen along the shaft, z towards you. Bars and colours: what the balls carry. Grey rim: "
+        "the same without the defect. Arrow: the load. The keyway turns with the shaft."
     )
     needs = frozenset({"equilibrium", "sound_equilibrium", "now", "drop"})
 
@@ -74,7 +74,7 @@ class BearingDrawing(View):
         plot = figures.bare_figure(
             Range1d(-half, half, syncable=False),
             Range1d(-half, half, syncable=False),
-            height=470,
+            height=520,
         )
         aspect = CustomJS(args={"plot": plot, "half": half}, code=_EQUAL_ASPECT)
         plot.js_on_change("inner_width", aspect)
@@ -101,10 +101,12 @@ class BearingDrawing(View):
         self._write_words(plot, wire)
         bar = ColorBar(
             color_mapper=colors,
-            width=10,
-            height=190,
-            location=(0, 0),
-            padding=6,
+            orientation="horizontal",
+            width=210,
+            height=9,
+            location="bottom_center",
+            padding=2,
+            title_standoff=4,
             bar_line_color=figures.STEEL_EDGE,
             major_tick_line_color=None,
             major_label_text_font=figures.FONT,
@@ -117,7 +119,7 @@ class BearingDrawing(View):
             background_fill_color=None,
         )
         figures.write_units(bar, figures.BALL_LOAD, load)
-        plot.add_layout(bar, "right")
+        plot.add_layout(bar, "below")
         return plot
 
     def _draw_rings(self, plot: figure, wire: Wire) -> None:
@@ -146,24 +148,16 @@ class BearingDrawing(View):
             line_color="#B87A00",
             line_width=1.2,
         )
-        plot.patch(
-            "x",
-            "y",
-            source=wire.source("bearing_notch", "x", "y"),
-            fill_color="white",
-            line_color=figures.STEEL_EDGE,
-            line_width=1.2,
-        )
+        marks = wire.source("bearing_marks", "x", "y", "angle", "turn")
         plot.text(
             "x",
             "y",
-            text=figures.words_of(
-                marks := wire.source("bearing_marks", "x", "y", "angle"), "return row.angle + '°'"
-            ),
+            text=figures.words_of(marks, "return row.angle + '°'"),
             source=marks,
-            text_font=figures.FONT,
+            text_font={"value": figures.FONT},
             text_font_size="10px",
             text_color=figures.FAINT_INK,
+            angle="turn",
             text_align="center",
             text_baseline="middle",
         )
@@ -195,7 +189,7 @@ class BearingDrawing(View):
             "y",
             text=figures.words_of(balls, "return row.number"),
             source=balls,
-            text_font=figures.FONT,
+            text_font={"value": figures.FONT},
             text_font_size="10px",
             text_color={"field": "load", "transform": inks},
             text_align="center",
@@ -211,7 +205,7 @@ class BearingDrawing(View):
 
     def _write_words(self, plot: figure, wire: Wire) -> None:
         style = {
-            "text_font": figures.FONT,
+            "text_font": {"value": figures.FONT},
             "text_font_size": figures.TEXT_SIZE,
             "text_color": figures.FAINT_INK,
         }
@@ -237,7 +231,6 @@ class BearingDrawing(View):
         sources = {
             "bearing_rings": drawn.rings(),
             "bearing_defect": drawn.defects(),
-            "bearing_notch": drawn.notch(),
             "bearing_marks": drawn.angle_marks(),
             "bearing_balls": drawn.balls(results.drop, load),
             "bearing_bars": drawn.bars(load, top),
@@ -275,7 +268,7 @@ class BearingDrawing(View):
         return {
             "ball": np.arange(1, results.scene.bearing.n_balls + 1),
             "ball_angle_deg": np.degrees(now.ball_angle[0]),
-            "ball_load_N": now.ball_load[0],
+            "ball_load_n": now.ball_load[0],
             "contact_angle_deg": np.degrees(now.contact_angle[0]),
             "drop_into_outer_race_um": 1e6 * results.drop["outer"],
             "drop_into_inner_race_um": 1e6 * results.drop["inner"],
@@ -351,8 +344,17 @@ class Shapes:
             (turn, np.full_like(turn, self.rim)),
             self._race("outer"),
             self._race("inner"),
-            (turn, np.full_like(turn, self.bore)),
+            self._bore(),
         )
+
+    def _bore(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The bore with a keyway, which turns with the shaft."""
+        keyway = self.cage_angle / self.scene.bearing.cage_ratio + 0.5 * math.pi
+        angle = keyway + np.linspace(KEYWAY, 2.0 * math.pi - KEYWAY, 181)
+        radius = np.full_like(angle, self.bore)
+        radius[[0, -1]] += 0.35 * (self.inner_race - self.bore)
+        angle[[0, -1]] = angle[[1, -2]]  # upright walls
+        return angle, radius
 
     def defects(self) -> dict[str, np.ndarray]:
         """What is missing from the races."""
@@ -366,14 +368,6 @@ class Shapes:
             )
         return polar(*parts)
 
-    def notch(self) -> dict[str, np.ndarray]:
-        """A keyway in the bore of the inner ring, which turns with the shaft."""
-        at = self.cage_angle / self.scene.bearing.cage_ratio + 0.5 * math.pi
-        half, depth = 0.10, 0.4 * (self.inner_race - self.bore)
-        angle = at + np.array([-half, -half, half, half])
-        low, high = self.bore - 0.01, self.bore + depth
-        return polar((angle, np.array([low, high, high, low])))
-
     def angle_marks(self) -> dict[str, np.ndarray]:
         """0°, 90°, 180° and 270° on the outer ring."""
         degrees = np.array([0.0, 90.0, 180.0, 270.0])
@@ -383,6 +377,7 @@ class Shapes:
             "x": radius * np.cos(np.radians(degrees)),
             "y": radius * np.sin(np.radians(degrees)),
             "angle": degrees,
+            "turn": np.radians([-90.0, 0.0, 90.0, 0.0]),  # along the ring, to be read from outside
         }
 
     def ball_angles(self) -> NDArray[np.float64]:

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 DEPTH = figures.AxisQuantity("Depth", "d", "m", prefixed=True)
 EDGE_WORDS = {
-    "published": "the published edge model (Eq. 6 with its factor of a quarter)",
-    "chord": "the edge model of a flat chord",
-    "exact": "a ball that pivots on the corner of the curved race",
+    "published": "the published edge model",
+    "chord": "the chord edge model",
+    "exact": "the exact edge model",
 }
 
 
@@ -28,19 +28,19 @@ class DepthProfile(View):
     name = "depth-profile"
     title = "Depth profile"
     about = (
-        "Solid: the race as it is, down is into the ring. Dashed: how far the centre of a ball "
-        "sinks as it rolls over. Dots: balls that are there at this cage angle."
+        "Solid: the race, down is into the ring. Dashed: how far a ball's centre sinks. Dots: "
+        "balls at this cage angle."
     )
     needs = frozenset({"profile", "drop", "now"})
 
     def build(self, wire: Wire) -> Any:
-        self._range = StickyRange(-5e-6, 60e-6, anchor="zero", least_span=1e-6)
+        self._range = StickyRange(0.0, 60e-6, anchor="zero", least_span=1e-6)
         plot = figures.house_figure(
             figures.BALL_ANGLE,
             DEPTH,
             wire.range("depth_profile_angle", 240.0, 300.0),
-            wire.range("depth_profile_depth", 60e-6, -5e-6),
-            height=260,
+            wire.range("depth_profile_depth", 60e-6, -4e-6),
+            height=215,
         )
         surface = wire.source("depth_profile_surface", "angle", "depth", "bottom")
         plot.varea(
@@ -63,29 +63,31 @@ class DepthProfile(View):
             fill_color="white",
             line_color=figures.INK,
             line_width=1.6,
+            level="annotation",  # whole, also on the edge of the frame
         )
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         profile = results.profile
         angle = np.degrees(profile.angle)
-        depth_range = self._range.fit(profile.depth, -0.08 * np.max(profile.depth))
+        deepest = self._range.fit(1.15 * profile.depth)[1]
         start, end = float(angle[0]), float(angle[-1])
         balls = np.degrees(results.now.ball_angle[0])
         # the picture may run past 360°: a ball is drawn in whichever turn it is seen
         balls = start + (balls - start) % 360.0
+        balls[balls > end] = np.nan
         sources = {
             "depth_profile_surface": {
                 "angle": angle,
                 "depth": profile.depth,
-                "bottom": np.full(angle.size, depth_range[1]),
+                "bottom": np.full(angle.size, deepest),
             },
             "depth_profile_path": {"angle": angle, "drop": profile.path},
             "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race]},
         }
         return sources, {
             "depth_profile_angle": (start, end),
-            "depth_profile_depth": (depth_range[1], depth_range[0]),  # depth grows downwards
+            "depth_profile_depth": (deepest, -0.07 * deepest),  # depth grows downwards
         }
 
     def sentence(self, results: Results) -> str:

@@ -73,12 +73,14 @@ class AxisQuantity:
     """What an axis shows: name, symbol and unit.
 
     `prefixed` lets the axis choose an SI prefix for `unit`; the data are in `unit` always.
+    `around`: an angle, written between 0° and 360° also where the axis runs past.
     """
 
     name: str
     symbol: str
     unit: str
     prefixed: bool = False
+    around: bool = False
 
     @property
     def words(self) -> str:
@@ -92,7 +94,7 @@ class AxisQuantity:
 
 
 BALL_LOAD = AxisQuantity("Ball load", "Q", "N", prefixed=True)
-BALL_ANGLE = AxisQuantity("Angular position", "φ", "°")
+BALL_ANGLE = AxisQuantity("Angular position", "φ", "°", around=True)
 CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
 
 
@@ -124,7 +126,7 @@ def house_figure(
         min_border_left=64,
         min_border_top=10,
         min_width=280,
-        background_fill_color=None,
+        background_fill_color="white",
         border_fill_color="white",
         outline_line_color=None,
         **options,
@@ -204,11 +206,12 @@ if (axis[field] != label) axis[field] = label
 def tick_formatter(quantity: AxisQuantity, shown: Range1d) -> CustomJSTickFormatter:
     """Numbers of an axis over the range `shown`, with a true minus sign."""
     return CustomJSTickFormatter(
-        args={"shown": shown, "prefixed": quantity.prefixed},
+        args={"shown": shown, "prefixed": quantity.prefixed, "around": quantity.around},
         code=_JS_PREFIX
         + """
 const e = prefixed ? power(Math.max(Math.abs(shown.start), Math.abs(shown.end))) : 0
-return minus(String(Number((tick/10**e).toPrecision(6))))
+const turned = !around ? tick : tick > 360 ? tick - 360 : tick < 0 ? tick + 360 : tick
+return minus(String(Number((turned/10**e).toPrecision(6))))
 """,
     )
 
@@ -258,13 +261,17 @@ def _power(top: float) -> int:
 
 
 def number(value: float, digits: int = 3) -> str:
-    """`value` to `digits` significant digits, never in powers of ten, with a true minus sign."""
+    """`value` to `digits` significant digits, never in powers of ten, with a true minus sign.
+
+    Zeros at the end are left away, as in the browser: 50 and not 50.0.
+    """
     if not math.isfinite(value):
         return "no value"
     if value == 0.0:
         return "0"
     places = max(0, digits - 1 - math.floor(math.log10(abs(value))))
-    return f"{value:.{places}f}".replace("-", "−")
+    text = f"{value:.{places}f}"
+    return (text.rstrip("0").rstrip(".") if places else text).replace("-", "−")
 
 
 def with_prefix(value: float, unit: str, digits: int = 3) -> str:

@@ -40,8 +40,9 @@ def load_curve(equilibrium: Equilibrium) -> Curve:
 def _greatest(angle: NDArray[np.float64], load: NDArray[np.float64]) -> Curve:
     """The greatest finite load in each of `BINS` equal parts of the turn; NaN where none is."""
     part = np.minimum((angle / TWO_PI * BINS).astype(int), BINS - 1)
-    most = np.full(BINS, -np.inf)
+    most: NDArray[np.float64] = np.full(BINS, -np.inf)
     known = np.isfinite(load)
     np.maximum.at(most, part[known], load[known])
     most[most == -np.inf] = np.nan
-    return (np.arange(BINS) + 0.5) * (TWO_PI / BINS), most
+    middles = (np.arange(BINS, dtype=np.float64) + 0.5) * (TWO_PI / BINS)
+    return middles, most

@@ -25,8 +25,8 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries when it stands at each angle. Blue: this bearing. Grey: the same "
-        "bearing without its defect. Shaded: the defect. Dots: the balls at this cage angle."
+        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
+        "defect. Dots: balls at this cage angle."
     )
     needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
 
@@ -37,7 +37,7 @@ class LoadDistribution(View):
             figures.BALL_LOAD,
             Range1d(0.0, 360.0, syncable=False),
             wire.range("load_distribution_load", 0.0, 100.0),
-            height=320,
+            height=280,
         )
         figures.fixed_ticks(plot.xaxis[0], range(0, 361, 30))
         plot.xgrid.ticker = plot.xaxis[0].ticker
@@ -71,6 +71,7 @@ class LoadDistribution(View):
             fill_color="white",
             line_color=figures.INK,
             line_width=1.6,
+            level="annotation",  # whole, also on the edge of the frame
         )
         plot.add_tools(
             HoverTool(
@@ -124,9 +125,9 @@ class LoadDistribution(View):
         sound_angle, sound_load = load_curve(results.sound_equilibrium)
         return {
             "ball_angle_deg": np.degrees(angle[1:-1]),
-            "ball_load_N": load[1:-1],
+            "ball_load_n": load[1:-1],
             "sound_ball_angle_deg": np.degrees(sound_angle[1:-1]),
-            "sound_ball_load_N": sound_load[1:-1],
+            "sound_ball_load_n": sound_load[1:-1],
         }
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bearingcore import Modes
 
 FREQUENCY = figures.AxisQuantity("Natural frequency", "f", "Hz")
-HEIGHT = 400
+HEIGHT = 440
 LABEL_PIXELS = 16.0  # height that a label needs
 
 BAND_WORDS = """
@@ -96,7 +96,7 @@ class NaturalFrequencies(View):
             source=bands,
             level="annotation",  # beside the frame, not cut off by it
             x_offset=8,
-            text_font=figures.FONT,
+            text_font={"value": figures.FONT},
             text_font_size=figures.TEXT_SIZE,
             text_baseline="middle",
             text_color={"field": "direction", "transform": colors},
@@ -130,31 +130,29 @@ class NaturalFrequencies(View):
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             return "There is no static state to take natural frequencies from."
-        words = [
-            f"{label} {figures.number(low, 4)} to {figures.number(high, 4)} Hz"
-            for label, (low, high) in known.items()
-        ]
-        text = f"The natural frequencies move within {figures.list_words(words)}"
-        first = next(iter(known))
+        radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
+        words = [f"{label} within {_from_to(known[label])}" for label in radial]
+        text = f"As the cage turns the natural frequencies move: {figures.list_words(words)}"
+        first = radial[0]
         if results.scene.defects and np.isfinite(sound.get(first, (np.nan,))[0]):
-            low, high = sound[first]
-            text += (
-                f"; without the defect {first} moves within {figures.number(low, 4)} to "
-                f"{figures.number(high, 4)} Hz"
-            )
+            text += f"; without the defect {first} within {_from_to(sound[first])}"
         return text + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, sound = results.modes, results.sound_modes
         table = {"cage_angle_deg": np.degrees(modes.cage_angles)}
         for i, label in enumerate(modes.label):
-            table[f"{label}_Hz"] = modes.frequency[:, i]
+            table[f"{label}_hz"] = modes.frequency[:, i]
         for i, label in enumerate(modes.label):
             table[f"{label}_damping_ratio"] = modes.damping_ratio[:, i]
         table["sound_cage_angle_deg"] = np.degrees(sound.cage_angles)
         for i, label in enumerate(sound.label):
-            table[f"sound_{label}_Hz"] = sound.frequency[:, i]
+            table[f"sound_{label}_hz"] = sound.frequency[:, i]
         return table
+
+
+def _from_to(band: tuple[float, float]) -> str:
+    return f"{band[0]:.0f} to {band[1]:.0f} Hz"
 
 
 def band_rows(modes: Modes) -> dict[str, np.ndarray]:

@@ -80,7 +80,7 @@ class StickyRange:
         return low, high
 
 
-def nice_range(low: float, high: float, ticks: int = 6) -> tuple[float, float]:
+def nice_range(low: float, high: float, ticks: int = 8) -> tuple[float, float]:
     """The narrowest range with about `ticks` round steps that holds `low` and `high`."""
     span = high - low
     if span <= 0.0:

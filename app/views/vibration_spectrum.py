@@ -24,6 +24,7 @@ FREQUENCY = figures.AxisQuantity("Frequency", "f", "Hz")
 SHOWN = ("x", "y")
 HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
 LABEL_WIDTH = 0.17  # of the width of the figure
+DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 
 _PASS_WORDS = "return `${row.inner ? 'BPFI' : 'BPFO'} ${rounded(row.frequency, 4)} Hz`"
@@ -35,9 +36,8 @@ class VibrationSpectra(View):
     name = "vibration-spectrum"
     title = "Spectrum of the vibration"
     about = (
-        "Power spectral density of the housing's acceleration (Welch, Hann window, 32 Hz "
-        "resolution). Grey: the bearing without its defect, where it vibrates within the picture. "
-        "Shaded: the bands in which the natural frequencies along this direction move."
+        "Power spectral density of the housing's acceleration along x and y, 32 Hz resolution. "
+        "Grey: without the defect. Shaded: the bands of the natural frequencies."
     )
     needs = frozenset({"spectra", "sound_spectra", "modes"})
 
@@ -54,22 +54,27 @@ class VibrationSpectra(View):
         for dof in SHOWN:
             plot = figures.house_figure(
                 FREQUENCY,
-                figures.AxisQuantity(f"Density along {dof}", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+                figures.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
                 frequency,
                 level,
-                height=250,
+                height=270,
             )
             plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
             color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
             self._shade_bands(plot, wire, dof, color)
             marks.append(
-                plot.vspan("frequency", source=passes, line_color=figures.DEFECT, line_alpha=0.6)
+                plot.vspan("frequency", source=passes, line_color=figures.DEFECT, line_alpha=0.5)
             )
             marks.append(self._name_pass(plot, first))
             plot.line("frequency", dof, source=sound, line_color=figures.SOUND, line_width=1.5)
             plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
             plots.append(plot)
-        toggle = Checkbox(label="Mark the ball-pass frequency and its harmonics", active=False)
+        toggle = Checkbox(
+            label="Mark the ball-pass frequency and its harmonics",
+            active=False,
+            margin=(4, 5, 8, 5),
+            stylesheets=[f":host {{ font-family: {figures.FONT}; font-size: 13px }}"],
+        )
         for mark in marks:
             mark.visible = False
             toggle.js_link("active", mark, "visible")
@@ -88,7 +93,7 @@ class VibrationSpectra(View):
             source=bands,
             text_align="center",
             text_baseline="middle",
-            text_font=figures.FONT,
+            text_font={"value": figures.FONT},
             text_font_size=figures.SMALL_TEXT_SIZE,
             text_color=color,
         )
@@ -102,11 +107,12 @@ class VibrationSpectra(View):
             source=first,
             x_offset=4,
             text_baseline="middle",
-            text_font=figures.FONT,
+            text_font={"value": figures.FONT},
             text_font_size=figures.SMALL_TEXT_SIZE,
             text_color=figures.INK,
             background_fill_color="white",
             background_fill_alpha=0.85,
+            level="annotation",
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -116,7 +122,7 @@ class VibrationSpectra(View):
         in_view = np.concatenate([drawn[dof] for dof in SHOWN])
         # a level far below everything is silence, not something to make room for
         loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
-        low, high = self._levels.fit(np.maximum(in_view, loudest - 80.0), loudest + 6.0)
+        low, high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 6.0)
         passing = pass_frequencies(results.scene, top)
         sources: Sources = {
             "spectrum_lines": drawn,
@@ -140,25 +146,31 @@ class VibrationSpectra(View):
         for dof in SHOWN:
             if dof in results.spectra:
                 frequency, density = results.spectra[dof]
+                if not np.isfinite(density).all():
+                    return "The simulated motion did not stay finite: there is no spectrum of it."
                 heard = (frequency >= 100.0) & (frequency <= HIGHEST)
                 most = np.flatnonzero(heard)[np.argmax(density[heard])]
                 words.append(
                     f"along {dof} {figures.number(decibels(density[most]), 2)} dB at "
                     f"{frequency[most]:.0f} Hz"
                 )
-        text = "Above 100 Hz the housing vibrates most " + figures.list_words(words)
+        text = (
+            "Above 100 Hz the housing vibrates most " + figures.list_words(words)
+            if words
+            else "The housing cannot move along x or y in this scene"
+        )
         scene = results.scene
         rate = scene.bearing.bpfi if _inner(scene) else scene.bearing.bpfo
-        frequency = figures.number(rate(scene.shaft_speed), 4)
+        passing = figures.number(rate(scene.shaft_speed), 4)
         race = "inner" if _inner(scene) else "outer"
-        return f"{text}; balls pass a point of the {race} race at {frequency} Hz."
+        return f"{text}; balls pass a point of the {race} race at {passing} Hz."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
         for who, spectra in (("", results.spectra), ("sound_", results.sound_spectra)):
             for dof, (frequency, density) in spectra.items():
-                table.setdefault("frequency_Hz", frequency)
-                unit = "rad2_per_s4_per_Hz" if dof.startswith("r") else "m2_per_s4_per_Hz"
+                table.setdefault("frequency_hz", frequency)
+                unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"
                 table[f"{who}density_{dof}_{unit}"] = density
         return table
 

@@ -24,7 +24,7 @@ ACCELERATION = figures.AxisQuantity("Housing acceleration", "a", "m/s²", prefix
 PIXELS = 500  # stretches of a line that are kept apart
 SHOWN = ("x", "y")
 SLOTS = len(figures.BALL_COLORS)
-LABEL_WIDTH = 0.13  # of the width of the figure: "ball 12 leaves" on a narrow one
+LABEL_WIDTH = 0.24  # of the width of the figure: "ball 12 leaves" on a narrow one
 ROW_HEIGHT = 0.065  # of its height
 EVENT_ROWS = 3
 
@@ -37,9 +37,8 @@ class VibrationInTime(View):
     name = "vibration-time"
     title = "Vibration as balls pass the defect"
     about = (
-        "Above: acceleration of the outer ring with the housing, blue x, orange y. Below: load of "
-        "each ball that enters or leaves the defect; thin: what it would carry at rest. Upright "
-        "lines: a ball centre passes an edge of the defect."
+        "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
+        "or leave the defect; thin: what they would carry at rest."
     )
     needs = frozenset({"excerpt"})
 
@@ -54,7 +53,7 @@ class VibrationInTime(View):
             wire.range("vibration_acceleration", -5.0, 5.0),
             height=270,
         )
-        events = wire.source("vibration_events", "time", "ball", "enters", "label_at")
+        events = wire.source("vibration_events", "time", "ball", "enters", "label_from", "label_at")
         motion = wire.source("vibration_motion", "time", *SHOWN)
         self._mark(above, events)
         for dof in reversed(SHOWN):
@@ -85,13 +84,13 @@ class VibrationInTime(View):
     def _label_events(self, plot: figure, events: ColumnDataSource) -> None:
         plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
-            "time",
+            "label_from",
             "label_at",
             y_range_name="rows",
             text=figures.words_of(events, _EVENT_WORDS),
             source=events,
-            x_offset=5,
-            text_font=figures.FONT,
+            x_offset=4,
+            text_font={"value": figures.FONT},
             text_font_size=figures.SMALL_TEXT_SIZE,
             text_color=figures.INK,
             text_baseline="middle",
@@ -115,7 +114,7 @@ class VibrationInTime(View):
             source=names,
             y_offset=-5,
             text_align="center",
-            text_font=figures.FONT,
+            text_font={"value": figures.FONT},
             text_font_size=figures.SMALL_TEXT_SIZE,
             text_color={
                 "field": "slot",
@@ -159,12 +158,18 @@ class VibrationInTime(View):
 
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
+        if shown.broke_off:
+            return f"The simulated motion ended early: {shown.broke_off}."
         peaks = [
-            f"{dof} {figures.with_prefix(float(np.max(np.abs(shown.acceleration[dof]))), 'm/s²')}"
+            f"{figures.number(float(np.max(np.abs(shown.acceleration[dof]))), 2)} m/s² along {dof}"
             for dof in SHOWN
             if dof in shown.acceleration
         ]
-        text = "The housing's acceleration peaks at " + figures.list_words(peaks)
+        text = (
+            "The housing's acceleration peaks at " + figures.list_words(peaks)
+            if peaks
+            else "The housing cannot move along x or y in this scene"
+        )
         entry = next((event for event in shown.events if event.enters), None)
         leaving = next(
             (e for e in shown.events if entry and not e.enters and e.time >= entry.time), None
@@ -185,10 +190,10 @@ class VibrationInTime(View):
             unit = "rad_per_s2" if dof.startswith("r") else "m_per_s2"
             table[f"acceleration_{dof}_{unit}"] = signal
         for k, ball in enumerate(shown.balls):
-            table[f"ball_{ball + 1}_load_N"] = shown.ball_load[:, k]
+            table[f"ball_{ball + 1}_load_n"] = shown.ball_load[:, k]
         table["static_time_s"] = shown.static_time
         for k, ball in enumerate(shown.balls):
-            table[f"ball_{ball + 1}_static_load_N"] = shown.static_load[:, k]
+            table[f"ball_{ball + 1}_static_load_n"] = shown.static_load[:, k]
         return table
 
 
@@ -221,21 +226,24 @@ def ball_names(shown: Excerpt) -> dict[str, np.ndarray]:
 def event_rows(events: tuple[Event, ...], start: float, end: float) -> dict[str, np.ndarray]:
     """Events as columns; a label stands right of its line, in the first row where it has room.
 
-    An event whose label has room in no row keeps its line and loses its label.
+    At the end of the stretch it moves left as far as it needs. An event whose label has room in no
+    row keeps its line and loses its label.
     """
     width = LABEL_WIDTH * (end - start)
     free_from = [start] * EVENT_ROWS
+    lefts = [min(event.time, end - width) for event in events]
     places: list[float] = []
-    for event in events:
-        row = next((r for r in range(EVENT_ROWS) if event.time >= free_from[r]), None)
-        if row is None or event.time + width > end:
+    for left in lefts:
+        row = next((r for r in range(EVENT_ROWS) if left >= free_from[r]), None)
+        if row is None:
             places.append(np.nan)
             continue
-        free_from[row] = event.time + width
+        free_from[row] = left + width
         places.append(1.0 - ROW_HEIGHT * (row + 0.7))
     return {
         "time": np.array([event.time for event in events]),
         "ball": np.array([event.ball + 1.0 for event in events]),
         "enters": np.array([float(event.enters) for event in events]),
+        "label_from": np.array(lefts),
         "label_at": np.array(places),
     }

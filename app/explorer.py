@@ -151,16 +151,17 @@ class Explorer:
             self.controls.tell(refused=refused)
 
     def _choose(self, choice: Mapping[Any, Any]) -> None:
-        if choice.get("preset") in presets:
-            self._take_preset(choice["preset"])
-        if choice.get("edge") in EDGES:
-            self._edge = choice["edge"]
-            self.scene = scene_with(self._base, self.values, edge=self._edge)
+        preset, edge = choice.get("preset"), choice.get("edge")
+        if isinstance(preset, str) and preset in presets:
+            self._take_preset(preset)
+        if isinstance(edge, str) and edge in EDGES:
+            self.scene = scene_with(self._base, self.values, edge=edge)
+            self._edge = edge
         self.controls.tell(state=self._state())
 
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None
-        if name in self._sections:
+        if isinstance(name, str) and name in self._sections:
             self._shown = name
             self.draw()
 

@@ -1,0 +1,65 @@
+"""Each answer is computed once, whoever asks."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from app.results import ComputedOnce, Results, Settings
+from bearingcore import presets
+
+
+def test_threads_that_ask_together_share_one_computation() -> None:
+    calls = []
+
+    def slow(key: int) -> int:
+        calls.append(key)
+        time.sleep(0.05)
+        return 10 * key
+
+    once = ComputedOnce(slow, 4)
+    answers: list[int] = []
+    threads = [threading.Thread(target=lambda: answers.append(once(7))) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert answers == [70] * 8
+    assert calls == [7]
+
+
+def test_the_least_used_leaves_first() -> None:
+    calls = []
+    once = ComputedOnce(lambda key: calls.append(key) or key, 2)
+    for key in (1, 2, 1, 3, 1, 2):
+        assert once(key) == key
+    assert calls == [1, 2, 3, 2]
+
+
+def test_a_failure_reaches_everyone_and_is_not_kept() -> None:
+    answers = iter([ValueError("no"), 5])
+
+    def sometimes() -> int:
+        answer = next(answers)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+
+    once = ComputedOnce(sometimes, 2)
+    with pytest.raises(ValueError, match="no"):
+        once()
+    assert once() == 5
+
+
+def test_equal_scenes_share_their_answers() -> None:
+    scene = presets["fan-rig"]
+    one, two = Results(scene), Results(scene.replace(fy=scene.load.fy))
+    assert one.equilibrium is two.equilibrium
+    assert one.sound_equilibrium is Results(scene.replace(extent=0.5)).sound_equilibrium
+
+
+def test_settings_say_how_fine() -> None:
+    results = Results(presets["fan-rig"], 0.1, Settings(n_cage_angles=31))
+    assert results.equilibrium.cage_angles.size == 31
+    np.testing.assert_allclose(results.now.cage_angles, [0.1])

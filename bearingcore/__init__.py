@@ -3,6 +3,7 @@
 from bearingcore.bearing import Bearing
 from bearingcore.defect import EDGES, RACES, Defect
 from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
+from bearingcore.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.modes import Modes, contact_damping, modes
 from bearingcore.motion import Motion, simulate
 from bearingcore.presets import preset_notes, presets
@@ -20,8 +21,10 @@ __all__ = [
     "Defect",
     "Equilibrium",
     "Load",
+    "MeasuredFloor",
     "Modes",
     "Motion",
+    "RoughFloor",
     "Scene",
     "Spectrum",
     "Support",
@@ -30,6 +33,7 @@ __all__ = [
     "modes",
     "preset_notes",
     "presets",
+    "read_floor",
     "simulate",
     "spectrum",
     "warm",

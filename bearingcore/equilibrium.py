@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linprog
 
 from bearingcore import checks, kernels
-from bearingcore.defect import path_rows
+from bearingcore.defect import path_tables
 from bearingcore.scene import DOF_NAMES, Scene, check_dofs
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -94,9 +94,11 @@ class Equilibrium:
     @cached_property
     def contact_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
-        rows = path_rows(self.scene.defects, self.scene.bearing)
+        paths = path_tables(self.scene.defects, self.scene.bearing)
         n_balls, ca, sa, A0, rL, _ = self.scene.bearing.contact_numbers
-        angles = kernels.contact_angles(self.cage_angles, rows, self.state, n_balls, ca, sa, A0, rL)
+        angles = kernels.contact_angles(
+            self.cage_angles, *paths, self.state, n_balls, ca, sa, A0, rL
+        )
         angles[self.status >= kernels.NOT_CARRIED] = math.nan
         return angles
 
@@ -170,7 +172,7 @@ def equilibrium(
     units[3:] = bearing.groove_center_radius
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
         angles,
-        path_rows(scene.defects, bearing),
+        *path_tables(scene.defects, bearing),
         scene.load.vector / units,
         active,
         *bearing.contact_numbers,

@@ -40,7 +40,7 @@ compiled = njit(cache=True, nogil=True)
 # callers, which made marching 2.4 times as fast
 inlined = njit(cache=True, nogil=True, inline="always")
 
-# Columns of the rows that describe defects to `ball_path` (see Defect.path_row):
+# Columns of the rows that describe defects to `ball_path` (see defect.path_tables):
 PATH_COLUMNS = (
     "center",
     "turn_ratio",
@@ -50,8 +50,10 @@ PATH_COLUMNS = (
     "edge",
     "raceway_radius",
     "ball_radius",
+    "table_start",
+    "table_size",
 )
-PUBLISHED, CHORD, EXACT, INNER_EXACT = 0, 1, 2, 3
+PUBLISHED, CHORD, EXACT, INNER_EXACT, TABLE = 0, 1, 2, 3, 4
 
 # What became of a cage angle; the sentences are in equilibrium.py:
 CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
@@ -102,40 +104,44 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
 
 
 @compiled
-def fall(angle, cage_angle, rows):
+def fall(angle, cage_angle, rows, tables):
     """Drop [m] of a ball at `angle` and its derivative with the cage's turning [m/rad].
 
-    Of several defects of one race the deepest counts; drops into both races add.
+    Defects of one race do not overlap here (those that do share a table); drops into both races
+    add.
     """
-    outer = 0.0
-    outer_slope = 0.0
-    inner = 0.0
-    inner_slope = 0.0
+    total = 0.0
+    total_slope = 0.0
     for i in range(rows.shape[0]):
         turn = rows[i, 1]
+        half = rows[i, 2]
         x = angle - rows[i, 0] - turn * cage_angle
         x -= 2.0 * math.pi * math.floor(x / (2.0 * math.pi) + 0.5)
-        if abs(x) > rows[i, 2]:
+        if abs(x) > half:
             continue
-        drop, slope = drop_and_slope(
-            x, rows[i, 2], rows[i, 3], rows[i, 4], rows[i, 5], rows[i, 6], rows[i, 7]
-        )
-        if turn == 0.0:
-            if drop > outer:
-                outer = drop
-                outer_slope = slope
-        elif drop > inner:
-            inner = drop
-            inner_slope = slope * (1.0 - turn)
-    return outer + inner, outer_slope + inner_slope
+        if rows[i, 5] == TABLE:
+            start = int(rows[i, 8])
+            cells = int(rows[i, 9]) - 1
+            at = (x + half) / (2.0 * half) * cells
+            k = min(int(at), cells - 1)
+            rise = tables[start + k + 1] - tables[start + k]
+            drop = tables[start + k] + (at - k) * rise
+            slope = rise * cells / (2.0 * half)
+        else:
+            drop, slope = drop_and_slope(
+                x, half, rows[i, 3], rows[i, 4], rows[i, 5], rows[i, 6], rows[i, 7]
+            )
+        total += drop
+        total_slope += slope * (1.0 - turn)
+    return total, total_slope
 
 
 @compiled
-def ball_path(ball_angles, cage_angles, rows):
+def ball_path(ball_angles, cage_angles, rows, tables):
     """Drop [m] at every ball angle, with the cage at the angle of the same index; shapes (n,)."""
     drops = np.empty(ball_angles.size)
     for i in range(ball_angles.size):
-        drops[i], _ = fall(ball_angles[i], cage_angles[i], rows)
+        drops[i], _ = fall(ball_angles[i], cage_angles[i], rows, tables)
     return drops
 
 
@@ -376,7 +382,7 @@ def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial)
 
 
 @compiled
-def static_states(cage_angles, rows, F, active, n_balls, ca, sa, A0, rL, K):
+def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL, K):
     """Static equilibrium at each cage angle, each started from those before it.
 
     Returns q (n, 5), ball loads (n, n_balls), stiffness (n, 5, 5), loaded balls, status, residual,
@@ -420,7 +426,7 @@ def static_states(cage_angles, rows, F, active, n_balls, ca, sa, A0, rL, K):
             s[j] = cage_s * ball_c[j] + cage_c * ball_s[j]
         if rows.shape[0] > 0:
             for j in range(n_balls):
-                d[j], _ = fall(cage + 2.0 * math.pi / n_balls * j, cage, rows)
+                d[j], _ = fall(cage + 2.0 * math.pi / n_balls * j, cage, rows, tables)
         if k > 0 and status[k - 1] >= NOT_CARRIED:
             for i in active:
                 state[i] = reach * F[i] / size
@@ -456,13 +462,13 @@ def static_states(cage_angles, rows, F, active, n_balls, ca, sa, A0, rL, K):
 
 
 @compiled
-def contact_angles(cage_angles, rows, q, n_balls, ca, sa, A0, rL):
+def contact_angles(cage_angles, rows, tables, q, n_balls, ca, sa, A0, rL):
     """Loaded contact angle α_j (n, n_balls) [rad] (Eq. 14) at states q; NaN at gaps."""
     angles = np.full((cage_angles.size, n_balls), math.nan)
     for k in range(cage_angles.size):
         for j in range(n_balls):
             phi = cage_angles[k] + 2.0 * math.pi / n_balls * j
-            d, _ = fall(phi, cage_angles[k], rows)
+            d, _ = fall(phi, cage_angles[k], rows, tables)
             c = math.cos(phi)
             s = math.sin(phi)
             r = q[k, 0] * c + q[k, 1] * s - rL
@@ -480,7 +486,7 @@ GEOMETRY_BLOCK = 256
 
 
 @compiled
-def lay_out_balls(start, turn, n, cage_speed, rows, ball_c, ball_s, c, s, d, d_rate):
+def lay_out_balls(start, turn, n, cage_speed, rows, tables, ball_c, ball_s, c, s, d, d_rate):
     """Cosine, sine, drop [m] and rate of drop [m/s] of each ball at n cage angles start + i·turn.
 
     Arrays (n or more, n_balls). The cage is turned by recurrence and each ball stands at a fixed
@@ -513,7 +519,7 @@ def lay_out_balls(start, turn, n, cage_speed, rows, ball_c, ball_s, c, s, d, d_r
             end = min(begin + 2.0 * rows[k, 2] / spacing, ball + n_balls - 0.5)
             while ball <= end:
                 j = int(ball) % n_balls
-                d[i, j], slope = fall(cage + spacing * ball, cage, rows)
+                d[i, j], slope = fall(cage + spacing * ball, cage, rows, tables)
                 d_rate[i, j] = slope * cage_speed
                 ball += 1.0
 
@@ -599,7 +605,7 @@ def flat_accelerations(
 
 @compiled
 def march_flat(
-    y, n_steps, h, start_angle, cage_speed, rows, F, mi, mo, ko, co,
+    y, n_steps, h, start_angle, cage_speed, rows, tables, F, mi, mo, ko, co,
     n_balls, rL, K, damping, pull, history,
 ):
     """`march` for x and y at α0 = 0, the state in eight scalars: three times as fast, the same law.
@@ -624,7 +630,7 @@ def march_flat(
         if i == 0:
             count = min(GEOMETRY_BLOCK, 2 * (n_steps - step)) + 1
             angle = start_angle + 2 * step * half_turn
-            lay_out_balls(angle, half_turn, count, w, rows, ball_c, ball_s, c, s, d, dr)
+            lay_out_balls(angle, half_turn, count, w, rows, tables, ball_c, ball_s, c, s, d, dr)
             if not math.isfinite(xi0 + xi1 + vi0 + vi1 + xo0 + xo1 + vo0 + vo1):
                 return max(step - GEOMETRY_BLOCK // 2, 0)
         ai0, ai1, ao0, ao1 = flat_accelerations(
@@ -710,7 +716,7 @@ def rate_of_change(
 
 @compiled
 def march(
-    y, n_steps, h, start_angle, cage_speed, rows, F, active, mi, mo, ko, co,
+    y, n_steps, h, start_angle, cage_speed, rows, tables, F, active, mi, mo, ko, co,
     n_balls, ca, sa, A0, rL, K, damping, pull, history,
 ):
     """Classical Runge-Kutta steps of order 4 from y (4 n,), which is moved to the end.
@@ -744,7 +750,7 @@ def march(
             count = min(GEOMETRY_BLOCK, 2 * (n_steps - step)) + 1
             angle = start_angle + 2 * step * half_turn
             lay_out_balls(
-                angle, half_turn, count, cage_speed, rows, ball_c, ball_s, c, s, d, d_rate
+                angle, half_turn, count, cage_speed, rows, tables, ball_c, ball_s, c, s, d, d_rate
             )
             for r in range(4 * n):
                 if not math.isfinite(y[r]):
@@ -817,7 +823,7 @@ def between_steps(history, body, weights, out):
 
 
 @compiled
-def elastic_ball_loads(x, active, start_angle, turn, rows, n_balls, ca, sa, A0, rL, K):
+def elastic_ball_loads(x, active, start_angle, turn, rows, tables, n_balls, ca, sa, A0, rL, K):
     """K δ^1.5 (n, n_balls) [N] (Eq. 13) at displacements x (n, len(active)) [m], tilts times r_d.
 
     The cage stands at start_angle + k·turn at row k.
@@ -836,7 +842,7 @@ def elastic_ball_loads(x, active, start_angle, turn, rows, n_balls, ca, sa, A0, 
         i = k % GEOMETRY_BLOCK
         if i == 0:
             lay_out_balls(
-                start_angle + k * turn, turn, min(GEOMETRY_BLOCK, n - k), 1.0, rows,
+                start_angle + k * turn, turn, min(GEOMETRY_BLOCK, n - k), 1.0, rows, tables,
                 ball_c, ball_s, c, s, d, d_rate,
             )
         for a in range(active.size):

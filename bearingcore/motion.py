@@ -12,7 +12,7 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bearingcore import checks, kernels
-from bearingcore.defect import path_rows
+from bearingcore.defect import path_tables
 from bearingcore.equilibrium import equilibrium
 from bearingcore.modes import contact_damping, highest_natural_frequency
 from bearingcore.scene import DOF_NAMES, Scene
@@ -180,7 +180,7 @@ def simulate(
     active = np.array([DOF_NAMES.index(name) for name in dofs])
     start = equilibrium(scene, [0.0], dofs)
     history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
-    rows = path_rows(scene.defects, scene.bearing)
+    paths = path_tables(scene.defects, scene.bearing)
     if start.status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
         history[:] = math.nan
         done, status = 0, f"no static state to start from: {start.reason(0)}"
@@ -191,7 +191,7 @@ def simulate(
         flat = dofs == DOF_NAMES[:2] and scene.bearing.contact_angle == 0.0
         h = 1.0 / step_rate
         pull = scene.contact_law == "published"
-        common = (y.ravel(), max(n_steps, 1), h, 0.0, scene.cage_speed, rows)
+        common = (y.ravel(), max(n_steps, 1), h, 0.0, scene.cage_speed, *paths)
         n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
         c = contact_damping(scene)
         if flat:
@@ -212,7 +212,7 @@ def simulate(
         )
         turn = scene.cage_speed / sample_rate
         loads = kernels.elastic_ball_loads(
-            inner - outer, active, 0.0, turn, rows, *scene.bearing.contact_numbers
+            inner - outer, active, 0.0, turn, *paths, *scene.bearing.contact_numbers
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
     return Motion(

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore import checks, kernels
-from bearingcore.defect import RACES, path_rows
+from bearingcore import checks
+from bearingcore.defect import RACES, drop_into
 from bearingcore.scene import Scene
 
 TWO_PI = 2.0 * math.pi
@@ -39,11 +39,7 @@ def ball_drop(
     if race is not None:
         checks.choice("race", race, RACES)
     defects = tuple(d for d in scene.defects if race is None or d.race == race)
-    angles, cage = np.broadcast_arrays(
-        np.asarray(ball_angle, dtype=float), np.asarray(cage_angle, dtype=float)
-    )
-    rows = path_rows(defects, scene.bearing)
-    return kernels.ball_path(angles.ravel(), cage.ravel(), rows).reshape(angles.shape)
+    return drop_into(defects, scene.bearing, ball_angle, cage_angle)
 
 
 def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bearingcore import checks
 from bearingcore.bearing import Bearing
-from bearingcore.defect import Defect
+from bearingcore.defect import Defect, path_tables
 
 DOF_NAMES = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
@@ -166,7 +166,9 @@ class Scene:
         for defect in self.defects:
             if not isinstance(defect, Defect):
                 raise checks.refuse("defect", defect, "a Defect or a tuple of them")
-            defect.path_row(self.bearing)  # refuses a depth that this bearing cannot have
+            defect.check_depth(self.bearing)
+        if len(self.defects) > 1:
+            path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
 
     @property
     def defects(self) -> tuple[Defect, ...]:

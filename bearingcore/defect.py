@@ -20,7 +20,6 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage
 
 from bearingcore import checks, kernels
 from bearingcore.bearing import Bearing
@@ -318,6 +317,8 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray
     race, drop is that of the edge model, so that a square slot gives the edge model back. What is
     neglected is of the order of depth over raceway radius.
     """
+    from scipy import ndimage  # imported late: it would double the time to import this package
+
     half = 0.5 * defect.extent
     angle = _nodes(half)
     step = angle[1] - angle[0]

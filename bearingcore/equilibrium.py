@@ -9,7 +9,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linprog
 
 from bearingcore import checks, kernels
 from bearingcore.defect import path_tables
@@ -238,6 +237,10 @@ def _runs_away(
     the most work F·w over |w_i| ≤ 1 with (motion across the line)_j = 0 and
     (motion along the line)_j ≤ 0.
     """
+    from scipy.optimize import (
+        linprog,
+    )  # imported late: it would double the time to import this package
+
     bearing = scene.bearing
     phi = cage_angle + bearing.ball_spacing * np.arange(bearing.n_balls)
     zero, one = np.zeros_like(phi), np.ones_like(phi)

@@ -16,7 +16,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage
 
 from bearingcore import checks
 
@@ -69,6 +68,8 @@ class RoughFloor:
 @lru_cache(maxsize=16)
 def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
+    from scipy import ndimage  # imported late: it would double the time to import this package
+
     # correlation exp(−(x/l)²) comes from white noise smoothed by a Gaussian of σ = l/2
     sigma = 0.5 * SAMPLES_A_LENGTH
     margin = math.ceil(5.0 * sigma)

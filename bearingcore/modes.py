@@ -8,7 +8,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linear_sum_assignment
 
 from bearingcore.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.scene import DOF_NAMES, Scene
@@ -192,6 +191,15 @@ def contact_damping(scene: Scene) -> float:
     return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
 
 
+def _assignment(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
+    from scipy.optimize import (
+        linear_sum_assignment,
+    )  # imported late: it would double the time to import this package
+
+    return np.asarray(linear_sum_assignment(-likeness)[1])
+
+
 def _matched(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
     """(n, m) which column belongs to each row of likeness (n, m, columns), none taken twice.
 
@@ -201,7 +209,7 @@ def _matched(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
     best = likeness.argmax(axis=2)
     clash = (np.diff(np.sort(best, axis=1), axis=1) == 0).any(axis=1)
     for k in np.flatnonzero(clash):
-        _, best[k] = linear_sum_assignment(-likeness[k])
+        best[k] = _assignment(likeness[k])
     return best
 
 
@@ -273,8 +281,7 @@ def _labels(
     nd, m = len(dofs), 2 * len(dofs)
     energy = template**2 * mass  # shares of the kinetic energy
     by_direction = energy[:, :nd] + energy[:, nd:]
-    _, slot = linear_sum_assignment(-np.repeat(by_direction, 2, axis=1))
-    direction = slot // 2
+    direction = _assignment(np.repeat(by_direction, 2, axis=1)) // 2
     label = [""] * m
     for d in range(nd):
         for number, i in enumerate(np.flatnonzero(direction == d), start=1):

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import signal as scipy_signal
 
 from bearingcore import checks
 
@@ -41,6 +40,8 @@ def spectrum(signal: ArrayLike, sample_rate: float, resolution: float = 32.0) ->
     ValueError
         where a sample is not finite, or the signal is shorter than one segment.
     """
+    from scipy.signal import welch  # imported late: it would double the time to import this package
+
     samples = np.asarray(signal, dtype=float)
     rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
@@ -51,5 +52,5 @@ def spectrum(signal: ArrayLike, sample_rate: float, resolution: float = 32.0) ->
         )
     if not np.all(np.isfinite(samples)):
         raise checks.refuse("signal", "not finite everywhere", "finite numbers")
-    frequency, density = scipy_signal.welch(samples, fs=rate, nperseg=segment, axis=0)
+    frequency, density = welch(samples, fs=rate, nperseg=segment, axis=0)
     return Spectrum(frequency, density)

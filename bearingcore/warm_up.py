@@ -9,6 +9,7 @@ from bearingcore.modes import modes
 from bearingcore.motion import simulate
 from bearingcore.presets import presets
 from bearingcore.scene import Scene
+from bearingcore.spectrum import spectrum
 
 
 def warm(report: Callable[[str], object] = print) -> None:
@@ -18,6 +19,7 @@ def warm(report: Callable[[str], object] = print) -> None:
         ("static equilibrium", lambda: modes(fan_rig, [0.0])),
         ("path of the ball", lambda: fan_rig.defects[0].path([0.0], fan_rig.bearing)),
         ("radial motion", lambda: _all_of_a_motion(fan_rig)),
+        ("spectrum", lambda: spectrum([0.0] * 64, 64.0, 1.0)),
         ("motion in five directions", lambda: _all_of_a_motion(angular)),
     )
     for name, task in tasks:

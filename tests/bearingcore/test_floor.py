@@ -42,7 +42,7 @@ def test_two_slots_that_touch_are_one(race, edge, overlap) -> None:
 
 
 def test_a_step_inside_a_defect_holds_the_ball_as_an_edge_does() -> None:
-    """Just inside the deeper half the ball hangs on the step, as deep as that and an edge's drop."""
+    """Just inside the deeper half the ball hangs on the step: the step and an edge's drop."""
     shallow, deep = Defect(0.3, 30e-6, 0.0, edge="exact"), Defect(0.3, 80e-6, 0.3, edge="exact")
     s = 0.005
     alone = Defect(math.pi, BEARING.ball_radius, math.pi / 2, edge="exact")

@@ -11,7 +11,7 @@ right-hand side kinks or jumps and the error of every step size is of the same k
 - each motion is integrated twice, by an explicit Runge-Kutta method of order 8 (scipy DOP853) and
   by a multistep method of variable order (scipy LSODA), both at a relative tolerance of 1e-12;
 - both stop and start afresh at every known event (a ball meets an edge or the floor) and at every
-  found one (a ball touches or leaves), so that each integrates smooth pieces only;
+  found one (a ball touches or leaves), so that each integrates smooth pieces (`event_march.py`);
 - the file says how far the two are apart, and only what both say is a reference.
 
 Contents, for each case in `cases` under the prefix `<case>/`:
@@ -34,19 +34,16 @@ from __future__ import annotations
 import argparse
 import math
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numba
 import numpy as np
+from event_march import apart, integrate, spectrum_of
 from scipy.integrate import DOP853, LSODA
-from scipy.optimize import brentq, root
-from scipy.signal import welch
+from scipy.optimize import root
 
 HERE = Path(__file__).parent
-SAMPLE_RATE = 65536.0
 DURATION = 1.4
 CONTACT_DAMPING = 122.0
 N_BALLS, BALL_RADIUS, CLEARANCE, STIFFNESS = 14, 4e-3, 3e-6, 5453e6
@@ -179,120 +176,33 @@ def static_state(extent: float) -> np.ndarray:
     return np.array([found.x[0], found.x[1] + outer, 0.0, outer, 0.0, 0.0, 0.0, 0.0])
 
 
-@dataclass
-class Trace:
-    """What an integration says, at 65,536 Hz."""
+class FanRig:
+    """The fan rig with a defect of some extent [rad], for `event_march`."""
 
-    state: np.ndarray
-    acceleration: np.ndarray
-    events: int
+    scale = np.repeat([MICRO, MILLI], 4)
 
+    def __init__(self, extent: float, damping: float) -> None:
+        self.extent, self.damping = extent, damping
 
-def integrate(
-    solver: type, extent: float, damping: float, duration: float, tolerance: float
-) -> Trace:
-    """March from event to event; each piece is smooth and is integrated by a fresh solver."""
-    count = round(duration * SAMPLE_RATE) + 1
-    grid = np.arange(count) / SAMPLE_RATE
-    states, accelerations = np.empty((count, 8)), np.empty((count, 2))
-    stops = [*known_events(extent, duration), grid[-1]]
-    t, y, sample, events = 0.0, static_state(extent), 0, 0
-    touching = compressions(0.0, y, where_balls_are(0.0, extent), extent)[0] > 0.0
-    for stop in stops:
-        where = where_balls_are(0.5 * (t + stop), extent)
-        while t < stop:
-            fixed = touching.copy()
+    def start(self) -> np.ndarray:
+        """Rest at the static displacement of cage angle 0."""
+        return static_state(self.extent)
 
-            def slope(
-                t: float, y: np.ndarray, fixed: np.ndarray = fixed, where: np.ndarray = where
-            ) -> np.ndarray:
-                return right_hand_side(t, y, fixed, where, extent, damping)
+    def known_events(self, duration: float) -> list[float]:
+        """Times at which balls meet an edge or the floor."""
+        return known_events(self.extent, duration)
 
-            def make(t: float, y: np.ndarray, end: float, slope: Callable = slope) -> Any:
-                return solver(
-                    slope,
-                    t,
-                    y,
-                    end,
-                    rtol=tolerance,
-                    atol=tolerance,
-                    max_step=1.0 / SAMPLE_RATE,
-                    first_step=min(1e-9, end - t) if end - t > 0 else None,
-                )
+    def where(self, t: float) -> np.ndarray:
+        """Piece of path of each ball."""
+        return where_balls_are(t, self.extent)
 
-            march, ball = make(t, y, stop), -1
-            while march.status == "running":
-                message = march.step()
-                assert march.status != "failed", message
-                dense = march.dense_output()
-                event, ball = earliest(dense, march.t_old, march.t, fixed, where, extent)
-                end = march.t if ball < 0 else event
-                while sample < count and grid[sample] <= end:
-                    now = dense(grid[sample])
-                    states[sample] = now
-                    accelerations[sample] = slope(grid[sample], now)[6:] * MILLI
-                    sample += 1
-                if ball >= 0:
-                    t, y = event, dense(event)
-                    touching[ball] = not touching[ball]
-                    events += 1
-                    break
-            if ball < 0:
-                t, y = march.t, march.y
-    assert sample == count
-    states[:, :4] *= MICRO
-    states[:, 4:] *= MILLI
-    return Trace(states, accelerations, events)
+    def indicator(self, t: float, y: np.ndarray, where: np.ndarray) -> np.ndarray:
+        """Compression: with the published law a ball presses, or pulls, from touch to touch."""
+        return compressions(t, y, where, self.extent)[0]
 
-
-def earliest(
-    dense: Callable[[float], np.ndarray],
-    start: float,
-    end: float,
-    touching: np.ndarray,
-    where: np.ndarray,
-    extent: float,
-) -> tuple[float, int]:
-    """First moment of a step at which a ball touches or leaves, and which; -1 if none does."""
-    sign = np.where(touching, 1.0, -1.0)
-    last = start
-    for part in np.linspace(0.0, 1.0, 5)[1:]:
-        now = end if part == 1.0 else start + part * (end - start)
-        wrong = np.flatnonzero(sign * compressions(now, dense(now), where, extent)[0] < 0.0)
-        if wrong.size:
-            found = []
-            for j in wrong:
-
-                def gap(t: float, j: int = j) -> float:
-                    return sign[j] * compressions(t, dense(t), where, extent)[0][j]
-
-                # at the very start of a piece rounding may have put the ball on the wrong side
-                time_ = brentq(gap, last, now, xtol=1e-16, rtol=1e-15) if gap(last) > 0 else last
-                found.append((time_, int(j)))
-            return min(found)
-        last = now
-    return end, -1
-
-
-def spectrum_of(acceleration: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Welch, Hann, 2048 points, half overlapping [Hz, (m/s²)²/Hz]."""
-    frequency, density = welch(
-        acceleration, SAMPLE_RATE, window="hann", nperseg=2048, noverlap=1024, axis=0
-    )
-    return frequency, density
-
-
-def apart(one: Trace, other: Trace) -> np.ndarray:
-    """Greatest differences of two integrations: displacement, acceleration, spectrum in dB."""
-    swing = np.abs(one.state[:, :4] - one.state[:, :4].mean(axis=0)).max()
-    displacement = np.abs(one.state[:, :4] - other.state[:, :4]).max() / swing
-    size = np.abs(one.acceleration).max()
-    acceleration = np.abs(one.acceleration - other.acceleration).max() / size
-    frequency, mine = spectrum_of(one.acceleration)
-    theirs = spectrum_of(other.acceleration)[1]
-    band = (frequency >= 300.0) & (frequency <= 2100.0)
-    decibel = np.abs(10.0 * np.log10(mine[band] / theirs[band])).max()
-    return np.array([displacement, acceleration, decibel])
+    def slope(self, t: float, y: np.ndarray, pressing: np.ndarray, where: np.ndarray) -> np.ndarray:
+        """Equation (18)."""
+        return right_hand_side(t, y, pressing, where, self.extent, self.damping)
 
 
 def main() -> None:
@@ -308,9 +218,8 @@ def main() -> None:
         for solver in (DOP853, LSODA):
             start = time.perf_counter()
             extent = math.radians(extent_deg)
-            traces.append(
-                integrate(solver, extent, CONTACT_DAMPING, options.duration, options.tolerance)
-            )
+            rig = FanRig(extent, CONTACT_DAMPING)
+            traces.append(integrate(solver, rig, options.duration, options.tolerance))
             print(f"{name} {solver.__name__}: {traces[-1].events} events, "
                   f"{time.perf_counter() - start:.1f} s", flush=True)  # fmt: skip
         agreement = apart(*traces)

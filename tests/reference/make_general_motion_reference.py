@@ -1,0 +1,407 @@
+"""Motion beyond the paper's rig: tilt, axial motion, inner-race defects, contacts that cannot pull.
+
+Writes `general_motion_reference.npz` beside this file, made as `make_motion_reference.py` makes
+its own (two families, restarted at events), from the general contact of Eqs. 7 to 14 with the law
+of Eq. 18 along the loaded line of contact:
+
+    N = K δ^1.5 + c δ̇ where δ > 0; "no tension": never below zero;
+    δ̇ the whole time derivative: rings moving, ball turning with the cage, drop changing.
+
+    python tests/reference/make_general_motion_reference.py    # a minute
+
+Each body has the free directions out of x, y, z, rx, ry; the contacts act between them, the load
+on the inner ring, springs and dampers on the outer one. Contents, under `<case>/`:
+
+- `scene`: a JSON text with everything that goes in [SI, rad];
+- `displacement`, `velocity` (n, 2 free) of inner, then outer ring, and `acceleration` (n, free) of
+  the outer ring, every 32nd sample of 65,536 Hz [m, rad, s];
+- `agreement` of the two families as in `motion_reference.npz`, rotations times the groove centre
+  radius; `events`: balls beginning or ceasing to press, by each family.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+from event_march import apart, integrate
+from make_static_reference import DOFS, FAN_RIG, LIEW_LIM, double_solution, prepare
+from mpmath import mp
+from scipy.integrate import DOP853, LSODA
+from scipy.optimize import brentq
+
+HERE = Path(__file__).parent
+MICRO, MILLI = 1e-6, 1e-3
+KEEP = 32
+PUBLISHED, CHORD, EXACT_OUTER, EXACT_INNER = range(4)
+OUTSIDE, LOW_EDGE, FLOOR, HIGH_EDGE = range(4)
+
+_GYRATION = 1.25e-3
+SUPPORT = {
+    "inner_mass": 2.0,
+    "outer_mass": 3.0,
+    "stiffness_x": 212.2e6,
+    "stiffness_y": 180e6,
+    "stiffness_z": 90e6,
+    "stiffness_rx": 212.2e6 * _GYRATION,
+    "stiffness_ry": 150e6 * _GYRATION,
+    "damping_x": 1648.2,
+    "damping_y": 1200.0,
+    "damping_z": 900.0,
+    "damping_rx": 1648.2 * _GYRATION,
+    "damping_ry": 1100.0 * _GYRATION,
+    "inner_inertia": 2.0 * _GYRATION,
+    "outer_inertia": 3.5 * _GYRATION,
+}
+
+
+def load(**values: float) -> dict[str, float]:
+    """All five, zero where not given [N, N·m]."""
+    return {"fx": 0.0, "fy": 0.0, "fz": 0.0, "mx": 0.0, "my": 0.0, **values}
+
+
+def defect(extent: float, depth: float, center: float, race: str, edge: str) -> dict[str, Any]:
+    """Angles in degrees, depth in µm."""
+    return {
+        "extent": math.radians(extent),
+        "depth": depth * 1e-6,
+        "center": math.radians(center),
+        "race": race,
+        "edge": edge,
+    }
+
+
+CASES: dict[str, dict[str, Any]] = {
+    "five DOFs": {
+        "bearing": LIEW_LIM,
+        "defect": defect(40.0, 50.0, 270.0, "outer", "published"),
+        "load": load(fy=-2000.0, fz=500.0),
+        "shaft_speed": 2.0 * math.pi * 7.0,
+        "contact_damping": 300.0,
+        "contact_law": "published",
+        "dofs": DOFS,
+        "duration": 0.25,
+    },
+    "five DOFs, inner race": {
+        "bearing": LIEW_LIM,
+        "defect": defect(25.0, 20.0, 250.0, "inner", "exact"),
+        "load": load(fx=200.0, fy=-1500.0, fz=700.0, mx=2.0, my=-3.0),
+        "shaft_speed": 2.0 * math.pi * 12.0,
+        "contact_damping": 300.0,
+        "contact_law": "no tension",
+        "dofs": DOFS,
+        "duration": 0.2,
+    },
+    "three DOFs, no tension": {
+        "bearing": {**FAN_RIG, "contact_angle": math.radians(15.0)},
+        "defect": defect(12.9, 50.0, 270.0, "outer", "chord"),
+        "load": load(fy=-100.0, fz=60.0),
+        "shaft_speed": 2.0 * math.pi * 9.0,
+        "contact_damping": 600.0,
+        "contact_law": "no tension",
+        "dofs": ("x", "y", "z"),
+        "duration": 0.25,
+    },
+    "two DOFs, inner race": {
+        "bearing": FAN_RIG,
+        "defect": defect(20.0, 50.0, 250.0, "inner", "chord"),
+        "load": load(fy=-100.0),
+        "shaft_speed": 2.0 * math.pi * 15.0,
+        "contact_damping": 122.0,
+        "contact_law": "published",
+        "dofs": ("x", "y"),
+        "duration": 0.25,
+    },
+    "two DOFs, no tension": {
+        "bearing": FAN_RIG,
+        "defect": defect(12.9, 50.0, 270.0, "outer", "published"),
+        "load": load(fy=-100.0),
+        "shaft_speed": 2.0 * math.pi * 20.0,
+        "contact_damping": 600.0,
+        "contact_law": "no tension",
+        "dofs": ("x", "y"),
+        "duration": 0.25,
+    },
+}
+
+
+@numba.njit
+def edge_drop(s: float, code: int, radius: float, ball_radius: float) -> tuple[float, float]:
+    """Drop [m] and slope [m/rad] at angle s from an edge, smooth past both ends."""
+    if code in (PUBLISHED, CHORD):
+        reach = (0.5 if code == PUBLISHED else 1.0) * radius
+        root = math.sqrt(ball_radius**2 - reach**2 * s**2)
+        return ball_radius - root, reach**2 * s / root
+    c, si = math.cos(s), math.sin(s)
+    root = math.sqrt(ball_radius**2 - radius**2 * si**2)
+    if code == EXACT_OUTER:
+        return radius * c - root - (radius - ball_radius), -radius * si + radius**2 * si * c / root
+    return (radius + ball_radius) - (radius * c + root), radius * si + radius**2 * si * c / root
+
+
+@numba.njit
+def ball(
+    phi: float,
+    cage_speed: float,
+    q: np.ndarray,
+    v: np.ndarray,
+    numbers: np.ndarray,
+    path: np.ndarray,
+    where: int,
+    turn: float,
+) -> tuple[float, float, float, float]:
+    """Compression δ [m], its rate [m/s] and the direction (e_r, e_z) of the line of contact."""
+    alpha, arm, distance, clearance = numbers[0], numbers[1], numbers[2], numbers[3]
+    code, radius, ball_radius = int(path[0]), path[1], path[2]
+    half, depth, center, relative_speed = path[3], path[4], path[5], path[6]
+    d, d_rate = 0.0, 0.0
+    if where == FLOOR:
+        d = depth
+    elif where != OUTSIDE:
+        away = phi - center - turn
+        away -= 2.0 * math.pi * np.rint(away / (2.0 * math.pi))
+        sign = 1.0 if where == LOW_EDGE else -1.0
+        d, slope = edge_drop(half + sign * away, code, radius, ball_radius)
+        d_rate = sign * slope * relative_speed
+    c, s = math.cos(phi), math.sin(phi)
+    u_r, u_z = math.cos(alpha), math.sin(alpha)
+    r = distance * u_r + q[0] * c + q[1] * s - clearance - d * u_r
+    z = distance * u_z + q[2] + arm * (q[3] * s - q[4] * c) - d * u_z
+    r_rate = v[0] * c + v[1] * s + cage_speed * (q[1] * c - q[0] * s) - d_rate * u_r
+    z_rate = v[2] + arm * (v[3] * s - v[4] * c) + arm * cage_speed * (q[3] * c + q[4] * s)
+    z_rate -= d_rate * u_z
+    along, along_rate = r * u_r + z * u_z, r_rate * u_r + z_rate * u_z
+    if along < 0.0:
+        r, z = r - along * u_r, z - along * u_z
+        r_rate, z_rate = r_rate - along_rate * u_r, z_rate - along_rate * u_z
+    a = math.sqrt(r * r + z * z)
+    if a == 0.0:  # a guarded ball without axial displacement: a gap
+        return -distance, 0.0, u_r, u_z
+    return a - distance, (r * r_rate + z * z_rate) / a, r / a, z / a
+
+
+@numba.njit
+def relative(y: np.ndarray, free: np.ndarray, arm: float) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement and velocity of the inner against the outer ring, all five [m, rad, 1/s]."""
+    q, v, m = np.zeros(5), np.zeros(5), len(free)
+    for i in range(m):
+        lever = arm if free[i] >= 3 else 1.0
+        q[free[i]] = (y[i] - y[m + i]) * MICRO / lever
+        v[free[i]] = (y[2 * m + i] - y[3 * m + i]) * MILLI / lever
+    return q, v
+
+
+@numba.njit
+def press(
+    t: float,
+    y: np.ndarray,
+    free: np.ndarray,
+    numbers: np.ndarray,
+    path: np.ndarray,
+    where: np.ndarray,
+    no_tension: bool,
+) -> np.ndarray:
+    """Positive for balls that press: compression in µm, and with it the force in N."""
+    q, v = relative(y, free, numbers[1])
+    out = np.empty(len(where))
+    for j in range(len(where)):
+        phi = numbers[6] * t + 2.0 * math.pi * j / len(where)
+        delta, rate, _, _ = ball(phi, numbers[6], q, v, numbers, path, where[j], path[7] * t)
+        out[j] = delta / MICRO
+        if no_tension:
+            force = numbers[5] * rate
+            if delta > 0.0:
+                force += numbers[4] * delta * math.sqrt(delta)
+            out[j] = min(out[j], force)
+    return out
+
+
+@numba.njit
+def right_hand_side(
+    t: float,
+    y: np.ndarray,
+    free: np.ndarray,
+    numbers: np.ndarray,
+    path: np.ndarray,
+    where: np.ndarray,
+    pressing: np.ndarray,
+    bodies: np.ndarray,
+    force: np.ndarray,
+) -> np.ndarray:
+    """Equation (18) with the set of pressing balls held; `bodies`: m_i, m_o, k_o, c_o by DOF."""
+    arm = numbers[1]
+    q, v = relative(y, free, arm)
+    sums = np.zeros(5)
+    for j in range(len(where)):
+        if not pressing[j]:
+            continue
+        phi = numbers[6] * t + 2.0 * math.pi * j / len(where)
+        delta, rate, e_r, e_z = ball(phi, numbers[6], q, v, numbers, path, where[j], path[7] * t)
+        push = numbers[5] * rate
+        if delta > 0.0:
+            push += numbers[4] * delta * math.sqrt(delta)
+        c, s = math.cos(phi), math.sin(phi)
+        sums += push * np.array([e_r * c, e_r * s, e_z, arm * e_z * s, -arm * e_z * c])
+    m = len(free)
+    out = np.empty(4 * m)
+    out[: 2 * m] = y[2 * m :] * (MILLI / MICRO)
+    for i in range(m):
+        k = free[i]
+        lever = arm if k >= 3 else 1.0
+        out[2 * m + i] = (force[k] - sums[k]) / bodies[0, k] * lever / MILLI
+        back = bodies[2, k] * y[m + i] * MICRO + bodies[3, k] * y[3 * m + i] * MILLI
+        out[3 * m + i] = (sums[k] - back / lever) / bodies[1, k] * lever / MILLI
+    return out
+
+
+class General:
+    """A case as a system for `event_march`; rotations are scaled by the groove centre radius."""
+
+    def __init__(self, case: dict[str, Any]) -> None:
+        bearing, cut, support = case["bearing"], case["defect"], SUPPORT
+        self.case = case
+        self.n_balls = bearing["n_balls"]
+        self.free = np.array([DOFS.index(name) for name in case["dofs"]])
+        ratio = bearing["ball_diameter"] / bearing["pitch_diameter"]
+        shaft = case["shaft_speed"]
+        cage = 0.5 * shaft * (1.0 - ratio * math.cos(bearing["contact_angle"]))  # Equation (3)
+        inner = cut["race"] == "inner"
+        code = {"published": PUBLISHED, "chord": CHORD, "exact": EXACT_OUTER}[cut["edge"]]
+        code = EXACT_INNER if inner and code == EXACT_OUTER else code
+        radius = bearing[f"{cut['race']}_raceway_radius"]
+        ball_radius = bearing["ball_diameter"] / 2.0
+        self.relative_speed = cage - shaft if inner else cage
+        self.numbers = np.array(
+            [
+                bearing["contact_angle"],
+                bearing["groove_center_radius"],
+                bearing["groove_center_distance"],
+                bearing["radial_clearance"],
+                bearing["load_deflection_factor"],
+                case["contact_damping"],
+                cage,
+            ]
+        )
+        self.half, depth = cut["extent"] / 2.0, cut["depth"]
+        self.path = np.array(
+            [
+                code,
+                radius,
+                ball_radius,
+                self.half,
+                depth,
+                cut["center"],
+                self.relative_speed,
+                shaft if inner else 0.0,
+            ]
+        )
+        self.arc = brentq(
+            lambda s: edge_drop(s, code, radius, ball_radius)[0] - depth,
+            0.0,
+            0.9 * ball_radius / radius,
+            xtol=1e-16,
+            rtol=1e-15,
+        )
+        assert self.arc < self.half
+        self.no_tension = case["contact_law"] == "no tension"
+        mass = ["mass"] * 3 + ["inertia"] * 2
+        self.bodies = np.array(
+            [
+                [support[f"inner_{kind}"] for kind in mass],
+                [support[f"outer_{kind}"] for kind in mass],
+                [support[f"stiffness_{dof}"] for dof in DOFS],
+                [support[f"damping_{dof}"] for dof in DOFS],
+            ]
+        )
+        self.force = np.array([case["load"][key] for key in ("fx", "fy", "fz", "mx", "my")])
+        self.levers = np.where(self.free >= 3, bearing["groove_center_radius"], 1.0)
+        self.scale = np.concatenate(
+            [MICRO / np.tile(self.levers, 2), MILLI / np.tile(self.levers, 2)]
+        )
+
+    def away(self, t: float, ball_: int) -> float:
+        """Angle of a ball from the middle of the defect, not wrapped."""
+        start = 2.0 * math.pi * ball_ / self.n_balls - self.case["defect"]["center"]
+        return start + self.relative_speed * t
+
+    def boundaries(self) -> list[float]:
+        """Angles from the middle at which pieces of path begin."""
+        return [-self.half, -self.half + self.arc, self.half - self.arc, self.half]
+
+    def known_events(self, duration: float) -> list[float]:
+        """Times at which balls meet an edge or the floor."""
+        turns = int(abs(self.relative_speed) * duration / (2.0 * math.pi)) + 2
+        times = {
+            (edge + 2.0 * math.pi * k - self.away(0.0, j)) / self.relative_speed
+            for edge in self.boundaries()
+            for j in range(self.n_balls)
+            for k in range(-turns - 1, turns + 2)
+        }
+        inside = sorted(t for t in times if 1e-9 < t < duration)
+        # two balls may meet edges at one time but for rounding
+        return [t for t, after in zip(inside, [*inside[1:], duration], strict=True)
+                if after - t > 1e-12]  # fmt: skip
+
+    def where(self, t: float) -> np.ndarray:
+        """Piece of path of each ball."""
+        pieces = (LOW_EDGE, FLOOR, HIGH_EDGE, OUTSIDE)
+        out = np.zeros(self.n_balls, dtype=np.int64)
+        for j in range(self.n_balls):
+            away = math.remainder(self.away(t, j), 2.0 * math.pi)
+            for edge, piece in zip(self.boundaries(), pieces, strict=True):
+                if away >= edge:
+                    out[j] = piece
+        return out
+
+    def start(self) -> np.ndarray:
+        """Rest at the static state of cage angle 0."""
+        with mp.workdps(20):
+            ready = prepare({**self.case, "cage_angle": 0.0})
+            q = double_solution(ready, list(self.free), np.zeros(5))[self.free]
+        outer = (self.force / self.bodies[2])[self.free]
+        y = np.concatenate([q + outer, outer]) * np.tile(self.levers, 2) / MICRO
+        return np.concatenate([y, np.zeros_like(y)])
+
+    def indicator(self, t: float, y: np.ndarray, where: np.ndarray) -> np.ndarray:
+        """See `press`."""
+        return press(t, y, self.free, self.numbers, self.path, where, self.no_tension)
+
+    def slope(self, t: float, y: np.ndarray, pressing: np.ndarray, where: np.ndarray) -> np.ndarray:
+        """See `right_hand_side`."""
+        return right_hand_side(
+            t, y, self.free, self.numbers, self.path, where, pressing, self.bodies, self.force
+        )
+
+
+def main() -> None:
+    """Integrate all cases by both families and store what they agree on."""
+    stored: dict[str, Any] = {"cases": np.array(list(CASES))}
+    for name, case in CASES.items():
+        system, traces = General(case), []
+        for solver in (DOP853, LSODA):
+            began = time.perf_counter()
+            traces.append(integrate(solver, system, case["duration"], 1e-12))
+            print(f"{name}, {solver.__name__}: {traces[-1].events} events, "
+                  f"{time.perf_counter() - began:.1f} s", flush=True)  # fmt: skip
+        agreement = apart(*traces, units=system.levers)
+        print(f"{name}: apart by {agreement[0]:.1e} (displacement), {agreement[1]:.1e} "
+              f"(acceleration), {agreement[2]:.1e} dB", flush=True)  # fmt: skip
+        best, both = traces[0], 2 * len(system.free)
+        stored |= {
+            f"{name}/scene": np.array(json.dumps({**case, "support": SUPPORT})),
+            f"{name}/displacement": best.state[::KEEP, :both],
+            f"{name}/velocity": best.state[::KEEP, both:],
+            f"{name}/acceleration": best.acceleration[::KEEP],
+            f"{name}/agreement": agreement,
+            f"{name}/events": np.array([trace.events for trace in traces]),
+        }
+    np.savez_compressed(HERE / "general_motion_reference.npz", **stored)
+
+
+if __name__ == "__main__":
+    main()

@@ -139,17 +139,15 @@ def least_and_greatest(
     if n <= 2 * parts:
         return np.arange(n), values
     size = math.ceil(n / parts)
-    whole = n // size
-    blocks = values[: whole * size].reshape(whole, size, -1)
+    count = math.ceil(n / size)
+    full = np.concatenate([values, np.repeat(values[-1:], count * size - n, axis=0)])
+    blocks = full.reshape(count, size, -1)
     least, greatest = blocks.min(axis=1), blocks.max(axis=1)
     rising = blocks.argmin(axis=1) <= blocks.argmax(axis=1)
-    kept = np.empty((whole, 2, values.shape[1]))
+    kept = np.empty((count, 2, values.shape[1]))
     kept[:, 0] = np.where(rising, least, greatest)
     kept[:, 1] = np.where(rising, greatest, least)
-    starts = np.arange(whole) * size
-    rows = np.stack([starts, starts + size - 1], axis=1).ravel()
-    rest = values[whole * size :]
-    return (
-        np.concatenate([rows, np.arange(whole * size, n)]),
-        np.concatenate([kept.reshape(2 * whole, -1), rest]),
-    )
+    starts = np.arange(count) * size
+    rows = np.stack([starts, np.minimum(starts + size, n) - 1], axis=1).ravel()
+    length = 2 * count - int(rows[-1] == rows[-2])  # a last stretch of one row
+    return rows[:length], kept.reshape(2 * count, -1)[:length]

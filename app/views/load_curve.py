@@ -15,6 +15,7 @@ Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 TWO_PI = 2.0 * math.pi
 BINS = 720
+SAME_PLACE = 1e-9  # [rad]
 
 
 def load_curve(equilibrium: Equilibrium) -> Curve:
@@ -25,11 +26,15 @@ def load_curve(equilibrium: Equilibrium) -> Curve:
     degree is given.
     """
     angle = np.mod(equilibrium.ball_angle, TWO_PI).ravel()
+    angle[angle > TWO_PI - SAME_PLACE] = 0.0
     load = equilibrium.ball_load.ravel()
     if any(defect.race == "inner" for defect in equilibrium.scene.defects):
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")
     angle, load = angle[order], load[order]
+    # where a ball ends a cage turn of one spacing, the next ball began it
+    new = np.diff(angle, prepend=-1.0) > SAME_PLACE
+    angle, load = angle[new], load[new]
     # the ends of the turn are the same place: both belong to the curve
     return (
         np.concatenate([[angle[-1] - TWO_PI], angle, [angle[0] + TWO_PI]]),

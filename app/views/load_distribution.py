@@ -100,9 +100,8 @@ class LoadDistribution(View):
 
     def sentence(self, results: Results) -> str:
         angle, load = load_curve(results.equilibrium)
-        if not np.isfinite(load).any():
-            reason = results.equilibrium.reason(0)
-            return f"There is no load distribution to show: {reason}."
+        if not results.equilibrium.converged.any():
+            return f"There is no load distribution: {results.equilibrium.reason(0)}."
         most = int(np.nanargmax(load))
         words = (
             f"A ball carries most, {figures.with_prefix(load[most], 'N')}, at "

@@ -63,7 +63,7 @@ class VibrationSpectra(View):
             color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
             self._shade_bands(plot, wire, dof, color)
             marks.append(
-                plot.vspan("frequency", source=passes, line_color=figures.DEFECT, line_alpha=0.5)
+                plot.vspan("frequency", source=passes, line_color=figures.DEFECT, line_alpha=0.4)
             )
             marks.append(self._name_pass(plot, first))
             plot.line("frequency", dof, source=sound, line_color=figures.SOUND, line_width=1.5)

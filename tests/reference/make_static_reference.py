@@ -165,7 +165,27 @@ def scenes() -> list[dict[str, Any]]:
         case("heavy", ll, {**NO_LOAD, "fx": 4e3, "fy": -20e3, "fz": 9e3, "mx": 30.0, "my": 40.0},
              17.0, 45.0, 500.0, 285.0),
     ]  # fmt: skip
-    return cases + random_scenes(12)
+    return cases + edge_scenes() + random_scenes(12)
+
+
+def edge_scenes() -> list[dict[str, Any]]:
+    """A loaded ball a little way into either edge, each edge model on each race."""
+    cases = []
+    ratio = LIEW_LIM["ball_diameter"] * math.cos(LIEW_LIM["contact_angle"])
+    turns = 2.0 / (1.0 - ratio / LIEW_LIM["pitch_diameter"])
+    for race in ("outer", "inner"):
+        for edge, into_deg in (("published", 0.9), ("chord", 0.45), ("exact", 0.5)):
+            for side, cage_deg in ((-1.0, 13.0), (1.0, -400.0)):
+                ball_deg = cage_deg % 30.0 + 240.0  # one of the twelve is there
+                middle = ball_deg - side * (20.0 - into_deg)
+                if race == "inner":
+                    middle -= cage_deg * turns
+                which = "lower" if side < 0.0 else "upper"
+                name = f"{race} {edge}, ball {into_deg} deg into the {which} edge"
+                cases.append(
+                    case(name, LIEW_LIM, LIEW_LIM_LOAD, cage_deg, 40.0, 50.0, middle, race, edge)
+                )
+    return cases
 
 
 def random_scenes(count: int) -> list[dict[str, Any]]:

@@ -49,14 +49,14 @@ def pieces(span: Span) -> list[tuple[float, float]]:
     return [(span.start, TWO_PI), (0.0, end - TWO_PI)]
 
 
-def slot_depth(found: list[Span], race: str, angle: ArrayLike) -> NDArray[np.float64]:
-    """Depth [m] of what is missing from `race` at the angles [rad]: the square floor, no edges."""
+def race_depth(scene: Scene, cage_angle: float, race: str, angle: ArrayLike) -> NDArray[np.float64]:
+    """Depth [m] of what is missing from `race` at the angles [rad], the floor as it was cut."""
     angles = np.asarray(angle, dtype=float)
     depth = np.zeros_like(angles)
-    for span in found:
-        if span.race == race:
-            inside = (angles - span.start) % TWO_PI <= span.extent
-            depth = np.where(inside, np.maximum(depth, span.depth), depth)
+    for defect in scene.defects:
+        if defect.race == race:
+            turned = angles - defect.turn_ratio(scene.bearing) * cage_angle
+            depth = np.maximum(depth, defect.surface(turned, scene.bearing))
     return depth
 
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.defect_shape import slot_depth, spans
+from app.defect_shape import race_depth, spans
 from bearingcore import Scene
 from bearingcore.passes import ball_drop
 
 TWO_PI = 2.0 * math.pi
-POINTS = 361
+POINTS = 721
 MARGIN = 0.35  # of the extent, on either side
 LEAST_WIDTH = math.radians(12.0)
 
@@ -54,6 +54,6 @@ def profile(scene: Scene, cage_angle: float) -> Profile:
     return Profile(
         first.race,
         angle,
-        slot_depth(found, first.race, angle),
+        race_depth(scene, cage_angle, first.race, angle),
         ball_drop(scene, angle, cage_angle, first.race),
     )

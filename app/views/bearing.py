@@ -11,7 +11,7 @@ from bokeh.palettes import magma
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from app.defect_shape import race_angles, slot_depth, spans
+from app.defect_shape import race_angles, race_depth, spans
 from app.views import figures
 from app.views.base import Ranges, Sources, View
 from app.views.load_curve import load_curve
@@ -334,7 +334,7 @@ class Shapes:
     def _race(self, race: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Angle and radius along a race with its defects, exaggerated."""
         angle = race_angles(self.spans, race)
-        depth = self._drawn(slot_depth(self.spans, race, angle))
+        depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle))
         return angle, 1.0 + depth if race == "outer" else self.inner_race - depth
 
     def rings(self) -> dict[str, np.ndarray]:
@@ -361,17 +361,22 @@ class Shapes:
         parts = []
         for span in self.spans:
             angle = np.linspace(span.start, span.start + span.extent, 121)
-            race = np.full_like(angle, 1.0 if span.race == "outer" else self.inner_race)
-            drawn = self._drawn(np.array(span.depth)) * (1.0 if span.race == "outer" else -1.0)
+            race, outwards = (1.0, 1.0) if span.race == "outer" else (self.inner_race, -1.0)
+            inside = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
+            depth = race_depth(self.scene, self.cage_angle, span.race, inside)
+            floor = race + outwards * self._drawn(depth)
             parts.append(
-                (np.concatenate([angle, angle[::-1]]), np.concatenate([race, race + drawn]))
+                (
+                    np.concatenate([angle, angle[::-1]]),
+                    np.concatenate([np.full_like(angle, race), floor[::-1]]),
+                )
             )
         return polar(*parts)
 
     def angle_marks(self) -> dict[str, np.ndarray]:
         """0°, 90°, 180° and 270° on the outer ring."""
         degrees = np.array([0.0, 90.0, 180.0, 270.0])
-        deepest = self._drawn(slot_depth(self.spans, "outer", np.radians(degrees)))
+        deepest = self._drawn(race_depth(self.scene, self.cage_angle, "outer", np.radians(degrees)))
         radius = 0.5 * (1.0 + deepest + self.rim)
         return {
             "x": radius * np.cos(np.radians(degrees)),

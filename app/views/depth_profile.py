@@ -95,8 +95,14 @@ class DepthProfile(View):
         if not scene.defects:
             return "The race has no defect: the profile is flat."
         defect = scene.defects[0]
-        floor = figures.with_prefix(defect.depth, "m")
         deepest = float(np.max(profile.path))
+        if defect.floor is not None:
+            return (
+                f"The {defect.race}-race defect is {figures.number(np.degrees(defect.extent))}° "
+                f"long and up to {figures.with_prefix(float(np.max(profile.depth)), 'm')} deep; "
+                f"a ball's centre sinks by at most {figures.with_prefix(deepest, 'm')}."
+            )
+        floor = figures.with_prefix(defect.depth, "m")
         reaches = (
             f"a ball reaches its floor of {floor}"
             if deepest >= defect.depth * (1.0 - 1e-9)

@@ -8,7 +8,7 @@ import pytest
 from app.results import Results
 from app.views.depth_profile import DepthProfile
 from app.wire import Wire
-from bearingcore import presets
+from bearingcore import RoughFloor, presets
 
 FAN_RIG = presets["fan-rig"]
 LIEW_LIM = presets["liew-lim"]
@@ -61,3 +61,14 @@ def test_a_sound_race_is_flat() -> None:
     assert not sources["depth_profile_surface"]["depth"].any()
     assert not sources["depth_profile_path"]["drop"].any()
     assert "no defect" in view.sentence(results)
+
+
+def test_a_rough_floor_is_drawn_as_it_was_cut_and_balls_roll_over_its_peaks() -> None:
+    floor = RoughFloor(rms_height=5e-6, correlation_length=0.5e-3, seed=3)
+    scene = FAN_RIG.replace(extent=math.radians(38.6), floor=floor)
+    shown = Results(scene).profile
+    inside = np.abs(shown.angle - scene.defects[0].center) < math.radians(15.0)
+    assert np.std(shown.depth[inside]) == pytest.approx(5e-6, rel=0.5)
+    assert np.std(shown.path[inside]) < np.std(shown.depth[inside])
+    assert np.all(shown.path[inside] <= shown.depth[inside] + 1e-7)
+    assert "up to" in DepthProfile(Wire()).sentence(Results(scene))

@@ -146,7 +146,7 @@ def check(c_statics: CStatics, c_motion: CMotion) -> None:
 
 
 def numbers() -> list[Number]:
-    """What design and issue ask for, with everybody who does it."""
+    """What is to be reached, with everybody who does it."""
     c_statics = {name: CStatics(flags) for name, flags in (("C", FLAGS), ("C fast", FAST_MATH))}
     c_motion = {name: CMotion(flags) for name, flags in (("C", FLAGS), ("C fast", FAST_MATH))}
     check(c_statics["C"], c_motion["C"])

@@ -45,6 +45,8 @@ class Excerpt:
         what they carry as they move.
     static_time : (p,) [s], static_load : (p, k) [N]
         what they would carry at rest at each of these instants.
+    greatest_static_load : float [N]
+        of all balls.
     broke_off
         why the motion ended early; empty if it did not.
     """
@@ -57,6 +59,7 @@ class Excerpt:
     ball_load: NDArray[np.float64]
     static_time: NDArray[np.float64]
     static_load: NDArray[np.float64]
+    greatest_static_load: float
     broke_off: str
 
 
@@ -87,6 +90,7 @@ def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
         balls=balls,
         ball_load=np.empty((last - first, 0)) if loads is None else loads[cut][:, balls],
         static_time=static_time - zero,
+        greatest_static_load=float(np.max(np.nan_to_num(static))),
         broke_off="" if motion.completed else motion.status,
         static_load=static[:, balls],
     )

@@ -85,9 +85,14 @@ class BearingDrawing(View):
             high=load.end,
             low_color=IDLE_BALL,
             nan_color=NO_VALUE,
+            syncable=False,
         )
         inks = LinearColorMapper(
-            palette=[figures.INK, "#FFFFFF"], low=0.0, high=load.end, nan_color=figures.INK
+            palette=[figures.INK, "#FFFFFF"],
+            low=0.0,
+            high=load.end,
+            nan_color=figures.INK,
+            syncable=False,
         )
         load.js_on_change(
             "end",

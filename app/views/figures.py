@@ -184,6 +184,7 @@ def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Rang
     setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
     axis.formatter = tick_formatter(quantity, shown)
     if quantity.prefixed:
+        axis.syncable = False  # or each change of its label would be told to the server
         follow = CustomJS(
             args={
                 "axis": axis,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import Checkbox, GlyphRenderer, Range1d
+from bokeh.models import CheckboxGroup, CustomJS, GlyphRenderer, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -69,15 +69,24 @@ class VibrationSpectra(View):
             plot.line("frequency", dof, source=sound, line_color=figures.SOUND, line_width=1.5)
             plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
             plots.append(plot)
-        toggle = Checkbox(
-            label="Mark the ball-pass frequency and its harmonics",
-            active=False,
+        for mark in marks:
+            mark.visible = False
+            mark.syncable = False
+        # a group of one: its box and its words belong together for screen readers and fingers
+        toggle = CheckboxGroup(
+            labels=["Mark the ball-pass frequency and its harmonics"],
+            active=[],
+            syncable=False,
             margin=(4, 5, 8, 5),
             stylesheets=[f":host {{ font-family: {figures.FONT}; font-size: 13px }}"],
         )
-        for mark in marks:
-            mark.visible = False
-            toggle.js_link("active", mark, "visible")
+        toggle.js_on_change(
+            "active",
+            CustomJS(
+                args={"marks": marks},
+                code="for (const mark of marks) mark.visible = cb_obj.active.length > 0",
+            ),
+        )
         return pn.Column(toggle, *plots, sizing_mode="stretch_width", margin=0)
 
     def _shade_bands(self, plot: figure, wire: Wire, dof: str, color: str) -> None:

@@ -25,6 +25,7 @@ PIXELS = 500  # stretches of a line that are kept apart
 SHOWN = ("x", "y")
 SLOTS = len(figures.BALL_COLORS)
 LABEL_WIDTH = 0.24  # of the width of the figure: "ball 12 leaves" on a narrow one
+NAME_WIDTH = 0.17
 ROW_HEIGHT = 0.065  # of its height
 EVENT_ROWS = 3
 
@@ -82,11 +83,11 @@ class VibrationInTime(View):
         )
 
     def _label_events(self, plot: figure, events: ColumnDataSource) -> None:
-        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
             "label_from",
             "label_at",
-            y_range_name="rows",
+            y_range_name="shares",
             text=figures.words_of(events, _EVENT_WORDS),
             source=events,
             x_offset=4,
@@ -106,14 +107,17 @@ class VibrationInTime(View):
             plot.line(
                 "time", f"load{i}", source=moving, line_color=color, line_width=2.0, line_alpha=0.9
             )
-        names = wire.source("vibration_ball_names", "time", "load", "ball", "slot")
+        names = wire.source("vibration_ball_names", "from", "at", "ball", "slot")
+        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
+        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
-            "time",
-            "load",
+            "from",
+            "at",
+            x_range_name="shares",
+            y_range_name="shares",
             text=figures.words_of(names, "return `ball ${row.ball}`"),
             source=names,
-            y_offset=-5,
-            text_align="center",
+            text_baseline="middle",
             text_font={"value": figures.FONT},
             text_font_size=figures.SMALL_TEXT_SIZE,
             text_color={
@@ -152,7 +156,9 @@ class VibrationInTime(View):
         ranges = {
             "vibration_time": (start, end),
             "vibration_acceleration": self._acceleration.fit(greatest * room),
-            "vibration_load": self._load.fit(shown.ball_load * 1.12, shown.static_load),
+            "vibration_load": self._load.fit(
+                1.2 * np.append(shown.ball_load.ravel(), shown.greatest_static_load)
+            ),
         }
         return sources, ranges
 
@@ -208,18 +214,14 @@ def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
 
 
 def ball_names(shown: Excerpt) -> dict[str, np.ndarray]:
-    """Where the name of each ball stands: over the highest point of its curve."""
-    loads, balls = shown.ball_load[:, :SLOTS], shown.balls[:SLOTS]
-    if not balls.size:
-        empty = np.empty(0)
-        return {"time": empty, "load": empty, "ball": empty, "slot": empty}
-    inner = slice(shown.time.size // 12, -shown.time.size // 12)  # a name must not be cut off
-    at = np.argmax(np.nan_to_num(loads[inner], nan=-1.0), axis=0)
+    """The names of the balls beside each other, shares of the figure's width and height."""
+    balls = shown.balls[:SLOTS]
+    slots = np.arange(float(balls.size))
     return {
-        "time": shown.time[inner][at],
-        "load": np.take_along_axis(loads[inner], at[None, :], axis=0)[0],
+        "from": 0.02 + NAME_WIDTH * slots,
+        "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
         "ball": balls + 1.0,
-        "slot": np.arange(balls.size),
+        "slot": slots,
     }
 
 

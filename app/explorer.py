@@ -14,7 +14,7 @@ import panel as pn
 from app.assets import asset_text
 from app.controls import Controls
 from app.live import LatestWins, in_thread, one_message, send_at_once
-from app.quantities import CAGE_ANGLE, Values, limits_of, read, scene_with, values_of
+from app.quantities import CAGE_ANGLE, Limits, Values, limits_of, read, scene_with, values_of
 from app.results import Results
 from app.views.base import Ranges, Sources, View
 from app.views.status import StatusLine, Tabs, status_of
@@ -58,6 +58,14 @@ class Drawing:
     sentence: str
 
 
+@dataclass(frozen=True)
+class Picture:
+    """What some views have to say, and how the computation went."""
+
+    drawings: list[Drawing]
+    status: dict[str, Any]
+
+
 class Explorer:
     """A session. `page.py` puts its parts on a page; the browser's messages arrive here."""
 
@@ -73,8 +81,12 @@ class Explorer:
         self._doc = pn.state.curdoc
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
 
-        self.values: Values = {}
-        self._refused: set[str] = set()
+        self.values: Values
+        self.scene: Scene
+        self._base: Scene
+        self._edge: str
+        self._limits: dict[str, Limits]
+        self._refused: set[str]
         self._take_preset(preset)
         self.controls = Controls(self._asked)
         self.controls.state = self._state()
@@ -205,54 +217,56 @@ class Explorer:
         started = time.perf_counter()
         results = Results(inputs.scene, inputs.cage_angle)
         if self.tabs.active != self._shown:
-            with one_message(self._doc):
-                self._bring(self._shown)
+            await one_message(self._doc, lambda: self._bring(self._shown))
         views = self._views[self._shown]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
-        if slow and self._worker.waiting and self._slow_cost > _HEAVY:
-            overdue = started - self._slow_at > _PATIENCE
-            slow = slow if overdue else []
+        if self._worker.waiting and self._slow_cost > _HEAVY:
+            slow = slow if started - self._slow_at > _PATIENCE else []
 
-        drawings = await in_thread(_drawings, results, quick)
-        status = await in_thread(_status, results, started)
-        if not slow:
-            self._drawn_mark = inputs.mark
-        self._assign(results, drawings, status)
+        if quick or not slow:
+            picture = await in_thread(_picture, results, quick, started)
+            await self._assign(results, picture, None if slow else inputs.mark)
         if slow:
             before = time.perf_counter()
-            drawings = await in_thread(_drawings, results, slow)
+            picture = await in_thread(_picture, results, slow, started)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
-            self._drawn_mark = inputs.mark
-            self._assign(results, drawings, _status(results, started))
+            await self._assign(results, picture, inputs.mark)
 
-    def _assign(
-        self, results: Results, drawings: Sequence[Drawing], status: dict[str, Any]
-    ) -> None:
+    async def _assign(self, results: Results, picture: Picture, mark: int | None) -> None:
+        """Send a picture; `mark` where with it all of these inputs is drawn."""
         sources: Sources = {}
         ranges: Ranges = {}
-        for drawing in drawings:
+        for drawing in picture.drawings:
             if drawing.data is not None:
                 sources |= drawing.data[0]
                 ranges |= drawing.data[1]
-        with one_message(self._doc):
-            self.wire.send(sources, ranges, self._drawn_mark)
-            for drawing in drawings:
-                drawing.view.say(results if drawing.data else None, drawing.sentence)
-            self.status.line = status
+        self._drawn_mark = self._drawn_mark if mark is None else mark
 
-    def _failed(self, error: Exception) -> None:
+        def change() -> None:
+            self.wire.send(sources, ranges, self._drawn_mark)
+            for drawing in picture.drawings:
+                drawing.view.say(results if drawing.data else None, drawing.sentence)
+            self.status.line = picture.status
+
+        await one_message(self._doc, change)
+
+    async def _failed(self, error: Exception) -> None:
         """Something no view expected: say so, answer the mark, keep the last good picture."""
         self._drawn_mark = self._mark
-        with one_message(self._doc):
+
+        def change() -> None:
             self.wire.send({}, {}, self._drawn_mark)
             self.status.line = {"mood": "bad", "words": _BROKEN, "details": []}
 
+        await one_message(self._doc, change)
 
-def _drawings(results: Results, views: Sequence[View]) -> list[Drawing]:
+
+def _picture(results: Results, views: Sequence[View], started: float) -> Picture:
     """Compute what the views need and have them say it. Runs in a worker thread."""
-    return [_drawing(results, view) for view in views]
+    drawings = [_drawing(results, view) for view in views]
+    return Picture(drawings, status_of(results, time.perf_counter() - started))
 
 
 def _drawing(results: Results, view: View) -> Drawing:
@@ -263,7 +277,3 @@ def _drawing(results: Results, view: View) -> Drawing:
     except Exception:
         log.exception("the view %s failed", view.name)
         return Drawing(view, None, _BROKEN)
-
-
-def _status(results: Results, started: float) -> dict[str, Any]:
-    return {**status_of(results, time.perf_counter() - started)}

@@ -9,13 +9,12 @@ from __future__ import annotations
 import asyncio
 import logging
 import os
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from typing import Generic, TypeVar
 
 from bokeh.document import Document
-from panel.io import unlocked
+from bokeh.document.events import DocumentPatchedEvent
 from panel.io.state import set_curdoc
 
 log = logging.getLogger(__name__)
@@ -42,7 +41,7 @@ class LatestWins(Generic[Inputs]):
     def __init__(
         self,
         work: Callable[[Inputs], Awaitable[None]],
-        failed: Callable[[Exception], None] | None = None,
+        failed: Callable[[Exception], Awaitable[None]] | None = None,
     ) -> None:
         self._work = work
         self._failed = failed
@@ -83,20 +82,40 @@ class LatestWins(Generic[Inputs]):
             except Exception as error:
                 log.exception("drawing a scene failed")
                 if self._failed is not None:
-                    self._failed(error)
+                    await self._failed(error)
 
 
-@contextmanager
-def one_message(doc: Document | None) -> Iterator[None]:
-    """Change models of `doc` from a task of the event loop: all changes leave at once.
+async def one_message(doc: Document | None, change: Callable[[], None]) -> None:
+    """Run `change`, which changes models of `doc`, and send all its changes as one message.
 
-    Outside a callback that holds the document's lock a plain assignment would be lost.
+    For tasks of the event loop, which hold no lock on the document. The lock is taken and held
+    until the message is written, so messages arrive in the order of the changes. Panel's own
+    ``unlocked`` does not promise that: where two of its writes meet, the second may lie about
+    until a third comes, and the last position of a slider would not be drawn.
     """
-    if doc is None:
-        yield
+    session = getattr(getattr(doc, "session_context", None), "session", None)
+    if doc is None or session is None:
+        change()
         return
-    with set_curdoc(doc), unlocked():
-        yield
+
+    async def act(document: Document) -> None:
+        callbacks = document.callbacks
+        document.hold("combine")
+        try:
+            with set_curdoc(document):
+                change()
+        finally:
+            held = list(callbacks._held_events)
+            patches = [event for event in held if isinstance(event, DocumentPatchedEvent)]
+            callbacks._held_events = [event for event in held if event not in patches]
+            document.unhold()
+        connections = tuple(session._subscribed_connections)
+        if patches and connections:
+            message = connections[0].protocol.create("PATCH-DOC", patches)
+            for connection in connections:
+                await connection._socket.send_message(message)
+
+    await session.with_document_locked(act, doc)
 
 
 def send_at_once(doc: Document | None) -> int:

@@ -164,7 +164,7 @@ export function render({ model }) {
   }
 
   const selects = {}
-  const choice = (name) => {
+  const choice = (name, ...extra) => {
     const { label, options } = spec.choices[name]
     const select = element("select", { id: `choice-${name}` })
     const note = element("p", { class: "note" })
@@ -175,9 +175,19 @@ export function render({ model }) {
       select.value = value
       note.textContent = options.find((option) => option.value === value)?.about ?? ""
     } }
-    const more = element("details", {}, element("summary", {}, "About this choice"), note)
-    return element("div", { class: `choice choice-${name}` },
-      element("label", { for: `choice-${name}` }, label), select, more)
+    const more = element("button", {
+      type: "button", class: "info", "aria-expanded": "false", "aria-controls": `note-${name}`,
+      "aria-label": `About this ${label.toLowerCase()}`, title: "About this choice",
+    }, "?")
+    note.id = `note-${name}`
+    note.hidden = true
+    more.addEventListener("click", () => {
+      note.hidden = !note.hidden
+      more.setAttribute("aria-expanded", String(!note.hidden))
+    })
+    const head = element("div", { class: "head" },
+      element("label", { for: `choice-${name}` }, label), ...extra, more)
+    return element("div", { class: `choice choice-${name}` }, head, select, note)
   }
 
   const take = (state) => {
@@ -194,9 +204,9 @@ export function render({ model }) {
     for (const [name, value] of Object.entries(state.choices ?? {})) selects[name].show(value)
   }
 
-  const reset = element("button", { type: "button", class: "reset" }, "Reset")
+  const reset = element("button", { type: "button", class: "reset", title: "Back to the numbers of this bearing" }, "Reset")
   reset.addEventListener("click", () => send({ reset: true }))
-  const form = element("form", { "aria-label": "Scene" }, choice("preset"))
+  const form = element("form", { "aria-label": "Scene" }, choice("preset", reset))
   form.addEventListener("submit", (event) => event.preventDefault())
   for (const group of spec.groups) {
     const box = element("fieldset", {}, element("legend", {}, group.title))
@@ -205,7 +215,6 @@ export function render({ model }) {
       if (spec.choices[name].group === group.title) box.append(choice(name))
     form.append(box)
   }
-  form.append(reset)
   take(model.state)
   model.on("msg:custom", (message) => {
     if (message.state) take(message.state)

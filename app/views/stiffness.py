@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import panel as pn
 from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
@@ -96,8 +97,11 @@ class Stiffness(View):
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
-        plot = bare_figure(Range1d(-0.02, 5.03), Range1d(-5.08, 0.0), height=566)
-        plot.min_width = 760
+        plot = bare_figure(Range1d(-0.02, 5.03), Range1d(-5.08, 0.0), height=524)
+        # Fifteen cells need some width; on a phone they scroll inside their card. (As a
+        # property of the figure, Panel would hand the width on to the whole card.)
+        plot.min_width = None
+        plot.stylesheets = [":host { min-width: 760px; }"]
         _static_parts(plot)
         cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
         sound = wire.source("stiffness_sound", "x", "y")
@@ -108,7 +112,8 @@ class Stiffness(View):
         plot.line("x", "y", source=sound, line_color=SOUND, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
-        return plot
+        scroll = ":host { overflow-x: auto; max-width: 100%; }"
+        return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
@@ -167,10 +172,10 @@ class Stiffness(View):
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
-        for term in ("k_xx", "k_yy"):
+        for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
             values, sounds = found.term(term), sound.term(term)
             least, most = np.nanmin(values), np.nanmax(values)
-            line = f"{term.replace('_', '')} goes from {with_prefix(least, 'N/m')}"
+            line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
             if sound.converged.any():
                 line += f" (sound: {with_prefix(float(np.nanmean(sounds)), 'N/m')} on average)"
@@ -211,9 +216,13 @@ def _cleaned(values: np.ndarray, scale: float) -> np.ndarray:
 
 
 def _trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
-    if all(np.all(trace[np.isfinite(trace)] == 0.0) for trace in traces):
+    finite = np.concatenate(traces)
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
+        return math.nan, math.nan
+    if not finite.any():
         return -1.0, 1.0
-    middle = np.nanmean(np.concatenate(traces)) if np.isfinite(np.concatenate(traces)).any() else 0
+    middle = finite.mean()
     return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
 
 
@@ -264,6 +273,7 @@ def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:
     plot.segment("left", "zero", "right", "zero", source=cells, line_color=STEEL_EDGE)
     names = f"const unit = {[*_UNITS, '']}[row.unit]\n"
     limit = """
+if (isNaN(row.low)) return ''
 const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
 return minus(String(Number((row.%s/10**e).toPrecision(4))))
 """

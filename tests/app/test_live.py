@@ -32,13 +32,16 @@ def test_the_worker_survives_a_failure_and_says_so() -> None:
     worked: list[int] = []
     failures: list[str] = []
 
+    async def failed(error: Exception) -> None:
+        failures.append(str(error))
+
     async def drag() -> None:
         async def work(value: int) -> None:
             if value == 1:
                 raise RuntimeError("the first scene is broken")
             worked.append(value)
 
-        worker = LatestWins(work, failed=lambda error: failures.append(str(error)))
+        worker = LatestWins(work, failed=failed)
         for value in (1, 2):
             worker.submit(value)
             while not worker.idle:
@@ -80,5 +83,6 @@ def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
 
 def test_without_a_session_there_is_nothing_to_send_to() -> None:
     assert send_at_once(None) == 0
-    with one_message(None):
-        pass
+    changes: list[int] = []
+    asyncio.run(one_message(None, lambda: changes.append(1)))
+    assert changes == [1]

@@ -41,9 +41,12 @@ nodelay = pn.pane.Str("0", css_classes=["nodelay"])
 
 async def draw(value):
     data, ranges = await in_thread(view.data, float(value))
-    with one_message(doc):
+
+    def change():
         wire.send(data, ranges, mark=value)
         view.say(float(value), view.sentence(float(value)))
+
+    await one_message(doc, change)
 
 
 async def work(last):

@@ -1,0 +1,252 @@
+"""The real page: dragged, typed into, switched, played. What is drawn is what was asked for."""
+
+from __future__ import annotations
+
+import math
+import re
+import signal
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, expect
+
+from bearingcore import equilibrium, presets
+from tests.browser.helpers import Server, Watch, drag, explorer_server
+
+#: every view, and the tab it stands on
+VIEWS = {
+    "bearing": "load",
+    "load-distribution": "load",
+    "depth-profile": "load",
+    "stiffness": "stiffness",
+    "modes": "modes",
+    "vibration-time": "vibration",
+    "vibration-spectrum": "vibration",
+}
+
+
+def open_page(page: Page, server: Server, tab: str = "load") -> None:
+    page.goto(server.url)
+    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    show(page, tab)
+
+
+def show(page: Page, tab: str) -> None:
+    frames = page.evaluate("window.__frames")
+    page.locator(f".tab-{tab}").click()
+    page.wait_for_function(f"window.__frames > {frames}", timeout=60000)
+    settle(page)
+
+
+def settle(page: Page) -> None:
+    """Wait until the newest change is drawn and the paints that follow are done."""
+    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)", timeout=60000)
+    page.evaluate("() => new Promise(done => setTimeout(done, 120))")
+
+
+def slider(page: Page, name: str):
+    return page.locator(f"#control-{name}")
+
+
+def value(page: Page, name: str) -> float:
+    return float(slider(page, name).input_value())
+
+
+def number(page: Page, name: str):
+    return page.locator(f".control-{name} .number")
+
+
+def pixels(page: Page, view: str) -> str:
+    """All that the canvases of a view show."""
+    shown = page.locator(f".view-{view} canvas").evaluate_all(
+        "canvases => canvases.map(canvas => canvas.toDataURL()).join()"
+    )
+    assert len(shown) > 1000, f"the view {view} shows nothing"
+    return str(shown)
+
+
+def source(page: Page, name: str) -> dict[str, list[float]]:
+    """The numbers in the browser behind a figure."""
+    return page.evaluate(
+        """name => Object.fromEntries(Object.entries(
+             Bokeh.documents[0].get_model_by_name(name).data
+           ).map(([column, values]) => [column, Array.from(values)]))""",
+        name,
+    )
+
+
+def test_every_view_follows_the_slider(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    ends = iter([0.5, 0.2, 0.6, 0.3] * 2)
+    for tab in dict.fromkeys(VIEWS.values()):
+        show(page, tab)
+        views = [view for view, where in VIEWS.items() if where == tab]
+        before = {view: pixels(page, view) for view in views}
+        words = {
+            view: page.locator(f".view-{view} [role=status]").first.inner_text() for view in views
+        }
+        drag(page, slider(page, "extent_deg"), 0.1, next(ends))
+        settle(page)
+        for view in views:
+            assert pixels(page, view) != before[view], f"{view} did not follow the slider"
+            status = page.locator(f".view-{view} [role=status]").first
+            assert status.inner_text() != words[view], f"the sentence of {view} did not follow"
+
+
+@pytest.mark.parametrize("end", [0.83, 0.31])
+def test_the_last_position_of_the_slider_is_drawn(
+    watch: tuple[Page, Watch], explorer: Server, end: float
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    for goal in (0.2, 0.9, 0.4, end):
+        drag(page, slider(page, "extent_deg"), 0.1, goal, steps=25)
+    settle(page)
+    extent = value(page, "extent_deg")
+    assert number(page, "extent_deg").input_value() == f"{extent:g}"
+    scene = presets["fan-rig"].replace(extent=math.radians(extent))
+    expected = equilibrium(scene, [0.0])
+    drawn = source(page, "stiffness_cells")
+    diagonal = {"k_xx": 0, "k_yy": 5, "k_zz": 9}
+    for term, cell in diagonal.items():
+        np.testing.assert_allclose(drawn["now"][cell], expected.term(term)[0], rtol=1e-6)
+    assert drawn["now"][15] == expected.loaded_balls[0]
+
+
+def test_what_is_not_on_screen_is_not_sent_and_what_appears_is_up_to_date(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    show(page, "load")
+    before = source(page, "stiffness_defective")
+    drag(page, slider(page, "extent_deg"), 0.1, 0.7)
+    settle(page)
+    assert source(page, "stiffness_defective") == before
+    show(page, "stiffness")
+    assert source(page, "stiffness_defective") != before
+
+
+def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    button = page.get_by_role("button", name="Turn the bearing")
+    start, picture = value(page, "cage_angle_deg"), pixels(page, "bearing")
+    button.click()
+    page.wait_for_timeout(1000)
+    turning = pixels(page, "bearing")
+    assert turning != picture
+    page.wait_for_timeout(500)
+    page.get_by_role("button", name="Stop turning").click()
+    settle(page)
+    stopped = value(page, "cage_angle_deg")
+    assert stopped > start + 5
+    still = pixels(page, "bearing")
+    assert still not in (picture, turning)
+    page.wait_for_timeout(400)
+    assert value(page, "cage_angle_deg") == stopped
+    assert pixels(page, "bearing") == still
+
+
+@pytest.mark.parametrize(
+    ("typed", "sentence"),
+    [
+        ("200", "200° is out of range: extent goes from 0 to 120°."),
+        ("-3", "−3° is out of range: extent goes from 0 to 120°."),
+        ("a lot", "“a lot” is not a number: extent goes from 0 to 120°."),
+        ("NaN", "“NaN” is not a number: extent goes from 0 to 120°."),
+    ],
+)
+def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
+    watch: tuple[Page, Watch], explorer: Server, typed: str, sentence: str
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    before = source(page, "stiffness_defective")
+    field, refusal = number(page, "extent_deg"), page.locator(".control-extent_deg .refusal")
+    field.fill(typed)
+    field.press("Enter")
+    expect(refusal).to_have_text(sentence)
+    expect(field).to_have_attribute("aria-invalid", "true")
+    assert value(page, "extent_deg") == pytest.approx(12.9)
+    assert source(page, "stiffness_defective") == before
+    field.fill("33,25")
+    field.press("Enter")
+    expect(refusal).to_be_hidden()
+    expect(field).to_have_value("33.25")
+    settle(page)
+    assert source(page, "stiffness_defective") != before
+
+
+def test_a_load_nothing_can_carry_is_said_in_words(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    status = page.locator("footer [role=status]")
+    expect(status).to_contain_text("Converged")
+    expect(status).to_contain_text("2 degrees of freedom: x y")
+    expect(status).to_contain_text(re.compile(r"residual at most .*10⁻.* ms"))
+    number(page, "fy_n").fill("0")
+    number(page, "fy_n").press("Enter")
+    expect(status).to_contain_text("No answer")
+    number(page, "fz_n").fill("50")
+    number(page, "fz_n").press("Enter")
+    expect(status).to_contain_text("5 degrees of freedom: x y z θx θy")
+
+
+def test_a_preset_brings_its_values_and_ranges(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    page.get_by_label("Bearing", exact=True).select_option("liew-lim")
+    expect(number(page, "fy_n")).to_have_value("−2000")
+    assert slider(page, "fy_n").get_attribute("max") == "5000"
+    settle(page)
+    drag(page, slider(page, "extent_deg"), 0.3, 0.6)
+    page.get_by_role("button", name="Reset").click()
+    expect(number(page, "extent_deg")).to_have_value("40")
+
+
+def test_the_keyboard_moves_sliders_numbers_and_tabs(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    slider(page, "depth_um").focus()
+    page.keyboard.press("ArrowRight")
+    expect(number(page, "depth_um")).to_have_value("51")
+    number(page, "depth_um").focus()
+    page.keyboard.press("ArrowUp")
+    expect(number(page, "depth_um")).to_have_value("52")
+    page.get_by_role("tab", name="Load").focus()
+    page.keyboard.press("ArrowRight")
+    expect(page.get_by_role("tab", name="Stiffness")).to_have_attribute("aria-selected", "true")
+    expect(page.locator(".view-stiffness")).to_be_visible()
+    expect(page.locator(".view-bearing")).to_be_hidden()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844), (1920, 1080)])
+def test_the_page_fits_the_screen(
+    watch: tuple[Page, Watch], explorer: Server, width: int, height: int
+) -> None:
+    page, _ = watch
+    page.set_viewport_size({"width": width, "height": height})
+    open_page(page, explorer)
+    for tab in dict.fromkeys(VIEWS.values()):
+        show(page, tab)
+        wide = page.evaluate(
+            """() => [document.documentElement, document.querySelector("main"),
+                      document.querySelector("aside")].map(e => e.scrollWidth - e.clientWidth)"""
+        )
+        assert wide == [0, 0, 0], f"{tab} at {width}x{height} needs horizontal scrolling: {wide}"
+
+
+def test_the_server_says_what_it_does_and_ends_cleanly() -> None:
+    for number_ in (signal.SIGTERM, signal.SIGINT):
+        server = explorer_server()
+        server.wait()
+        assert server.stop(number_) == 0, server.log
+        for words in ("Compiling", "Ready after", str(server.port), "Stopped."):
+            assert words in server.log
+        assert "Traceback" not in server.log

@@ -387,7 +387,7 @@ class Shapes:
             "x": radius * np.cos(np.radians(degrees)),
             "y": radius * np.sin(np.radians(degrees)),
             "angle": degrees,
-            "turn": np.radians([-90.0, 0.0, 90.0, 0.0]),  # along the ring, to be read from outside
+            "turn": np.radians([0.0, 0.0, 90.0, 0.0]),  # the longest stands along the ring
         }
 
     def ball_angles(self) -> NDArray[np.float64]:

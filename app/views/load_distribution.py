@@ -76,6 +76,7 @@ class LoadDistribution(View):
         plot.add_tools(
             HoverTool(
                 renderers=[curve],
+                visible=False,  # no button: it is always on
                 mode="vline",
                 line_policy="nearest",
                 tooltips=[("Ball at", "@angle{0.0}°"), ("carries", "@load{0,0.0} N")],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import signal
 import sys
 import time
@@ -62,6 +63,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         server_options["websocket_origin"] = chosen.allow_websocket_origin
     if chosen.root_path:
         server_options["prefix"] = chosen.root_path
+    # With several processes this one only waits for them, inside `serve`.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     try:
         server = pn.serve(
             {"/": page},
@@ -71,6 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             show=False,
             start=False,
             liveness=True,
+            verbose=False,
             num_procs=chosen.num_procs,
             **server_options,
         )
@@ -86,6 +90,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, stop)
+    if chosen.num_procs > 1:
+        _end_with_parent(loop)
     server.start()
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
     url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
@@ -98,6 +104,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         server.stop()
     _say("Stopped.")
     return 0
+
+
+def _end_with_parent(loop: Any) -> None:
+    """Stop when the process that started this one is gone: it cannot say good-bye if killed."""
+    from tornado.ioloop import PeriodicCallback
+
+    parent = os.getppid()
+
+    def look() -> None:
+        if os.getppid() != parent:
+            loop.stop()
+
+    PeriodicCallback(look, 500).start()
 
 
 def _say(text: str) -> None:

@@ -9,6 +9,7 @@ import pytest
 from app.explorer import Explorer, Section
 from app.views.base import View
 from bearingcore import presets
+from tests.app.loops import run
 
 
 class Depth(View):
@@ -57,7 +58,7 @@ def told(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
 def session(act: Callable[[Explorer], None]) -> Explorer:
     """A session in which `act` happened and everything was drawn."""
 
-    async def run() -> Explorer:
+    async def live() -> Explorer:
         explorer = Explorer(SECTIONS)
         explorer.draw()
         await idle(explorer)
@@ -69,7 +70,7 @@ def session(act: Callable[[Explorer], None]) -> Explorer:
         while not explorer._worker.idle:
             await asyncio.sleep(0.002)
 
-    return asyncio.run(run())
+    return run(live())
 
 
 def drawn(explorer: Explorer, section: str) -> list[float]:

@@ -3,6 +3,7 @@
 import asyncio
 
 from app.live import LatestWins, in_thread, one_message, send_at_once
+from tests.app.loops import run
 
 
 def test_inputs_overtaken_while_at_work_are_dropped() -> None:
@@ -21,7 +22,7 @@ def test_inputs_overtaken_while_at_work_are_dropped() -> None:
         while not worker.idle:
             await asyncio.sleep(0.005)
 
-    asyncio.run(drag())
+    run(drag())
     assert worked[0] == 0
     assert worked[-1] == 49, "the last position of the slider must be drawn"
     assert worked == sorted(set(worked))
@@ -47,7 +48,7 @@ def test_the_worker_survives_a_failure_and_says_so() -> None:
             while not worker.idle:
                 await asyncio.sleep(0.001)
 
-    asyncio.run(drag())
+    run(drag())
     assert worked == [2]
     assert failures == ["the first scene is broken"]
 
@@ -64,7 +65,7 @@ def test_a_stopped_worker_takes_nothing_more() -> None:
         worker.submit(1)
         await asyncio.sleep(0.01)
 
-    asyncio.run(drag())
+    run(drag())
     assert worked == []
 
 
@@ -76,7 +77,7 @@ def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
             lambda: threading.current_thread().name
         )
 
-    here, there = asyncio.run(where())
+    here, there = run(where())
     assert here != there
     assert there.startswith("compute")
 
@@ -84,5 +85,5 @@ def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
 def test_without_a_session_there_is_nothing_to_send_to() -> None:
     assert send_at_once(None) == 0
     changes: list[int] = []
-    asyncio.run(one_message(None, lambda: changes.append(1)))
+    run(one_message(None, lambda: changes.append(1)))
     assert changes == [1]

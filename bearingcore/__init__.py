@@ -6,6 +6,7 @@ from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.modes import Modes, contact_damping, modes
 from bearingcore.motion import Motion, simulate
+from bearingcore.orbit import Orbit, orbit
 from bearingcore.presets import preset_notes, presets
 from bearingcore.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
 from bearingcore.spectrum import Spectrum, spectrum
@@ -24,6 +25,7 @@ __all__ = [
     "MeasuredFloor",
     "Modes",
     "Motion",
+    "Orbit",
     "RoughFloor",
     "Scene",
     "Spectrum",
@@ -31,6 +33,7 @@ __all__ = [
     "contact_damping",
     "equilibrium",
     "modes",
+    "orbit",
     "preset_notes",
     "presets",
     "read_floor",

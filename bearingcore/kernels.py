@@ -525,28 +525,6 @@ def lay_out_balls(start, turn, n, cage_speed, rows, tables, ball_c, ball_s, c, s
 
 
 @inlined
-def flat_contact_force(x0, x1, u0, u1, c, s, d, d_rate, at, rL, K, damping, pull):
-    """Force of all contacts on the outer ring along x and y [N] where α0, z and tilts are zero.
-
-    δ = δx c + δy s − r_L − d (Eq. 19); u is the rings' relative velocity with the turning of the
-    balls moved over to it, so that δ̇ = u0 c + u1 s − ḋ.
-    """
-    f0 = 0.0
-    f1 = 0.0
-    for j in range(c.shape[1]):
-        cj = c[at, j]
-        sj = s[at, j]
-        delta = x0 * cj + x1 * sj - rL - d[at, j]
-        if delta > 0.0:
-            rate = u0 * cj + u1 * sj - d_rate[at, j]
-            push = K * delta * math.sqrt(delta) + damping * rate  # Equation (18)
-            if push > 0.0 or pull:
-                f0 += push * cj
-                f1 += push * sj
-    return f0, f1
-
-
-@inlined
 def contact_force(
     x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, pull
 ):
@@ -584,33 +562,108 @@ def contact_force(
     return f0, f1, f2, f3, f4
 
 
+# Where α0, z and tilts are zero, δ = δx c + δy s − r_L − d (Eq. 19) and the direction of a contact
+# is e = (c, s) whatever the rings do. The published damper's force c δ̇ jumps as a ball touches, and
+# a step across the jump errs by as much as the step is long. But c δ̇ e = d/dt(c δ e) − c δ ė while
+# δ > 0, so with
+#
+#     S = Σ δ_j e_j,    w_i = v_i + (c/m_i) S,    w_o = v_o − (c/m_o) S
+#
+# the equations of motion (Eq. 18) have no jump left, and need neither δ̇ nor the slope of d:
+#
+#     ẋ_i = w_i − (c/m_i) S,    m_i ẇ_i = F − Σ K δ^1.5 e + c Σ δ ė,    ė = ω_c (−s, c)
+#
+# and likewise, with opposite signs and its support, for the outer ring. It is the same law: only
+# the variable that is marched has changed.
+
+
 @inlined
-def flat_accelerations(
-    xi0, xi1, vi0, vi1, xo0, xo1, vo0, vo1, c, s, d, d_rate, at, cage_speed,
-    F, inverse_mi, inverse_mo, ko, co, rL, K, damping, pull,
+def flat_sums(x0, x1, c, s, d, at, rL, K):
+    """Σ K δ^1.5 e [N] and S = Σ δ e [m] over the loaded balls, at relative displacement x."""
+    f0 = 0.0
+    f1 = 0.0
+    S0 = 0.0
+    S1 = 0.0
+    for j in range(c.shape[1]):
+        cj = c[at, j]
+        sj = s[at, j]
+        delta = x0 * cj + x1 * sj - rL - d[at, j]
+        if delta > 0.0:
+            Q = K * delta * math.sqrt(delta)  # Equation (13)
+            f0 += Q * cj
+            f1 += Q * sj
+            S0 += delta * cj
+            S1 += delta * sj
+    return f0, f1, S0, S1
+
+
+@inlined
+def flat_rates(
+    xi0, xi1, wi0, wi1, xo0, xo1, wo0, wo1, c, s, d, at, cage_speed,
+    F, inverse_mi, inverse_mo, ko, co, rL, K, damping,
 ):
-    """Accelerations of inner and outer ring along x and y [m/s²] (Eq. 18)."""
+    """ẋ_i, ẇ_i, ẋ_o, ẇ_o of the smooth variables above, two components each."""
+    f0, f1, S0, S1 = flat_sums(xi0 - xo0, xi1 - xo1, c, s, d, at, rL, K)
+    push0 = f0 + damping * cage_speed * S1
+    push1 = f1 - damping * cage_speed * S0
+    vo0 = wo0 + damping * inverse_mo[0] * S0
+    vo1 = wo1 + damping * inverse_mo[1] * S1
+    return (
+        wi0 - damping * inverse_mi[0] * S0,
+        wi1 - damping * inverse_mi[1] * S1,
+        (F[0] - push0) * inverse_mi[0],
+        (F[1] - push1) * inverse_mi[1],
+        vo0,
+        vo1,
+        (push0 - ko[0] * xo0 - co[0] * vo0) * inverse_mo[0],
+        (push1 - ko[1] * xo1 - co[1] * vo1) * inverse_mo[1],
+    )
+
+
+@inlined
+def flat_record(
+    history, step, xi0, xi1, vi0, vi1, xo0, xo1, vo0, vo1, c, s, d, d_rate, at, cage_speed,
+    F, inverse_mi, inverse_mo, ko, co, rL, K, damping,
+):
+    """Displacements, velocities and accelerations (Eq. 18) of one instant into history[step]."""
     x0 = xi0 - xo0
     x1 = xi1 - xo1
-    u0 = vi0 - vo0 + cage_speed * x1
+    u0 = vi0 - vo0 + cage_speed * x1  # the turning of the balls, moved over to the rings
     u1 = vi1 - vo1 - cage_speed * x0
-    f0, f1 = flat_contact_force(x0, x1, u0, u1, c, s, d, d_rate, at, rL, K, damping, pull)
-    return (
-        (F[0] - f0) * inverse_mi[0],
-        (F[1] - f1) * inverse_mi[1],
-        (f0 - ko[0] * xo0 - co[0] * vo0) * inverse_mo[0],
-        (f1 - ko[1] * xo1 - co[1] * vo1) * inverse_mo[1],
-    )
+    f0 = 0.0
+    f1 = 0.0
+    for j in range(c.shape[1]):
+        cj = c[at, j]
+        sj = s[at, j]
+        delta = x0 * cj + x1 * sj - rL - d[at, j]
+        if delta > 0.0:
+            rate = u0 * cj + u1 * sj - d_rate[at, j]
+            push = K * delta * math.sqrt(delta) + damping * rate
+            f0 += push * cj
+            f1 += push * sj
+    history[step, 0, 0] = xi0
+    history[step, 0, 1] = xi1
+    history[step, 1, 0] = vi0
+    history[step, 1, 1] = vi1
+    history[step, 2, 0] = (F[0] - f0) * inverse_mi[0]
+    history[step, 2, 1] = (F[1] - f1) * inverse_mi[1]
+    history[step, 3, 0] = xo0
+    history[step, 3, 1] = xo1
+    history[step, 4, 0] = vo0
+    history[step, 4, 1] = vo1
+    history[step, 5, 0] = (f0 - ko[0] * xo0 - co[0] * vo0) * inverse_mo[0]
+    history[step, 5, 1] = (f1 - ko[1] * xo1 - co[1] * vo1) * inverse_mo[1]
 
 
 @compiled
 def march_flat(
     y, n_steps, h, start_angle, cage_speed, rows, tables, F, mi, mo, ko, co,
-    n_balls, rL, K, damping, pull, history,
+    n_balls, rL, K, damping, history,
 ):
-    """`march` for x and y at α0 = 0, the state in eight scalars: three times as fast, the same law.
+    """`march` for x and y at α0 = 0 and the published law, in smooth variables and in scalars.
 
-    y (8,): x, v of the inner, x, v of the outer ring; history (n_steps + 1, 6, 2).
+    y (8,): x, w of the inner, x, w of the outer ring, moved to the end; history (n_steps + 1, 6, 2)
+    holds velocities v, not w. Returns the number of steps after which all was still finite.
     """
     ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
     ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
@@ -619,79 +672,80 @@ def march_flat(
     s = np.empty(shape)
     d = np.zeros(shape)
     dr = np.zeros(shape)
-    wi = 1.0 / mi
-    wo = 1.0 / mo
-    w = cage_speed
-    half_turn = 0.5 * h * w
+    im = 1.0 / mi
+    om = 1.0 / mo
+    g = damping
+    turn = cage_speed
+    half_turn = 0.5 * h * turn
     e = 0.5 * h
-    xi0, xi1, vi0, vi1, xo0, xo1, vo0, vo1 = y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7]
+    sixth = h / 6.0
+    xi0, xi1, wi0, wi1, xo0, xo1, wo0, wo1 = y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7]
     for step in range(n_steps + 1):
         i = (2 * step) % GEOMETRY_BLOCK
         if i == 0:
             count = min(GEOMETRY_BLOCK, 2 * (n_steps - step)) + 1
             angle = start_angle + 2 * step * half_turn
-            lay_out_balls(angle, half_turn, count, w, rows, tables, ball_c, ball_s, c, s, d, dr)
-            if not math.isfinite(xi0 + xi1 + vi0 + vi1 + xo0 + xo1 + vo0 + vo1):
+            lay_out_balls(angle, half_turn, count, turn, rows, tables, ball_c, ball_s, c, s, d, dr)
+            if not math.isfinite(xi0 + xi1 + wi0 + wi1 + xo0 + xo1 + wo0 + wo1):
                 return max(step - GEOMETRY_BLOCK // 2, 0)
-        ai0, ai1, ao0, ao1 = flat_accelerations(
-            xi0, xi1, vi0, vi1, xo0, xo1, vo0, vo1,
-            c, s, d, dr, i, w, F, wi, wo, ko, co, rL, K, damping, pull,
+        # rates p of displacements and r of w; the stage is in the name
+        pi0_1, pi1_1, ri0_1, ri1_1, po0_1, po1_1, ro0_1, ro1_1 = flat_rates(
+            xi0, xi1, wi0, wi1, xo0, xo1, wo0, wo1,
+            c, s, d, i, turn, F, im, om, ko, co, rL, K, g,
         )
-        history[step, 0, 0] = xi0
-        history[step, 0, 1] = xi1
-        history[step, 1, 0] = vi0
-        history[step, 1, 1] = vi1
-        history[step, 2, 0] = ai0
-        history[step, 2, 1] = ai1
-        history[step, 3, 0] = xo0
-        history[step, 3, 1] = xo1
-        history[step, 4, 0] = vo0
-        history[step, 4, 1] = vo1
-        history[step, 5, 0] = ao0
-        history[step, 5, 1] = ao1
+        flat_record(
+            history, step, xi0, xi1, pi0_1, pi1_1, xo0, xo1, po0_1, po1_1,
+            c, s, d, dr, i, turn, F, im, om, ko, co, rL, K, g,
+        )
         if step == n_steps:
             break
-        # velocities of the stages carry their number, so do accelerations
-        vi0_2 = vi0 + e * ai0
-        vi1_2 = vi1 + e * ai1
-        vo0_2 = vo0 + e * ao0
-        vo1_2 = vo1 + e * ao1
-        ai0_2, ai1_2, ao0_2, ao1_2 = flat_accelerations(
-            xi0 + e * vi0, xi1 + e * vi1, vi0_2, vi1_2,
-            xo0 + e * vo0, xo1 + e * vo1, vo0_2, vo1_2,
-            c, s, d, dr, i + 1, w, F, wi, wo, ko, co, rL, K, damping, pull,
+        pi0_2, pi1_2, ri0_2, ri1_2, po0_2, po1_2, ro0_2, ro1_2 = flat_rates(
+            xi0 + e * pi0_1, xi1 + e * pi1_1, wi0 + e * ri0_1, wi1 + e * ri1_1,
+            xo0 + e * po0_1, xo1 + e * po1_1, wo0 + e * ro0_1, wo1 + e * ro1_1,
+            c, s, d, i + 1, turn, F, im, om, ko, co, rL, K, g,
         )
-        vi0_3 = vi0 + e * ai0_2
-        vi1_3 = vi1 + e * ai1_2
-        vo0_3 = vo0 + e * ao0_2
-        vo1_3 = vo1 + e * ao1_2
-        ai0_3, ai1_3, ao0_3, ao1_3 = flat_accelerations(
-            xi0 + e * vi0_2, xi1 + e * vi1_2, vi0_3, vi1_3,
-            xo0 + e * vo0_2, xo1 + e * vo1_2, vo0_3, vo1_3,
-            c, s, d, dr, i + 1, w, F, wi, wo, ko, co, rL, K, damping, pull,
+        pi0_3, pi1_3, ri0_3, ri1_3, po0_3, po1_3, ro0_3, ro1_3 = flat_rates(
+            xi0 + e * pi0_2, xi1 + e * pi1_2, wi0 + e * ri0_2, wi1 + e * ri1_2,
+            xo0 + e * po0_2, xo1 + e * po1_2, wo0 + e * ro0_2, wo1 + e * ro1_2,
+            c, s, d, i + 1, turn, F, im, om, ko, co, rL, K, g,
         )
-        vi0_4 = vi0 + h * ai0_3
-        vi1_4 = vi1 + h * ai1_3
-        vo0_4 = vo0 + h * ao0_3
-        vo1_4 = vo1 + h * ao1_3
-        ai0_4, ai1_4, ao0_4, ao1_4 = flat_accelerations(
-            xi0 + h * vi0_3, xi1 + h * vi1_3, vi0_4, vi1_4,
-            xo0 + h * vo0_3, xo1 + h * vo1_3, vo0_4, vo1_4,
-            c, s, d, dr, i + 2, w, F, wi, wo, ko, co, rL, K, damping, pull,
+        pi0_4, pi1_4, ri0_4, ri1_4, po0_4, po1_4, ro0_4, ro1_4 = flat_rates(
+            xi0 + h * pi0_3, xi1 + h * pi1_3, wi0 + h * ri0_3, wi1 + h * ri1_3,
+            xo0 + h * po0_3, xo1 + h * po1_3, wo0 + h * ro0_3, wo1 + h * ro1_3,
+            c, s, d, i + 2, turn, F, im, om, ko, co, rL, K, g,
         )
-        sixth = h / 6.0
-        xi0 += sixth * (vi0 + 2.0 * (vi0_2 + vi0_3) + vi0_4)
-        xi1 += sixth * (vi1 + 2.0 * (vi1_2 + vi1_3) + vi1_4)
-        xo0 += sixth * (vo0 + 2.0 * (vo0_2 + vo0_3) + vo0_4)
-        xo1 += sixth * (vo1 + 2.0 * (vo1_2 + vo1_3) + vo1_4)
-        vi0 += sixth * (ai0 + 2.0 * (ai0_2 + ai0_3) + ai0_4)
-        vi1 += sixth * (ai1 + 2.0 * (ai1_2 + ai1_3) + ai1_4)
-        vo0 += sixth * (ao0 + 2.0 * (ao0_2 + ao0_3) + ao0_4)
-        vo1 += sixth * (ao1 + 2.0 * (ao1_2 + ao1_3) + ao1_4)
-    y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7] = xi0, xi1, vi0, vi1, xo0, xo1, vo0, vo1
-    if not math.isfinite(xi0 + xi1 + vi0 + vi1 + xo0 + xo1 + vo0 + vo1):
+        xi0 += sixth * (pi0_1 + 2.0 * (pi0_2 + pi0_3) + pi0_4)
+        xi1 += sixth * (pi1_1 + 2.0 * (pi1_2 + pi1_3) + pi1_4)
+        wi0 += sixth * (ri0_1 + 2.0 * (ri0_2 + ri0_3) + ri0_4)
+        wi1 += sixth * (ri1_1 + 2.0 * (ri1_2 + ri1_3) + ri1_4)
+        xo0 += sixth * (po0_1 + 2.0 * (po0_2 + po0_3) + po0_4)
+        xo1 += sixth * (po1_1 + 2.0 * (po1_2 + po1_3) + po1_4)
+        wo0 += sixth * (ro0_1 + 2.0 * (ro0_2 + ro0_3) + ro0_4)
+        wo1 += sixth * (ro1_1 + 2.0 * (ro1_2 + ro1_3) + ro1_4)
+    y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7] = xi0, xi1, wi0, wi1, xo0, xo1, wo0, wo1
+    if not math.isfinite(xi0 + xi1 + wi0 + wi1 + xo0 + xo1 + wo0 + wo1):
         return max(n_steps - GEOMETRY_BLOCK // 2, 0)
     return n_steps
+
+
+@compiled
+def flat_smooth(y, start_angle, rows, tables, mi, mo, n_balls, rL, damping, sign):
+    """Turn velocities in the state y (8,) into w (sign 1), or back (sign −1), in place."""
+    S0 = 0.0
+    S1 = 0.0
+    for j in range(n_balls):
+        phi = start_angle + 2.0 * math.pi / n_balls * j
+        cj = math.cos(phi)
+        sj = math.sin(phi)
+        d, _ = fall(phi, start_angle, rows, tables)
+        delta = (y[0] - y[4]) * cj + (y[1] - y[5]) * sj - rL - d
+        if delta > 0.0:
+            S0 += delta * cj
+            S1 += delta * sj
+    y[2] += sign * damping / mi[0] * S0
+    y[3] += sign * damping / mi[1] * S1
+    y[6] -= sign * damping / mo[0] * S0
+    y[7] -= sign * damping / mo[1] * S1
 
 
 @inlined
@@ -854,3 +908,384 @@ def elastic_ball_loads(x, active, start_angle, turn, rows, tables, n_balls, ca, 
             if delta > 0.0:
                 loads[k, j] = K * delta * math.sqrt(delta)
     return loads
+
+
+# ------------------------------------------------------------------------------- motion, tangent
+
+
+@compiled
+def contact_tangent(
+    x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, pull, f, Kx, Kv, loaded
+):
+    """`contact_force` into f (5,) with its derivatives Kx = ∂f/∂x and Kv = ∂f/∂v, (5, 5).
+
+    loaded (n_balls,) tells which balls push. With p the ball's displacement (radial, axial), e the
+    direction of the contact and t across it,
+    ∂(push e)/∂p = k1 e e' + (push/A) t t' + (c/A) (t·ṗ) e t', and ṗ depends on x and v itself.
+    """
+    f[:] = 0.0
+    Kx[:] = 0.0
+    Kv[:] = 0.0
+    R = np.zeros(5)
+    Z = np.zeros(5)
+    R_turn = np.zeros(5)
+    Z_turn = np.zeros(5)
+    Z[2] = 1.0
+    for j in range(c.shape[1]):
+        loaded[j] = False
+        cj = c[at, j]
+        sj = s[at, j]
+        r = x[0] * cj + x[1] * sj - rL
+        z = x[2] + x[3] * sj - x[4] * cj
+        delta, eu, ew, A = compression(r * ca + z * sa - d[at, j], z * ca - r * sa, A0)
+        if delta <= 0.0:
+            continue
+        er = eu * ca - ew * sa
+        ez = eu * sa + ew * ca
+        r_rate = v[0] * cj + v[1] * sj + cage_speed * (x[1] * cj - x[0] * sj) - ca * d_rate[at, j]
+        z_rate = (
+            v[2] + v[3] * sj - v[4] * cj + cage_speed * (x[3] * cj + x[4] * sj) - sa * d_rate[at, j]
+        )
+        rate = er * r_rate + ez * z_rate
+        root = math.sqrt(delta)
+        push = K * delta * root + damping * rate
+        if push <= 0.0 and not pull:
+            continue
+        loaded[j] = True
+        k1 = 1.5 * K * root
+        bend = 1.0 / A if A0 + r * ca + z * sa - d[at, j] > 0.0 else 0.0
+        across = damping * (er * z_rate - ez * r_rate) * bend  # c (t·ṗ)/A, t = (−ez, er)
+        k2 = push * bend
+        g_rr = k1 * er * er + k2 * ez * ez - across * er * ez
+        g_rz = (k1 - k2) * er * ez + across * er * er
+        g_zr = (k1 - k2) * er * ez - across * ez * ez
+        g_zz = k1 * ez * ez + k2 * er * er + across * er * ez
+        R[0] = cj
+        R[1] = sj
+        Z[3] = sj
+        Z[4] = -cj
+        R_turn[0] = -sj
+        R_turn[1] = cj
+        Z_turn[3] = cj
+        Z_turn[4] = sj
+        for a in range(5):
+            e_a = er * R[a] + ez * Z[a]
+            f[a] += push * e_a
+            for b in range(5):
+                e_b = er * R[b] + ez * Z[b]
+                turn_b = er * R_turn[b] + ez * Z_turn[b]
+                Kx[a, b] += (
+                    R[a] * (g_rr * R[b] + g_rz * Z[b])
+                    + Z[a] * (g_zr * R[b] + g_zz * Z[b])
+                    + damping * cage_speed * e_a * turn_b
+                )
+                Kv[a, b] += damping * e_a * e_b
+
+
+@compiled
+def touch_and_leave(
+    Y, x, c, s, d, at, was, now, active, inverse_mi, inverse_mo, ca, sa, A0, rL, damping, pull
+):
+    """Apply to the tangent Y what balls that touched or left during a step do to it.
+
+    The damper's force jumps by c δ̇ at δ = 0. A neighbouring motion touches a little earlier or
+    later; what that does to velocities is c (e·Δx) e over the mass, the rate δ̇ cancelling
+    (the saltation matrix). A law without tension leaves without a jump. True if Y has changed.
+    """
+    n = active.size
+    e = np.zeros(5)
+    changed = False
+    for j in range(c.shape[1]):
+        if was[j] == now[j] or (was[j] and not pull):
+            continue
+        changed = True
+        kick = -damping if now[j] else damping
+        cj = c[at, j]
+        sj = s[at, j]
+        r = x[0] * cj + x[1] * sj - rL
+        z = x[2] + x[3] * sj - x[4] * cj
+        m = r * ca + z * sa - d[at, j]
+        w = z * ca - r * sa
+        A = math.sqrt((A0 + m) * (A0 + m) + w * w)
+        eu = (A0 + m) / A
+        ew = w / A
+        er = eu * ca - ew * sa
+        ez = eu * sa + ew * ca
+        e[0] = er * cj
+        e[1] = er * sj
+        e[2] = ez
+        e[3] = ez * sj
+        e[4] = -ez * cj
+        for column in range(Y.shape[1]):
+            nearer = 0.0
+            for a in range(n):
+                nearer += e[active[a]] * (Y[a, column] - Y[2 * n + a, column])
+            for a in range(n):
+                Y[n + a, column] += kick * inverse_mi[a] * e[active[a]] * nearer
+                Y[3 * n + a, column] -= kick * inverse_mo[a] * e[active[a]] * nearer
+    return changed
+
+
+@compiled
+def rates_with_tangent(
+    y, Y, k, kY, c, s, d, d_rate, at, cage_speed, F, active, inverse_mi, inverse_mo, ko, co,
+    ca, sa, A0, rL, K, damping, pull, x, v, f, Kx, Kv, loaded,
+):
+    """`rate_of_change` into k (4 n,) and the rate of the tangent Y (4 n, 4 n) into kY."""
+    n = active.size
+    for a in range(n):
+        x[active[a]] = y[a] - y[2 * n + a]
+        v[active[a]] = y[n + a] - y[3 * n + a]
+    contact_tangent(
+        x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, pull, f, Kx, Kv, loaded
+    )
+    for a in range(n):
+        force = f[active[a]]
+        k[a] = y[n + a]
+        k[n + a] = (F[a] - force) * inverse_mi[a]
+        k[2 * n + a] = y[3 * n + a]
+        k[3 * n + a] = (force - ko[a] * y[2 * n + a] - co[a] * y[3 * n + a]) * inverse_mo[a]
+        for column in range(4 * n):
+            kY[n + a, column] = 0.0
+    for a in range(n):
+        for b in range(n):
+            kx = Kx[active[a], active[b]]
+            kv = Kv[active[a], active[b]]
+            for column in range(4 * n):
+                kY[n + a, column] += kx * (Y[b, column] - Y[2 * n + b, column]) + kv * (
+                    Y[n + b, column] - Y[3 * n + b, column]
+                )
+    for a in range(n):
+        for column in range(4 * n):
+            force = kY[n + a, column]
+            kY[a, column] = Y[n + a, column]
+            kY[n + a, column] = -force * inverse_mi[a]
+            kY[2 * n + a, column] = Y[3 * n + a, column]
+            kY[3 * n + a, column] = inverse_mo[a] * (
+                force - ko[a] * Y[2 * n + a, column] - co[a] * Y[3 * n + a, column]
+            )
+
+
+@compiled
+def march_with_tangent(
+    y, Y, n_steps, h, start_angle, cage_speed, rows, tables, F, active, mi, mo, ko, co,
+    n_balls, ca, sa, A0, rL, K, damping, pull, history,
+):
+    """`march`, and beside it the tangent Y (4 n, 4 n): how the end changes with the beginning."""
+    n = active.size
+    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    shape = (GEOMETRY_BLOCK + 1, n_balls)
+    c = np.empty(shape)
+    s = np.empty(shape)
+    d = np.zeros(shape)
+    d_rate = np.zeros(shape)
+    k = np.zeros((4, 4 * n))
+    kY = np.zeros((4, 4 * n, 4 * n))
+    trial = np.zeros(4 * n)
+    trial_Y = np.zeros((4 * n, 4 * n))
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    Kx = np.zeros((5, 5))
+    Kv = np.zeros((5, 5))
+    was = np.zeros(n_balls, dtype=np.bool_)
+    now = np.zeros(n_balls, dtype=np.bool_)
+    loaded = np.zeros(n_balls, dtype=np.bool_)
+    inverse_mi = 1.0 / mi
+    inverse_mo = 1.0 / mo
+    half_turn = 0.5 * h * cage_speed
+    ahead = np.array([0.0, 0.5 * h, 0.5 * h, h])
+    half_steps_on = np.array([0, 1, 1, 2])
+    weight = np.array([1.0, 2.0, 2.0, 1.0]) * (h / 6.0)
+    for step in range(n_steps + 1):
+        i = (2 * step) % GEOMETRY_BLOCK
+        if i == 0:
+            count = min(GEOMETRY_BLOCK, 2 * (n_steps - step)) + 1
+            lay_out_balls(
+                start_angle + 2 * step * half_turn, half_turn, count, cage_speed, rows, tables,
+                ball_c, ball_s, c, s, d, d_rate,
+            )
+        for stage in range(4):
+            for r in range(4 * n):
+                trial[r] = y[r]
+                if stage > 0:
+                    trial[r] += ahead[stage] * k[stage - 1, r]
+                for column in range(4 * n):
+                    trial_Y[r, column] = Y[r, column]
+                    if stage > 0:
+                        trial_Y[r, column] += ahead[stage] * kY[stage - 1, r, column]
+            rates_with_tangent(
+                trial, trial_Y, k[stage], kY[stage], c, s, d, d_rate, i + half_steps_on[stage],
+                cage_speed, F, active, inverse_mi, inverse_mo, ko, co,
+                ca, sa, A0, rL, K, damping, pull, x, v, f, Kx, Kv, loaded,
+            )
+            if stage == 0:
+                was[:] = now
+                now[:] = loaded
+                # x and v are those of this instant, the end of the step before
+                if step > 0 and touch_and_leave(
+                    Y, x, c, s, d, i, was, now, active, inverse_mi, inverse_mo,
+                    ca, sa, A0, rL, damping, pull,
+                ):
+                    rates_with_tangent(
+                        y, Y, k[0], kY[0], c, s, d, d_rate, i, cage_speed, F, active,
+                        inverse_mi, inverse_mo, ko, co, ca, sa, A0, rL, K, damping, pull,
+                        x, v, f, Kx, Kv, loaded,
+                    )
+                for a in range(n):
+                    history[step, 0, a] = y[a]
+                    history[step, 1, a] = y[n + a]
+                    history[step, 2, a] = k[0, n + a]
+                    history[step, 3, a] = y[2 * n + a]
+                    history[step, 4, a] = y[3 * n + a]
+                    history[step, 5, a] = k[0, 3 * n + a]
+                if step == n_steps:
+                    return n_steps
+        for r in range(4 * n):
+            for stage in range(4):
+                y[r] += weight[stage] * k[stage, r]
+                for column in range(4 * n):
+                    Y[r, column] += weight[stage] * kY[stage, r, column]
+        for r in range(4 * n):
+            if not math.isfinite(y[r]):
+                return step
+    return n_steps
+
+
+@compiled
+def flat_sums_with_tangent(x0, x1, c, s, d, at, rL, K):
+    """`flat_sums`, then G = Σ 1.5 K √δ e e' and N = Σ e e' over the loaded balls: xx, xy, yy."""
+    f0 = 0.0
+    f1 = 0.0
+    S0 = 0.0
+    S1 = 0.0
+    G00 = 0.0
+    G01 = 0.0
+    G11 = 0.0
+    N00 = 0.0
+    N01 = 0.0
+    N11 = 0.0
+    for j in range(c.shape[1]):
+        cj = c[at, j]
+        sj = s[at, j]
+        delta = x0 * cj + x1 * sj - rL - d[at, j]
+        if delta > 0.0:
+            k = K * math.sqrt(delta)
+            Q = k * delta
+            k *= 1.5
+            f0 += Q * cj
+            f1 += Q * sj
+            S0 += delta * cj
+            S1 += delta * sj
+            G00 += k * cj * cj
+            G01 += k * cj * sj
+            G11 += k * sj * sj
+            N00 += cj * cj
+            N01 += cj * sj
+            N11 += sj * sj
+    return f0, f1, S0, S1, G00, G01, G11, N00, N01, N11
+
+
+@compiled
+def flat_rates_with_tangent(
+    y, Y, k, kY, stage, c, s, d, at, cage_speed, F, im, om, ko, co, rL, K, damping
+):
+    """`flat_rates` of y (8,) into k[stage] and the rate of the tangent Y (8, 8) into kY[stage]."""
+    f0, f1, S0, S1, G00, G01, G11, N00, N01, N11 = flat_sums_with_tangent(
+        y[0] - y[4], y[1] - y[5], c, s, d, at, rL, K
+    )
+    turning = damping * cage_speed
+    push0 = f0 + turning * S1
+    push1 = f1 - turning * S0
+    k[stage, 0] = y[2] - damping * im[0] * S0
+    k[stage, 1] = y[3] - damping * im[1] * S1
+    k[stage, 2] = (F[0] - push0) * im[0]
+    k[stage, 3] = (F[1] - push1) * im[1]
+    k[stage, 4] = y[6] + damping * om[0] * S0
+    k[stage, 5] = y[7] + damping * om[1] * S1
+    k[stage, 6] = (push0 - ko[0] * y[4] - co[0] * k[stage, 4]) * om[0]
+    k[stage, 7] = (push1 - ko[1] * y[5] - co[1] * k[stage, 5]) * om[1]
+    B00 = G00 + turning * N01  # ∂push/∂x
+    B01 = G01 + turning * N11
+    B10 = G01 - turning * N00
+    B11 = G11 - turning * N01
+    for column in range(8):
+        x0 = Y[0, column] - Y[4, column]
+        x1 = Y[1, column] - Y[5, column]
+        S0 = damping * (N00 * x0 + N01 * x1)
+        S1 = damping * (N01 * x0 + N11 * x1)
+        push0 = B00 * x0 + B01 * x1
+        push1 = B10 * x0 + B11 * x1
+        vo0 = Y[6, column] + om[0] * S0
+        vo1 = Y[7, column] + om[1] * S1
+        kY[stage, 0, column] = Y[2, column] - im[0] * S0
+        kY[stage, 1, column] = Y[3, column] - im[1] * S1
+        kY[stage, 2, column] = -push0 * im[0]
+        kY[stage, 3, column] = -push1 * im[1]
+        kY[stage, 4, column] = vo0
+        kY[stage, 5, column] = vo1
+        kY[stage, 6, column] = (push0 - ko[0] * Y[4, column] - co[0] * vo0) * om[0]
+        kY[stage, 7, column] = (push1 - ko[1] * Y[5, column] - co[1] * vo1) * om[1]
+
+
+@compiled
+def march_flat_with_tangent(
+    y, Y, n_steps, h, start_angle, cage_speed, rows, tables, F, mi, mo, ko, co,
+    n_balls, rL, K, damping, history,
+):
+    """`march_flat`, and beside it the tangent Y (8, 8): how the end changes with the beginning.
+
+    In smooth variables nothing jumps as balls touch, so the tangent needs no corrections there.
+    """
+    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    shape = (GEOMETRY_BLOCK + 1, n_balls)
+    c = np.empty(shape)
+    s = np.empty(shape)
+    d = np.zeros(shape)
+    dr = np.zeros(shape)
+    k = np.empty((4, 8))
+    kY = np.empty((4, 8, 8))
+    z = np.empty(8)
+    Z = np.empty((8, 8))
+    im = 1.0 / mi
+    om = 1.0 / mo
+    half_turn = 0.5 * h * cage_speed
+    sixth = h / 6.0
+    for step in range(n_steps + 1):
+        i = (2 * step) % GEOMETRY_BLOCK
+        if i == 0:
+            count = min(GEOMETRY_BLOCK, 2 * (n_steps - step)) + 1
+            lay_out_balls(
+                start_angle + 2 * step * half_turn, half_turn, count, cage_speed, rows, tables,
+                ball_c, ball_s, c, s, d, dr,
+            )
+        flat_rates_with_tangent(
+            y, Y, k, kY, 0, c, s, d, i, cage_speed, F, im, om, ko, co, rL, K, damping
+        )
+        flat_record(
+            history, step, y[0], y[1], k[0, 0], k[0, 1], y[4], y[5], k[0, 4], k[0, 5],
+            c, s, d, dr, i, cage_speed, F, im, om, ko, co, rL, K, damping,
+        )
+        if step == n_steps:
+            break
+        for stage in range(1, 4):
+            ahead = h if stage == 3 else 0.5 * h
+            for r in range(8):
+                z[r] = y[r] + ahead * k[stage - 1, r]
+                for column in range(8):
+                    Z[r, column] = Y[r, column] + ahead * kY[stage - 1, r, column]
+            flat_rates_with_tangent(
+                z, Z, k, kY, stage, c, s, d, i + (2 if stage == 3 else 1), cage_speed,
+                F, im, om, ko, co, rL, K, damping,
+            )
+        for r in range(8):
+            y[r] += sixth * (k[0, r] + 2.0 * (k[1, r] + k[2, r]) + k[3, r])
+            for column in range(8):
+                Y[r, column] += sixth * (
+                    kY[0, r, column]
+                    + 2.0 * (kY[1, r, column] + kY[2, r, column])
+                    + kY[3, r, column]
+                )
+    return n_steps

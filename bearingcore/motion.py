@@ -27,7 +27,7 @@ STEPS_A_PASSAGE = 24.0
 MOST_STEPS = 10_000_000
 
 
-class _BodyNumbers(NamedTuple):
+class BodyNumbers(NamedTuple):
     """What `kernels.march` needs of the bodies along the active directions, each (n,)."""
 
     force: NDArray[np.float64]
@@ -111,7 +111,7 @@ class Motion:
         scaled = _sample(
             self.history, body, derivative, self.sample_rate, self.step_rate, len(self.time)
         )
-        return scaled / _units(self.scene, self.dofs)
+        return scaled / length_units(self.scene, self.dofs)
 
 
 def simulate(
@@ -156,7 +156,7 @@ def simulate(
     if scene.shaft_speed == 0.0:
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a simulated motion")
     dofs = scene.active_dofs
-    bodies = _bodies(scene, dofs)
+    bodies = body_numbers(scene, dofs)
     highest = highest_natural_frequency(scene)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
@@ -166,7 +166,7 @@ def simulate(
             f"of {highest:.0f} Hz",
         )
     if step_rate is None:
-        step_rate = _default_step_rate(scene, sample_rate, highest)
+        step_rate = default_step_rate(scene, sample_rate, highest)
     _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     n = max(round(duration * sample_rate), 1)
     n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
@@ -178,26 +178,25 @@ def simulate(
         )
     time = np.arange(n) / sample_rate
     active = np.array([DOF_NAMES.index(name) for name in dofs])
-    start = equilibrium(scene, [0.0], dofs)
     history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
     paths = path_tables(scene.defects, scene.bearing)
-    if start.status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+    y = static_start(scene, dofs)
+    if y is None:
         history[:] = math.nan
-        done, status = 0, f"no static state to start from: {start.reason(0)}"
+        reason = equilibrium(scene, [0.0], dofs).reason(0)
+        done, status = 0, f"no static state to start from: {reason}"
     else:
-        y = np.zeros((4, len(dofs)))
-        y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
-        y[0] = y[2] + start.state[0, active]
-        flat = dofs == DOF_NAMES[:2] and scene.bearing.contact_angle == 0.0
         h = 1.0 / step_rate
-        pull = scene.contact_law == "published"
-        common = (y.ravel(), max(n_steps, 1), h, 0.0, scene.cage_speed, *paths)
+        common = (y, max(n_steps, 1), h, 0.0, scene.cage_speed, *paths)
         n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
         c = contact_damping(scene)
-        if flat:
-            done = kernels.march_flat(*common, *bodies, n_balls, rL, K, c, pull, history)
+        if is_flat(scene):
+            masses = (bodies.inner_mass, bodies.outer_mass)
+            kernels.flat_smooth(y, 0.0, *paths, *masses, n_balls, rL, c, 1.0)
+            done = kernels.march_flat(*common, *bodies, n_balls, rL, K, c, history)
         else:
             force, *others = bodies
+            pull = scene.contact_law == "published"
             done = kernels.march(
                 *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, pull, history
             )
@@ -229,17 +228,38 @@ def simulate(
     )
 
 
-def _units(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64]:
+def is_flat(scene: Scene) -> bool:
+    """True where only x and y move, α0 = 0 and the law is the published one.
+
+    The kernels then march smooth variables: the same motion, faster and more exact.
+    """
+    flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.contact_angle == 0.0
+    return flat and scene.contact_law == "published"
+
+
+def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
+    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state."""
+    start = equilibrium(scene, [0.0], dofs)
+    if start.status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+        return None
+    bodies = body_numbers(scene, dofs)
+    y = np.zeros((4, len(dofs)))
+    y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
+    y[0] = y[2] + start.state[0, [DOF_NAMES.index(name) for name in dofs]]
+    return y.ravel()
+
+
+def length_units(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64]:
     """What a scaled displacement is divided by: 1 [m], or r_d for tilts [m/rad]."""
     lever = scene.bearing.groove_center_radius
     return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
 
 
-def _bodies(scene: Scene, dofs: tuple[str, ...]) -> _BodyNumbers:
+def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
     """Load, inertia and support along `dofs`, tilts scaled to lengths as in the kernels."""
-    units = _units(scene, dofs)
+    units = length_units(scene, dofs)
     index = [DOF_NAMES.index(name) for name in dofs]
-    return _BodyNumbers(
+    return BodyNumbers(
         scene.load.vector[index] / units,
         scene.support.inertia("inner", dofs) / units**2,
         scene.support.inertia("outer", dofs) / units**2,
@@ -248,7 +268,7 @@ def _bodies(scene: Scene, dofs: tuple[str, ...]) -> _BodyNumbers:
     )
 
 
-def _default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
+def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
     """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do."""
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
     for defect in scene.defects:
@@ -288,25 +308,39 @@ def _sample(
         rows = slice(0, (n - 1) * a_sample + 1, a_sample)
         return np.ascontiguousarray(history[rows, first + derivative])
     out = np.empty((n, history.shape[2]))
-    kernels.between_steps(history, first, _weights(a_step, derivative, 1.0 / step_rate), out)
+    kernels.between_steps(
+        history,
+        first,
+        hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate),
+        out,
+    )
     return out
 
 
-def _weights(ratio: int, derivative: int, h: float) -> NDArray[np.float64]:
-    """Quintic Hermite weights (ratio, 6) of x, v, a at both ends of a step of h [s]."""
-    basis = (
-        (Polynomial([1, 0, 0, -10, 15, -6]), 0),
-        (Polynomial([0, 1, 0, -6, 8, -3]), 1),
-        (Polynomial([0, 0, 0.5, -1.5, 1.5, -0.5]), 2),
-        (Polynomial([0, 0, 0, 10, -15, 6]), 0),
-        (Polynomial([0, 0, 0, -4, 7, -3]), 1),
-        (Polynomial([0, 0, 0, 0.5, -1, 0.5]), 2),
+_HERMITE = tuple(
+    (Polynomial(coefficients), power)
+    for coefficients, power in (
+        ([1, 0, 0, -10, 15, -6], 0),
+        ([0, 1, 0, -6, 8, -3], 1),
+        ([0, 0, 0.5, -1.5, 1.5, -0.5], 2),
+        ([0, 0, 0, 10, -15, 6], 0),
+        ([0, 0, 0, -4, 7, -3], 1),
+        ([0, 0, 0, 0.5, -1, 0.5], 2),
     )
-    fractions = np.arange(ratio) / ratio
+)
+
+
+def hermite_weights(
+    fraction: NDArray[np.float64], derivative: int, h: float
+) -> NDArray[np.float64]:
+    """Quintic weights (n, 6) of x, v, a at both ends of a step of h [s], at fractions (n,) of it.
+
+    `derivative` 0, 1, 2 asks for displacement, velocity, acceleration.
+    """
     return np.stack(
         [
-            (p.deriv(derivative) if derivative else p)(fractions) * h ** (power - derivative)
-            for p, power in basis
+            (p.deriv(derivative) if derivative else p)(fraction) * h ** (power - derivative)
+            for p, power in _HERMITE
         ],
         axis=1,
     )

@@ -1289,3 +1289,383 @@ def march_flat_with_tangent(
                     + kY[3, r, column]
                 )
     return n_steps
+
+
+# -------------------------------------------------- other ways to march, to compare with the above
+#
+# These are measured beside `march` (bearingcore.precision) and never used where it is. They take
+# whole scenes through the same contact law, state and history. Numbers of a scene travel packed:
+# numbers = (cage_speed, cos α0, sin α0, A0, r_L, K, contact damping, pull), and
+# bodies (5, n) = load, inverse inner and outer mass, stiffness and damping of the support.
+
+
+@compiled
+def motion_rate(t, y, start_angle, n_balls, numbers, bodies, active, rows, tables):
+    """dy/dt (4 n,) at the time t [s] and state y: what general-purpose integrators ask for."""
+    n = active.size
+    step = 2.0 * math.pi / n_balls
+    ball_c = np.cos(step * np.arange(n_balls))
+    ball_s = np.sin(step * np.arange(n_balls))
+    c = np.empty((1, n_balls))
+    s = np.empty((1, n_balls))
+    d = np.zeros((1, n_balls))
+    d_rate = np.zeros((1, n_balls))
+    w = numbers[0]
+    lay_out_balls(start_angle + w * t, 0.0, 1, w, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+    k = np.empty(4 * n)
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    rate_of_change(
+        y, k, n, c, s, d, d_rate, 0, w, bodies[0], active, bodies[1], bodies[2], bodies[3],
+        bodies[4], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6],
+        numbers[7] > 0.0, x, v, f,
+    )
+    return k
+
+
+@inlined
+def record(history, row, y, k, n):
+    """Displacement, velocity and acceleration of both bodies into one row of a history."""
+    for a in range(n):
+        history[row, 0, a] = y[a]
+        history[row, 1, a] = y[n + a]
+        history[row, 2, a] = k[n + a]
+        history[row, 3, a] = y[2 * n + a]
+        history[row, 4, a] = y[3 * n + a]
+        history[row, 5, a] = k[3 * n + a]
+
+
+@compiled
+def interpolate_step(history, row, part, h, y0, k0, y1, k1, n):
+    """A row of a history, `part` of the step h after y0: quintic in x, v, a of both ends."""
+    u = part
+    for body in range(2):
+        for a in range(n):
+            i = 2 * body * n + a
+            x0 = y0[i]
+            v0 = h * y0[n + i]
+            a0 = 0.5 * h * h * k0[n + i]
+            rise = y1[i] - x0 - v0 - a0
+            speed = h * y1[n + i] - v0 - 2.0 * a0
+            bend = 0.5 * h * h * k1[n + i] - a0
+            c3 = 10.0 * rise - 4.0 * speed + bend
+            c4 = -15.0 * rise + 7.0 * speed - 2.0 * bend
+            c5 = 6.0 * rise - 3.0 * speed + bend
+            history[row, 3 * body, a] = x0 + u * (v0 + u * (a0 + u * (c3 + u * (c4 + u * c5))))
+            history[row, 3 * body + 1, a] = (
+                v0 + u * (2.0 * a0 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))
+            ) / h
+            history[row, 3 * body + 2, a] = (
+                2.0 * a0 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))
+            ) / (h * h)
+
+
+# Dormand & Prince 5(4): stages, their times, and the difference of the two orders.
+PAIR_STAGES = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+])
+PAIR_TIMES = np.array([0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0])
+PAIR_ERROR = np.array([
+    -71.0 / 57600.0, 0.0, 71.0 / 16695.0, -71.0 / 1920.0, 17253.0 / 339200.0, -22.0 / 525.0,
+    1.0 / 40.0,
+])
+
+
+@compiled
+def march_adaptive(
+    y, sample_step, tolerance, scale, stops, most_calls, start_angle, n_balls, numbers, bodies,
+    active, rows, tables, history,
+):
+    """Dormand and Prince's embedded pair of orders 5 and 4 from y (4 n,), which is moved.
+
+    The root mean square of error/scale (4 n,) of each step stays below `tolerance`; a step ends at
+    each of the rising times `stops` [s]. history (samples, 6, n) is filled every `sample_step` [s]
+    between steps. Returns (samples filled, steps, refused steps, right-hand-side calls).
+    """
+    n = active.size
+    ball = 2.0 * math.pi / n_balls
+    ball_c = np.cos(ball * np.arange(n_balls))
+    ball_s = np.sin(ball * np.arange(n_balls))
+    c = np.empty((1, n_balls))
+    s = np.empty((1, n_balls))
+    d = np.zeros((1, n_balls))
+    d_rate = np.zeros((1, n_balls))
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    k = np.zeros((7, 4 * n))
+    trial = np.zeros(4 * n)
+    w = numbers[0]
+    n_samples = history.shape[0]
+    end = (n_samples - 1) * sample_step
+    t = 0.0
+    h = 1e-3 * sample_step  # short enough; steps grow by up to five times
+    norm_before = 1.0
+    first = 0  # the first stage to compute: the last one of a step is the first of the next
+    refused_last = False
+    stop = 0
+    sample = 0
+    steps = 0
+    refused = 0
+    calls = 0
+    while True:
+        while stop < stops.size and stops[stop] <= t:
+            stop += 1
+        target = min(stops[stop], end) if stop < stops.size else end
+        last = h >= 0.999999 * (target - t)
+        taken = target - t if last else h
+        for stage in range(first, 7):
+            for r in range(4 * n):
+                total = 0.0
+                for i in range(stage):
+                    total += PAIR_STAGES[stage, i] * k[i, r]
+                trial[r] = y[r] + taken * total
+            angle = start_angle + w * (t + PAIR_TIMES[stage] * taken)
+            lay_out_balls(angle, 0.0, 1, w, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+            rate_of_change(
+                trial, k[stage], n, c, s, d, d_rate, 0, w, bodies[0], active, bodies[1],
+                bodies[2], bodies[3], bodies[4], numbers[1], numbers[2], numbers[3], numbers[4],
+                numbers[5], numbers[6], numbers[7] > 0.0, x, v, f,
+            )
+            calls += 1
+        first = 1
+        total = 0.0
+        for r in range(4 * n):
+            e = 0.0
+            for i in range(7):
+                e += PAIR_ERROR[i] * k[i, r]
+            total += (taken * e / scale[r]) ** 2
+        norm = math.sqrt(total / (4 * n)) / tolerance
+        if not math.isfinite(norm) or calls > most_calls or t + 0.1 * taken == t:
+            return sample, steps, refused, calls
+        if norm > 1.0:
+            refused += 1
+            refused_last = True
+            h = taken * max(0.1, 0.9 * norm ** -0.2)
+            continue
+        steps += 1
+        while sample < n_samples and (sample * sample_step <= t + taken or (last and target == end)):
+            part = min((sample * sample_step - t) / taken, 1.0)
+            interpolate_step(history, sample, part, taken, y, k[0], trial, k[6], n)
+            sample += 1
+        t = target if last else t + taken
+        for r in range(4 * n):
+            y[r] = trial[r]
+            k[0, r] = k[6, r]
+        if sample >= n_samples:
+            return sample, steps, refused, calls
+        norm = max(norm, 1e-4)
+        grown = taken * min(5.0, max(0.2, 0.9 * norm ** -0.14 * norm_before ** 0.08))
+        h = max(h, grown) if last else min(grown, taken) if refused_last else grown
+        refused_last = False
+        norm_before = norm
+
+
+@compiled
+def march_verlet(
+    y, n_steps, h, start_angle, n_balls, numbers, bodies, active, rows, tables, history
+):
+    """Velocity-Verlet steps (leapfrog) of order 2 from y (4 n,), which is moved to the end.
+
+    One right-hand side a step; forces that hang on velocity take it as half a step's acceleration
+    foretells. history and what is returned: as `march`.
+    """
+    n = active.size
+    ball = 2.0 * math.pi / n_balls
+    ball_c = np.cos(ball * np.arange(n_balls))
+    ball_s = np.sin(ball * np.arange(n_balls))
+    shape = (GEOMETRY_BLOCK + 1, n_balls)
+    c = np.empty(shape)
+    s = np.empty(shape)
+    d = np.zeros(shape)
+    d_rate = np.zeros(shape)
+    k = np.zeros(4 * n)
+    half = np.zeros((2, n))
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    w = numbers[0]
+    for step in range(n_steps + 1):
+        i = step % GEOMETRY_BLOCK
+        if i == 0:
+            count = min(GEOMETRY_BLOCK, n_steps - step) + 1
+            angle = start_angle + step * h * w
+            lay_out_balls(angle, h * w, count, w, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+            for r in range(4 * n):
+                if not math.isfinite(y[r]):
+                    return max(step - GEOMETRY_BLOCK, 0)
+        if step > 0:
+            for b in range(2):
+                for a in range(n):
+                    r = 2 * b * n + a
+                    half[b, a] = y[n + r] + 0.5 * h * k[n + r]
+                    y[r] += h * half[b, a]
+                    y[n + r] = half[b, a] + 0.5 * h * k[n + r]  # foretold
+        rate_of_change(
+            y, k, n, c, s, d, d_rate, i, w, bodies[0], active, bodies[1], bodies[2], bodies[3],
+            bodies[4], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6],
+            numbers[7] > 0.0, x, v, f,
+        )
+        if step > 0:
+            for b in range(2):
+                for a in range(n):
+                    r = 2 * b * n + a
+                    y[n + r] = half[b, a] + 0.5 * h * k[n + r]
+        record(history, step, y, k, n)
+    for r in range(4 * n):
+        if not math.isfinite(y[r]):
+            return max(n_steps - GEOMETRY_BLOCK, 0)
+    return n_steps
+
+
+@compiled
+def march_generalised_alpha(
+    y, n_steps, h, am, af, start_angle, n_balls, numbers, bodies, active, rows, tables, history
+):
+    """Implicit steps of order 2 by the generalised-α method of Chung and Hulbert (1993).
+
+    Inertia is taken `am` and forces `af` of a step before its end: am = af = 0 is the trapezoidal
+    rule. The equations of a step are solved by Newton's method with the stiffness of the contacts
+    and the damping of the support. Accelerations recorded are those of the equation of motion at
+    the end of a step, not the method's own. Returns (steps that stayed finite, right-hand-side
+    calls, steps whose equations were not solved to 1e-10 of their size).
+    """
+    n = active.size
+    m = 2 * n
+    ball = 2.0 * math.pi / n_balls
+    ball_c = np.cos(ball * np.arange(n_balls))
+    ball_s = np.sin(ball * np.arange(n_balls))
+    c = np.empty((1, n_balls))
+    s = np.empty((1, n_balls))
+    d = np.zeros((1, n_balls))
+    d_rate = np.zeros((1, n_balls))
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    no_load = np.zeros(5)
+    g = np.zeros(5)
+    H = np.zeros((5, 5))
+    S = np.zeros((m, m))
+    L = np.zeros((m, m))
+    residual = np.zeros(m)
+    change = np.zeros(m)
+    everything = np.arange(m)
+    k = np.zeros(4 * n)
+    middle = np.zeros(4 * n)
+    own = np.zeros(m)  # the method's accelerations, inner then outer
+    now = np.zeros(m)
+    trial = np.zeros(4 * n)
+    w, ca, sa, A0, rL, K, damping, pull = numbers
+    gamma = 0.5 - am + af
+    beta = 0.25 * (1.0 - am + af) ** 2
+    calls = 0
+    unsolved = 0
+    for step in range(n_steps + 1):
+        if step > 0:
+            angle = start_angle + w * h * (step - af)
+            lay_out_balls(angle, 0.0, 1, w, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+            for i in range(m):
+                now[i] = own[i]
+            solved = False
+            for _ in range(12):
+                for b in range(2):
+                    for a in range(n):
+                        i = b * n + a
+                        r = 2 * b * n + a
+                        trial[r] = (
+                            y[r] + h * y[n + r]
+                            + h * h * ((0.5 - beta) * own[i] + beta * now[i])
+                        )
+                        trial[n + r] = y[n + r] + h * ((1.0 - gamma) * own[i] + gamma * now[i])
+                for r in range(4 * n):
+                    middle[r] = (1.0 - af) * trial[r] + af * y[r]
+                rate_of_change(
+                    middle, k, n, c, s, d, d_rate, 0, w, bodies[0], active, bodies[1], bodies[2],
+                    bodies[3], bodies[4], ca, sa, A0, rL, K, damping, pull > 0.0, x, v, f,
+                )
+                calls += 1
+                worst = 0.0
+                size = 1e-300
+                for b in range(2):
+                    for a in range(n):
+                        i = b * n + a
+                        wanted = (1.0 - am) * now[i] + am * own[i]
+                        have = k[2 * b * n + n + a]
+                        residual[i] = (wanted - have) / bodies[1 + b, a]
+                        worst = max(worst, abs(residual[i]))
+                        size = max(size, abs(f[active[a]]) + abs(bodies[0, a]))
+                if not math.isfinite(worst):
+                    return max(step - 1, 0), calls, unsolved
+                if worst <= 1e-10 * size:
+                    solved = True
+                    break
+                energy_gradient_hessian(
+                    x, no_load, c[0], s[0], d[0], ca, sa, A0, rL, K, g, H
+                )
+                spring = (1.0 - af) * beta * h * h
+                damper = (1.0 - af) * gamma * h
+                for a in range(n):
+                    for b in range(a + 1):
+                        i, j = max(active[a], active[b]), min(active[a], active[b])
+                        stiff = spring * H[i, j]
+                        S[a, b] = stiff
+                        S[n + a, n + b] = stiff
+                        S[n + a, b] = -stiff
+                        S[n + b, a] = -stiff
+                    S[a, a] += (1.0 - am) / bodies[1, a]
+                    S[n + a, n + a] += (
+                        (1.0 - am) / bodies[2, a] + spring * bodies[3, a] + damper * bodies[4, a]
+                    )
+                newton_direction(S, residual, everything, 0.0, L, change)
+                for i in range(m):
+                    now[i] += change[i]
+            if not solved:
+                unsolved += 1
+            for i in range(m):
+                own[i] = now[i]
+            for r in range(4 * n):
+                y[r] = trial[r]
+        k[:] = motion_rate(
+            h * step, y, start_angle, n_balls, numbers, bodies, active, rows, tables
+        )
+        calls += 1
+        if step == 0:
+            for a in range(n):
+                own[a] = k[n + a]
+                own[n + a] = k[3 * n + a]
+        record(history, step, y, k, n)
+    return n_steps, calls, unsolved
+
+
+@compiled
+def static_states_cold(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL, K):
+    """Energy evaluations of `static_states` with each angle started afresh, and whether all met."""
+    evaluations = 0
+    met = True
+    q = np.zeros((cage_angles.size, 5))
+    for k in range(cage_angles.size):
+        one = static_states(
+            cage_angles[k : k + 1], rows, tables, F, active, n_balls, ca, sa, A0, rL, K
+        )
+        q[k] = one[0][0]
+        evaluations += one[7][0]
+        met = met and one[4][0] == CONVERGED
+    return q, evaluations, met
+
+
+@compiled
+def motion_rates(times, states, start_angle, n_balls, numbers, bodies, active, rows, tables):
+    """`motion_rate` at each of the times (m,) and states (m, 4 n)."""
+    rates = np.empty_like(states)
+    for i in range(times.size):
+        rates[i] = motion_rate(
+            times[i], states[i], start_angle, n_balls, numbers, bodies, active, rows, tables
+        )
+    return rates

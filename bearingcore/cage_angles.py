@@ -1,0 +1,295 @@
+"""Where to put cage angles so that straight lines between them show the true curves.
+
+Static curves are smooth between events: a ball meeting an edge or a floor, where curves have
+corners, and a ball touching or letting go, where its stiffness begins like the square root of the
+angle. With a node at each event, and finer nodes only where a curve bends, a given error takes
+several times fewer nodes than equal spacing, which never resolves a root.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import checks
+from bearingcore.equilibrium import Equilibrium, default_cage_angles, equilibrium
+from bearingcore.modes import two_body_matrix
+from bearingcore.passes import ball_drop, crossings
+from bearingcore.scene import DOF_NAMES, Scene
+
+Array = NDArray[np.float64]
+
+CURVES = ("load", "stiffness", "modes")
+"""What is to be drawn over the cage angle: ball loads with displacements, the 15 stiffness terms,
+undamped natural frequencies."""
+
+FIRST_NODES = 12
+"""Intervals in a ball spacing to begin with, beside those that events make."""
+
+MOST_NODES = 4000
+LEAST_INTERVAL = 1e-7
+"""Intervals below this part of a ball spacing are not divided any more."""
+
+_TERMS = np.triu_indices(5)
+
+ROOT_SPLIT = 1.0 / 16.0
+"""Where an interval is divided that begins at a touch: for a curve like a square root, nodes at
+fourth powers are the best there are, and a half to the fourth is a sixteenth."""
+
+TOUCH_FOUND, TOUCH_SEEN = 1e-9, 1e-7
+"""A gap below the first part of the load's compression counts as the touch itself when one is
+looked for, and below the second as no sign of another."""
+
+LEAST_SWING = 0.01
+"""Errors are taken over a curve's swing, but not over less than this part of its size."""
+
+
+@dataclass(frozen=True)
+class CageAngles:
+    """Nodes for a scene's curves.
+
+    Attributes
+    ----------
+    angles : (n,) [rad]
+        rising, over one period of the scene's curves.
+    kinks, touches : (k,) [rad]
+        those of them at which a ball meets an edge or floor, and at which one touches or lets go.
+    predicted_error
+        greatest error of a straight line between nodes, over the curve's swing (see LEAST_SWING).
+    solved
+        cage angles that were solved to find them.
+    met
+        True where the predicted error is within the budget.
+    """
+
+    angles: Array
+    kinks: Array
+    touches: Array
+    predicted_error: float
+    solved: int
+    met: bool
+
+
+def path_kinks(scene: Scene, first: float, last: float) -> Array:
+    """Cage angles [rad] from first to last, rising, at which a ball meets an edge or a floor.
+
+    The path of a ball has a corner, or its curvature jumps, there and only there, as long as
+    floors are flat and defects stand apart.
+    """
+    found = []
+    for crossing in crossings(scene, first - math.pi, last + math.pi):
+        defect = scene.defects[crossing.defect]
+        rate = abs(1.0 - defect.turn_ratio(scene.bearing))
+        inwards = 1.0 if crossing.enters else -1.0
+        at = crossing.cage_angle
+        found.append(at)
+        # too short for the floor, it turns up again in the middle
+        s_floor = min(float(defect.edge_row(scene.bearing)[4]), 0.5 * defect.extent)
+        found.append(at + inwards * s_floor / rate)
+    angles = np.array(sorted(found))
+    return angles[(angles >= first) & (angles <= last)]
+
+
+def curves_of(state: Equilibrium, curves: str) -> Array:
+    """(n, m) the curves to be drawn, in their units; NaN where there is no answer."""
+    if curves == "load":
+        return np.hstack([state.ball_load, state.displacement])
+    if curves == "stiffness":
+        return state.stiffness[:, *_TERMS]
+    checks.choice("curves", curves, CURVES)
+    scene, dofs = state.scene, state.dofs
+    index = [DOF_NAMES.index(name) for name in dofs]
+    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    K = two_body_matrix(state.stiffness[:, index][:, :, index], scene.support.stiffness(dofs))
+    frequency = np.full((len(K), mass.size), math.nan)
+    known = np.isfinite(K).all(axis=(1, 2))
+    values = np.linalg.eigvalsh(K[known] / np.sqrt(mass[:, None] * mass))
+    frequency[known] = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)
+    return frequency
+
+
+def swings(values: Array) -> Array:
+    """(m,) what errors of curves (n, m) are taken over: swings, or LEAST_SWING of the size.
+
+    A term that symmetry makes zero is measured by the size of its neighbours: 1 where nothing is.
+    """
+    known = values[np.isfinite(values).all(axis=1)]
+    if not known.size:
+        return np.ones(values.shape[1])
+    size = np.abs(known).max(axis=0)
+    swing = np.maximum(np.ptp(known, axis=0), LEAST_SWING * size)
+    if values.shape[1] == 15:  # stiffness: a term counts beside the diagonal ones of its directions
+        rows, columns = _TERMS
+        diagonal = size[rows == columns]
+        swing = np.maximum(swing, 1e-6 * np.sqrt(diagonal[rows] * diagonal[columns]))
+    return np.where(swing > 0.0, swing, 1.0)
+
+
+class _Nodes:
+    """Solved cage angles in rising order."""
+
+    def __init__(self, scene: Scene, curves: str, dofs: tuple[str, ...], angles: Array) -> None:
+        self.scene, self.curves, self.dofs = scene, curves, dofs
+        self.solved = 0
+        self.angles, self.values, self.gaps = self.solve(angles)
+        self.touch = np.zeros(angles.size, dtype=bool)
+        load = float(np.linalg.norm(scene.load.vector[:3])) or 1.0
+        self.compression = (load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
+
+    def solve(self, angles: Array) -> tuple[Array, Array, Array]:
+        """Angles, curves (n, m) and compressions (n, N_b), gaps negative [m]."""
+        state, gaps = self.gaps_at(angles)
+        values = curves_of(state, self.curves)
+        values[~state.converged] = math.nan
+        return angles, values, gaps
+
+    def gaps_at(self, angles: Array) -> tuple[Equilibrium, Array]:
+        """The static states and compressions (n, N_b), gaps negative [m]."""
+        state = equilibrium(self.scene, angles, self.dofs)
+        self.solved += angles.size
+        bearing = self.scene.bearing
+        _, ca, sa, A0, rL, _ = bearing.contact_numbers
+        phi = state.ball_angle
+        c, s = np.cos(phi), np.sin(phi)
+        x, y, z, rx, ry = (state.state[:, i, None] for i in range(5))
+        radial = x * c + y * s - rL
+        axial = z + rx * s - ry * c
+        drop = ball_drop(self.scene, phi, angles[:, None])
+        along = np.maximum(A0 + radial * ca + axial * sa - drop, 0.0)
+        gaps: Array = np.hypot(along, axial * ca - radial * sa) - A0
+        gaps[~state.converged] = math.nan
+        return state, gaps
+
+    def insert(self, angles: Array, touch: bool) -> None:
+        """Solve more angles and put them where they belong."""
+        self.put(*self.solve(np.sort(angles)), touch)
+
+    def put(self, angles: Array, values: Array, gaps: Array, touch: bool) -> None:
+        """Put solved angles where they belong."""
+        together = np.concatenate([self.angles, angles])
+        order = np.argsort(together, kind="stable")
+        self.angles = together[order]
+        self.values = np.concatenate([self.values, values])[order]
+        self.gaps = np.concatenate([self.gaps, gaps])[order]
+        self.touch = np.concatenate([self.touch, np.full(angles.size, touch)])[order]
+
+    def find_touches(self) -> bool:
+        """Find where a ball touches or lets go between two nodes and put nodes there."""
+        seen = TOUCH_SEEN * self.compression
+        with np.errstate(invalid="ignore"):
+            before, after = self.gaps[:-1], self.gaps[1:]
+            change = (before * after < 0.0) & (np.abs(before) > seen) & (np.abs(after) > seen)
+        row, ball = np.nonzero(change)
+        if not row.size:
+            return False
+        left, right = self.angles[row].copy(), self.angles[row + 1].copy()
+        g_left, g_right = before[row, ball].copy(), after[row, ball].copy()
+        best = np.where(np.abs(g_left) < np.abs(g_right), left, right)
+        for _ in range(12):
+            # false position; the end that stays counts half (the Illinois way)
+            best = right - g_right * (right - left) / (g_right - g_left)
+            order = np.argsort(best, kind="stable")
+            gaps = np.empty(best.size)
+            gaps[order] = self.gaps_at(best[order])[1][np.arange(best.size), ball[order]]
+            if not np.all(np.isfinite(gaps)) or np.all(
+                np.abs(gaps) <= TOUCH_FOUND * self.compression
+            ):
+                break
+            moved = gaps * g_left > 0.0
+            g_right = np.where(moved, 0.5 * g_right, gaps)
+            g_left = np.where(moved, gaps, 0.5 * g_left)
+            left = np.where(moved, best, left)
+            right = np.where(moved, right, best)
+        self.insert(np.unique(best), touch=True)
+        return True
+
+    def bend(self, budget: float, least: float) -> float:
+        """Divide intervals until lines are good; returns the greatest error that is left."""
+        fresh = np.ones(self.angles.size - 1, dtype=bool)
+        left_over = 0.0
+        while fresh.any() and self.angles.size < MOST_NODES:
+            at = np.flatnonzero(fresh)
+            a, b = self.angles[at], self.angles[at + 1]
+            root_a, root_b = self.touch[at], self.touch[at + 1]
+            part = np.where(root_a & ~root_b, ROOT_SPLIT, np.where(root_b & ~root_a, 1 - ROOT_SPLIT,
+                                                                   0.5))  # fmt: skip
+            middle = a + part * (b - a)
+            angles, values, gaps = self.solve(middle)
+            line = self.values[at] + part[:, None] * (self.values[at + 1] - self.values[at])
+            scale = swings(np.concatenate([self.values, values]))
+            with np.errstate(invalid="ignore"):
+                error = np.nan_to_num(np.abs(values - line) / scale, nan=0.0).max(axis=1)
+            known = np.isfinite(np.stack([self.values[at, 0], values[:, 0], self.values[at + 1, 0]]))
+            border = known.any(axis=0) & ~known.all(axis=0)
+            divide = (error > budget) & (b - a > least)
+            divide |= border & (b - a > 1e4 * least)
+            done = error[~divide]
+            left_over = max(left_over, float(done.max(initial=0.0)))
+            # the new nodes' intervals, in the order of all nodes
+            marks = np.zeros(self.angles.size + angles.size, dtype=bool)
+            where = np.searchsorted(self.angles, angles) + np.arange(angles.size)
+            marks[where[divide]] = True
+            marks[where[divide] - 1] = True
+            self.put(angles, values, gaps, touch=False)
+            fresh = marks[:-1]
+        if fresh.any():
+            left_over = math.inf
+        return left_over
+
+
+def place(
+    scene: Scene, curves: str = "stiffness", budget: float = 2e-3, dofs: tuple[str, ...] | None = None
+) -> CageAngles:
+    """Cage angles between which straight lines miss the scene's curves by at most `budget`.
+
+    Parameters
+    ----------
+    scene
+        what is drawn.
+    curves
+        "load", "stiffness" or "modes".
+    budget
+        greatest error over the swing of each curve, or over 1 % of its size if it swings less.
+    dofs
+        free directions; None takes the scene's.
+
+    Raises
+    ------
+    ValueError
+        for unknown curves or a budget that is not positive.
+    """
+    checks.choice("curves", curves, CURVES)
+    budget = checks.number("budget", budget, above=0.0)
+    ends = default_cage_angles(scene, 2)
+    first, last = float(ends[0]), float(ends[-1])
+    spacing = scene.bearing.ball_spacing
+    kinks = path_kinks(scene, first, last)
+    start = np.linspace(first, last, math.ceil((last - first) / spacing * FIRST_NODES - 1e-9) + 1)
+    # an equal node next to a kink would make a sliver of an interval
+    near = np.abs(start[:, None] - kinks[None, :]).min(axis=1, initial=math.inf)
+    keep = near > 1e-3 * spacing
+    keep[[0, -1]] = near[[0, -1]] > 0.0
+    angles = np.unique(np.concatenate([start[keep], kinks]))
+    nodes = _Nodes(scene, curves, scene.active_dofs if dofs is None else dofs, angles)
+    error = math.inf
+    nodes.find_touches()
+    for _ in range(4):
+        error = nodes.bend(budget, LEAST_INTERVAL * spacing)
+        if not nodes.find_touches():
+            break
+    return CageAngles(
+        nodes.angles,
+        kinks,
+        nodes.angles[nodes.touch],
+        AFTER_SPLIT * error,
+        nodes.solved,
+        error <= budget,
+    )
+
+
+AFTER_SPLIT = 0.6
+"""What dividing an interval leaves of the error found in it: a quarter for a smooth curve, 0.6 for
+one that begins like a root."""

@@ -46,6 +46,9 @@ MOST_BALL_PASSES = 400
 WINDOW_REACH = 6
 """Bins over which the Hann window lets a line be seen: beyond, its side lobes are 60 dB down."""
 
+MARCHED_BEFORE = (2, 20, 60)
+"""Periods marched before Newton's method begins, and before it begins again."""
+
 CLOSED = 1e-7
 """An orbit is closed when it misses its beginning by this part of its own size."""
 
@@ -142,7 +145,7 @@ class Orbit:
         spacing = 1.0 / (self.period * resolution)
         lines *= np.exp(1j * math.pi * spacing * np.arange(len(lines)))[:, None]
         # lines within WINDOW_REACH bins of a frequency are what a segment sees there
-        reach = math.ceil(WINDOW_REACH / spacing)
+        reach = max(math.ceil(WINDOW_REACH / spacing), 2)
         k = np.rint(frequency * self.period).astype(int)[:, None] + np.arange(-reach, reach + 1)
         known = (k > 0) & (k < min(len(lines), 0.5 * sample_rate * self.period))
         x = k * spacing - frequency[:, None] / resolution
@@ -221,9 +224,17 @@ def orbit(
     if y is None:
         return replace(nothing, status=NO_START, period=period)
     y = shooting.own(y)
-    if start is None:
-        y = shooting.marched(y, 2)  # two periods damp the worst of the start
-    return _newton(nothing, shooting, y, period, most_iterations)
+    if start is not None:
+        found = _newton(nothing, shooting, y, period, most_iterations)
+        if found.status != NOT_CONVERGED:
+            return found
+    # where Newton loses its way it begins again, nearer to where the motion itself goes
+    for periods in MARCHED_BEFORE:
+        y = shooting.marched(y, periods)
+        found = _newton(nothing, shooting, y, period, most_iterations)
+        if found.status != NOT_CONVERGED:
+            break
+    return found
 
 
 def common_ball_passes(scene: Scene) -> int | None:

@@ -9,6 +9,7 @@ sys.path[:] = [str(_here.parent), *(p for p in sys.path if Path(p or ".").resolv
 if not hasattr(sys.modules.get("app"), "__path__"):
     sys.modules.pop("app", None)
 
-from app.page import page  # noqa: E402
+from app.page import page, warm_once  # noqa: E402
 
+warm_once()
 page().servable()

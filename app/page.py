@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import logging
+from functools import cache
+
 import panel as pn
 
+import bearingcore
 from app.assets import asset_text
 from app.explorer import Explorer, Section
 from app.views.bearing import BearingDrawing
@@ -14,6 +18,8 @@ from app.views.stiffness import Stiffness
 from app.views.vibration_spectrum import VibrationSpectra
 from app.views.vibration_time import VibrationInTime
 
+log = logging.getLogger(__name__)
+
 SECTIONS = (
     Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
     Section("stiffness", "Stiffness", (Stiffness,)),
@@ -21,6 +27,12 @@ SECTIONS = (
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
 )
 """The tabs. What is not on the tab that is open is neither computed nor sent."""
+
+
+@cache
+def warm_once() -> None:
+    """Compile the kernels, once a process, before anybody's first drag waits for them."""
+    bearingcore.warm(report=log.info)
 
 
 def page() -> pn.Template:

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import panel as pn
 import param
+from bokeh.models import SaveTool
 from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
@@ -75,9 +76,13 @@ class View:
         )
         self._caption.on_msg(self._answer)
         self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
+        body = pn.panel(self.build(wire), margin=0)
+        for pane in body.select(pn.pane.Bokeh):
+            for tool in pane.object.select({"type": SaveTool}):
+                tool.filename = f"bearing-{self.name}"
         self.panel: pn.viewable.Viewable = pn.Column(
             self._caption,
-            self.build(wire),
+            body,
             self._sentence,
             css_classes=["view", f"view-{self.name}"],
             stylesheets=[asset_text("view.css")],

@@ -1451,7 +1451,8 @@ def march_adaptive(
             h = taken * max(0.1, 0.9 * norm ** -0.2)
             continue
         steps += 1
-        while sample < n_samples and (sample * sample_step <= t + taken or (last and target == end)):
+        ends = last and target == end
+        while sample < n_samples and (ends or sample * sample_step <= t + taken):
             part = min((sample * sample_step - t) / taken, 1.0)
             interpolate_step(history, sample, part, taken, y, k[0], trial, k[6], n)
             sample += 1

@@ -25,7 +25,7 @@ changes nothing else and makes the energy
 
 convex. Static equilibrium (Eq. 15) is its minimum, found by Newton's method with a line search.
 
-`fastmath` stays off: NaN is how a missing answer is told.
+Fast mathematics that drops NaN or reorders sums stays off: NaN is how a missing answer is told.
 """
 
 from __future__ import annotations
@@ -35,10 +35,12 @@ import math
 import numpy as np
 from numba import njit
 
-compiled = njit(cache=True, nogil=True)
+# "contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
+# statics a quarter faster. NaN, signs and the order of sums are as written.
+compiled = njit(cache=True, nogil=True, fastmath={"contract"})
 # a call with many arrays costs more than a small kernel's work: such functions become part of their
 # callers, which made marching 2.4 times as fast
-inlined = njit(cache=True, nogil=True, inline="always")
+inlined = njit(cache=True, nogil=True, fastmath={"contract"}, inline="always")
 
 # Columns of the rows that describe defects to `ball_path` (see defect.path_tables):
 PATH_COLUMNS = (
@@ -134,6 +136,21 @@ def fall(angle, cage_angle, rows, tables):
         total += drop
         total_slope += slope * (1.0 - turn)
     return total, total_slope
+
+
+@compiled
+def lay_out_drops(cage, rows, tables, d):
+    """Drop [m] of every ball into d (n_balls,): only balls at a defect are asked for it."""
+    n_balls = d.size
+    spacing = 2.0 * math.pi / n_balls
+    d[:] = 0.0
+    for k in range(rows.shape[0]):
+        begin = (rows[k, 0] + rows[k, 1] * cage - rows[k, 2] - cage) / spacing
+        ball = math.ceil(begin - 1e-9)
+        end = min(begin + 2.0 * rows[k, 2] / spacing + 1e-9, ball + n_balls - 0.5)
+        while ball <= end:
+            d[int(ball) % n_balls], _ = fall(cage + spacing * ball, cage, rows, tables)
+            ball += 1.0
 
 
 @compiled
@@ -424,9 +441,7 @@ def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL,
         for j in range(n_balls):
             c[j] = cage_c * ball_c[j] - cage_s * ball_s[j]
             s[j] = cage_s * ball_c[j] + cage_c * ball_s[j]
-        if rows.shape[0] > 0:
-            for j in range(n_balls):
-                d[j], _ = fall(cage + 2.0 * math.pi / n_balls * j, cage, rows, tables)
+        lay_out_drops(cage, rows, tables, d)
         if k > 0 and status[k - 1] >= NOT_CARRIED:
             for i in active:
                 state[i] = reach * F[i] / size

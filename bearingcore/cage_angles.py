@@ -39,7 +39,7 @@ ROOT_SPLIT = 1.0 / 16.0
 """Where an interval is divided that begins at a touch: for a curve like a square root, nodes at
 fourth powers are the best there are, and a half to the fourth is a sixteenth."""
 
-TOUCH_FOUND, TOUCH_SEEN = 1e-9, 1e-7
+TOUCH_FOUND, TOUCH_SEEN = 1e-11, 1e-9
 """A gap below the first part of the load's compression counts as the touch itself when one is
 looked for, and below the second as no sign of another."""
 
@@ -222,7 +222,9 @@ class _Nodes:
             scale = swings(np.concatenate([self.values, values]))
             with np.errstate(invalid="ignore"):
                 error = np.nan_to_num(np.abs(values - line) / scale, nan=0.0).max(axis=1)
-            known = np.isfinite(np.stack([self.values[at, 0], values[:, 0], self.values[at + 1, 0]]))
+            known = np.isfinite(
+                np.stack([self.values[at, 0], values[:, 0], self.values[at + 1, 0]])
+            )
             border = known.any(axis=0) & ~known.all(axis=0)
             divide = (error > budget) & (b - a > least)
             divide |= border & (b - a > 1e4 * least)
@@ -241,7 +243,10 @@ class _Nodes:
 
 
 def place(
-    scene: Scene, curves: str = "stiffness", budget: float = 2e-3, dofs: tuple[str, ...] | None = None
+    scene: Scene,
+    curves: str = "stiffness",
+    budget: float = 2e-3,
+    dofs: tuple[str, ...] | None = None,
 ) -> CageAngles:
     """Cage angles between which straight lines miss the scene's curves by at most `budget`.
 

@@ -159,7 +159,9 @@ def _adaptive(stop_at_kinks: bool) -> Marcher:
             problem.start.copy(), 1.0 / sample_rate, tolerance, problem.scale, stops, MOST_CALLS,
             *problem.packed, history,
         )  # fmt: skip
-        failure = "" if filled > n else f"the step shrank to nothing at {filled / sample_rate:.2g} s"
+        failure = (
+            "" if filled > n else f"the step shrank to nothing at {filled / sample_rate:.2g} s"
+        )
         return March(history, sample_rate, calls, failure)
 
     return march
@@ -238,6 +240,9 @@ def history_of(problem: MotionProblem, time: Array, states: Array) -> Array:
 _RADIUS = 0.8
 _AM, _AF = (2.0 * _RADIUS - 1.0) / (_RADIUS + 1.0), _RADIUS / (_RADIUS + 1.0)
 
+GENERALISED_ALPHA = {"trapezoidal": (0.0, 0.0), "generalised-α": (_AM, _AF)}
+"""How far before a step's end inertia and forces are taken, by the implicit methods' names."""
+
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (
@@ -261,14 +266,14 @@ METHODS: dict[str, Method] = {
             "trapezoidal",
             True,
             2,
-            _generalised_alpha(0.0, 0.0),
+            _generalised_alpha(*GENERALISED_ALPHA["trapezoidal"]),
             "trapezoidal rule: implicit, loses no amplitude",
         ),
         Method(
             "generalised-α",
             True,
             2,
-            _generalised_alpha(_AM, _AF),
+            _generalised_alpha(*GENERALISED_ALPHA["generalised-α"]),
             "generalised-α, spectral radius 0.8: implicit, damps what it cannot resolve",
         ),
         Method(

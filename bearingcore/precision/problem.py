@@ -134,4 +134,3 @@ def motion_problem(
     bodies = np.array([force, 1.0 / inner, 1.0 / outer, stiffness, damping])
     rows, tables = path_tables(scene.defects, scene.bearing)
     return MotionProblem(scene, dofs, start.ravel(), scale, numbers, bodies, active, rows, tables)
-

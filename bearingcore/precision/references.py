@@ -12,6 +12,7 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bearingcore.precision.integrators import METHODS, history_of
 from bearingcore.precision.points import Reference
@@ -87,14 +88,23 @@ def spectrum_error(found: Array, expected: Array, sample_rate: float, band: floa
         return math.inf
     frequency, density = spectrum(expected, sample_rate, resolution)
     other = spectrum(found, sample_rate, resolution).density
-    # directions that do not move have no spectrum to err in
-    level = density.max(axis=0)
-    counts = (density > 1e-4 * level) & (level > 1e-12 * level.max())
-    counts &= ((frequency > 0.0) & (frequency <= band))[:, None]
+    counts = bins_that_count(frequency, density, band)
     if not counts.any():
         return math.nan
     with np.errstate(divide="ignore"):
         return float(np.abs(10.0 * np.log10(other[counts] / density[counts])).max())
+
+
+def bins_that_count(frequency: Array, density: Array, band: float) -> NDArray[np.bool_]:
+    """(m, k) where k spectra are worth comparing: below `band` [Hz], within 40 dB of their best.
+
+    Directions that do not move have no spectrum to err in; of the first bins the mean of each
+    segment, which is taken away, leaves no more than a remnant.
+    """
+    level = density.max(axis=0)
+    strong = (density > 1e-4 * level) & (level > 1e-12 * level.max())
+    counts: NDArray[np.bool_] = strong & ((frequency > 2.5 * frequency[1]) & (frequency <= band))[:, None]
+    return counts
 
 
 def motion_reference(

@@ -231,6 +231,8 @@ class Scene:
             if part == "defect" and not isinstance(old, Defect):
                 first = dataclasses.replace(old[0] if old else Defect.none(), **values)
                 own[part] = (first, *old[1:])
+            elif isinstance(old, Bearing):
+                own[part] = old.replace(**values)
             else:
                 own[part] = dataclasses.replace(old, **values)
         return dataclasses.replace(self, **own)

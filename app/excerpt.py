@@ -79,7 +79,6 @@ def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
     balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
     if not balls.size:
         balls = np.sort(np.argsort(np.nan_to_num(static).max(axis=0), kind="stable")[-2:])
-    loads = motion.ball_load
     return Excerpt(
         time=time[cut] - zero,
         motion_time=zero,
@@ -88,7 +87,7 @@ def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
         },
         events=events,
         balls=balls,
-        ball_load=np.empty((last - first, 0)) if loads is None else loads[cut][:, balls],
+        ball_load=motion.ball_loads(first, last)[:, balls],
         static_time=static_time - zero,
         greatest_static_load=float(np.max(np.nan_to_num(static))),
         broke_off="" if motion.completed else motion.status,

@@ -84,7 +84,7 @@ def _modes(scene: Scene, n_cage_angles: int) -> Modes:
 
 
 def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
-    return core.simulate(scene, duration, sample_rate, ball_loads=True)
+    return core.simulate(scene, duration, sample_rate)
 
 
 def _excerpt(scene: Scene, duration: float, sample_rate: float) -> Excerpt:
@@ -117,7 +117,7 @@ class Results:
     modes, sound_modes: over the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
-    motion, sound_motion: simulated motion with the loads of the balls
+    motion, sound_motion: simulated motion
     excerpt: the last ball passes of the motion
     spectra, sound_spectra: {dof: Spectrum} of the housing's acceleration
     """
@@ -175,7 +175,7 @@ class Results:
 
     @cached_property
     def motion(self) -> Motion:
-        """Simulated motion of rotor and housing, with the load of each ball."""
+        """Simulated motion of rotor and housing."""
         return motions(self.scene, self.settings.duration, self.settings.sample_rate)
 
     @cached_property

@@ -398,6 +398,24 @@ def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial)
     return now, NOT_CONVERGED, residual, MOST_ITERATIONS, evaluations
 
 
+@inlined
+def foresee(cage_angles, k, q, active, state):
+    """Guess the state at cage angle k: the parabola through the last three answers q.
+
+    Where they do not stand near and in order, the state stays as it is.
+    """
+    x1 = cage_angles[k] - cage_angles[k - 1]
+    x2 = cage_angles[k] - cage_angles[k - 2]
+    x3 = cage_angles[k] - cage_angles[k - 3]
+    if abs(x1) < abs(x2) < abs(x3) < 8.0 * abs(x1) and x1 * x2 > 0.0 and x2 * x3 > 0.0:
+        u1 = x2 * x3 / ((x2 - x1) * (x3 - x1))
+        u2 = x1 * x3 / ((x1 - x2) * (x3 - x2))
+        u3 = x1 * x2 / ((x1 - x3) * (x2 - x3))
+        if abs(u1) + abs(u2) + abs(u3) < 20.0:
+            for i in active:
+                state[i] = u1 * q[k - 1, i] + u2 * q[k - 2, i] + u3 * q[k - 3, i]
+
+
 @compiled
 def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL, K):
     """Static equilibrium at each cage angle, each started from those before it.
@@ -446,17 +464,7 @@ def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL,
             for i in active:
                 state[i] = reach * F[i] / size
         elif k >= 3:
-            # the parabola through the last three answers, where they stand near and in order
-            x1 = cage - cage_angles[k - 1]
-            x2 = cage - cage_angles[k - 2]
-            x3 = cage - cage_angles[k - 3]
-            if abs(x1) < abs(x2) < abs(x3) < 8.0 * abs(x1) and x1 * x2 > 0.0 and x2 * x3 > 0.0:
-                u1 = x2 * x3 / ((x2 - x1) * (x3 - x1))
-                u2 = x1 * x3 / ((x1 - x2) * (x3 - x2))
-                u3 = x1 * x2 / ((x1 - x3) * (x2 - x3))
-                if abs(u1) + abs(u2) + abs(u3) < 20.0:
-                    for i in active:
-                        state[i] = u1 * q[k - 1, i] + u2 * q[k - 2, i] + u3 * q[k - 3, i]
+            foresee(cage_angles, k, q, active, state)
         now, status[k], residuals[k], iterations[k], evaluations[k] = minimise_energy(
             state, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial
         )
@@ -474,6 +482,103 @@ def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL,
                 loads[k, j] = K * delta * math.sqrt(delta)
                 loaded[k] += 1
     return q, loads, stiffness, loaded, status, residuals, iterations, evaluations
+
+
+OPEN, REFUSED = -1, 5
+"""What a map says of a point beside the statuses above: not solved yet; no such defects."""
+
+
+@compiled
+def static_maps(
+    cage_angles, rows, row_counts, tables, F, active, n_balls, ca, sa, A0, rL, K, units,
+    first, last, q, drops, stiffness, loaded, greatest, status, residuals,
+):
+    """Static states of rows first to last of a map: the defects differ, cage angles do not.
+
+    rows (m, r, columns) of which row_counts (m,) stand, units (5,) what F and q were divided by.
+    Into stiffness (15, m, n) in units with r_d back, loaded (m, n), greatest (m, n) the greatest
+    ball load [N], status and residuals (m, n). Points that are not OPEN are left alone. q (n, 5)
+    and drops (n, n_balls) carry states and drops over from row to row, NaN before the first.
+    Returns how many points were solved, and how often the energy was evaluated.
+
+    Where all balls have sunk as deep as in the row before, the answer is that of the row before:
+    most of a map of square defects is, as a ball is on the race or on the floor and seldom between.
+    """
+    n = cage_angles.size
+    c = np.empty((n, n_balls))
+    s = np.empty((n, n_balls))
+    d = np.empty(n_balls)
+    for k in range(n):
+        for j in range(n_balls):
+            phi = cage_angles[k] + 2.0 * math.pi / n_balls * j
+            c[k, j] = math.cos(phi)
+            s[k, j] = math.sin(phi)
+    G = np.zeros((2, 5))
+    H = np.zeros((2, 5, 5))
+    L = np.zeros((5, 5))
+    p = np.zeros(5)
+    trial = np.zeros(5)
+    state = np.zeros(5)
+    size = 0.0
+    for i in active:
+        size += F[i] * F[i]
+    size = math.sqrt(size)
+    reach = rL / ca + (size / K) ** (2.0 / 3.0)
+    size = max(size, 1e-300)
+    solved = 0
+    evaluations = 0
+    for e in range(first, last):
+        defects = rows[e, : row_counts[e]]
+        for k in range(n):
+            if status[e, k] != OPEN:
+                drops[k, 0] = math.nan
+                continue
+            lay_out_drops(cage_angles[k], defects, tables, d)
+            same = True
+            for j in range(n_balls):
+                same = same and drops[k, j] == d[j]
+                drops[k, j] = d[j]
+            if same:
+                status[e, k] = status[e - 1, k]
+                residuals[e, k] = residuals[e - 1, k]
+                loaded[e, k] = loaded[e - 1, k]
+                greatest[e, k] = greatest[e - 1, k]
+                for term in range(15):
+                    stiffness[term, e, k] = stiffness[term, e - 1, k]
+                continue
+            known = 0  # answers in a row just before this one
+            while known < min(k, 3) and CONVERGED <= status[e, k - 1 - known] < NOT_CARRIED:
+                known += 1
+            for i in active:
+                state[i] = q[k - 1, i] if known > 0 else reach * F[i] / size
+            if known == 3:
+                foresee(cage_angles, k, q, active, state)
+            now, status[e, k], residuals[e, k], _, calls = minimise_energy(
+                state, F, c[k], s[k], d, active, ca, sa, A0, rL, K, G, H, L, p, trial
+            )
+            solved += 1
+            evaluations += calls
+            q[k] = state
+            gone = status[e, k] >= NOT_CARRIED
+            count = 0
+            most = 0.0
+            for j in range(n_balls):
+                r = state[0] * c[k, j] + state[1] * s[k, j] - rL
+                z = state[2] + state[3] * s[k, j] - state[4] * c[k, j]
+                delta, _, _, _ = compression(r * ca + z * sa - d[j], z * ca - r * sa, A0)
+                if delta > 0.0:
+                    count += 1
+                    most = max(most, delta)
+            loaded[e, k] = 0 if gone else count
+            greatest[e, k] = math.nan if gone else K * most * math.sqrt(most)
+            nowhere = gone or status[e, k] == NOTHING_TOUCHES
+            term = 0
+            for a in range(5):
+                for b in range(a, 5):
+                    value = H[now, b, a] * units[a] * units[b]
+                    stiffness[term, e, k] = math.nan if nowhere else value
+                    term += 1
+    return solved, evaluations
 
 
 @compiled
@@ -864,15 +969,16 @@ def march(
 
 
 @compiled
-def between_steps(history, body, weights, out):
-    """Fill out (n_out, n) with a quantity of one body at fractions of the steps of a history.
+def between_steps(history, body, weights, first, out):
+    """Fill out (n_out, n) with a quantity of one body, samples from `first` on, between steps.
 
     weights (ratio, 6) multiply x, v, acceleration at a step and at the next one; body is 0 for the
     inner and 3 for the outer ring. Sample k lies (k mod ratio)/ratio of a step after step k//ratio.
     """
     ratio = weights.shape[0]
     last = history.shape[0] - 2
-    for k in range(out.shape[0]):
+    for row in range(out.shape[0]):
+        k = first + row
         step = min(k // ratio, last)
         w = k - step * ratio
         if w == ratio:  # the very end, one whole step after the last but one
@@ -881,7 +987,7 @@ def between_steps(history, body, weights, out):
         following = min(step + 1, last + 1)
         for a in range(out.shape[1]):
             # the difference of displacements first: on its own each is many times larger
-            out[k, a] = (
+            out[row, a] = (
                 (weights[w, 0] + weights[w, 3]) * history[step, body, a]
                 + weights[w, 3] * (history[following, body, a] - history[step, body, a])
                 + weights[w, 1] * history[step, body + 1, a]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -106,10 +106,32 @@ class Motion:
         """(n, len(dofs)) [m/s², rad/s²]"""
         return self._sampled("outer", 2)
 
+    def ball_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
+        """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
+
+        Fewer samples cost less: a short stretch is all that a figure of contact forces needs.
+        """
+        samples = slice(start, stop).indices(len(self.time))[:2]
+        inner, outer = (
+            _sample(self.history, body, 0, self.sample_rate, self.step_rate, *samples)
+            for body in ("inner", "outer")
+        )
+        scene = self.scene
+        loads = kernels.elastic_ball_loads(
+            inner - outer,
+            np.array([DOF_NAMES.index(name) for name in self.dofs]),
+            float(samples[0] * scene.cage_speed / self.sample_rate),
+            scene.cage_speed / self.sample_rate,
+            *path_tables(scene.defects, scene.bearing),
+            *scene.bearing.contact_numbers,
+        )
+        loads[~np.isfinite(inner[:, 0])] = math.nan
+        return np.asarray(loads)
+
     def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
         """A quantity of one body at the sample times, between steps by quintic interpolation."""
         scaled = _sample(
-            self.history, body, derivative, self.sample_rate, self.step_rate, len(self.time)
+            self.history, body, derivative, self.sample_rate, self.step_rate, 0, len(self.time)
         )
         return scaled / length_units(self.scene, self.dofs)
 
@@ -204,17 +226,7 @@ def simulate(
         if done < n_steps:
             history[done + 1 :] = math.nan
             status = f"diverged after {done * h:.3g} s: {step_rate:g} steps a second are too few"
-    loads = None
-    if ball_loads:
-        inner, outer = (
-            _sample(history, body, 0, sample_rate, step_rate, n) for body in ("inner", "outer")
-        )
-        turn = scene.cage_speed / sample_rate
-        loads = kernels.elastic_ball_loads(
-            inner - outer, active, 0.0, turn, *paths, *scene.bearing.contact_numbers
-        )
-        loads[~np.isfinite(inner[:, 0])] = math.nan
-    return Motion(
+    motion = Motion(
         scene=scene,
         dofs=dofs,
         sample_rate=sample_rate,
@@ -223,9 +235,10 @@ def simulate(
         status=status,
         right_hand_side_calls=4 * done,
         time=time,
-        ball_load=loads,
+        ball_load=None,
         history=history,
     )
+    return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
 
 
 def is_flat(scene: Scene) -> bool:
@@ -299,21 +312,19 @@ def _sample(
     derivative: int,
     sample_rate: float,
     step_rate: float,
-    n: int,
+    start: int,
+    stop: int,
 ) -> NDArray[np.float64]:
-    """Displacement (0), velocity (1) or acceleration (2) of a body at n sample times, scaled."""
+    """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled."""
     a_step, a_sample = _ratio(sample_rate, step_rate)
     first = 0 if body == "inner" else 3
+    n = max(stop - start, 0)
     if a_step == 1:
-        rows = slice(0, (n - 1) * a_sample + 1, a_sample)
-        return np.ascontiguousarray(history[rows, first + derivative])
+        rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
+        return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
     out = np.empty((n, history.shape[2]))
-    kernels.between_steps(
-        history,
-        first,
-        hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate),
-        out,
-    )
+    weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate)
+    kernels.between_steps(history, first, weights, start, out)
     return out
 
 

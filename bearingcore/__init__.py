@@ -4,12 +4,14 @@ from bearingcore.bearing import Bearing
 from bearingcore.defect import EDGES, RACES, Defect
 from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.floor import MeasuredFloor, RoughFloor, read_floor
+from bearingcore.maps import Maps, stiffness_maps
 from bearingcore.modes import Modes, contact_damping, modes
 from bearingcore.motion import Motion, simulate
 from bearingcore.orbit import Orbit, orbit
 from bearingcore.presets import preset_notes, presets
 from bearingcore.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
 from bearingcore.spectrum import Spectrum, spectrum
+from bearingcore.validity import Limit, limits
 from bearingcore.warm_up import warm
 
 __all__ = [
@@ -21,7 +23,9 @@ __all__ = [
     "Bearing",
     "Defect",
     "Equilibrium",
+    "Limit",
     "Load",
+    "Maps",
     "MeasuredFloor",
     "Modes",
     "Motion",
@@ -32,6 +36,7 @@ __all__ = [
     "Support",
     "contact_damping",
     "equilibrium",
+    "limits",
     "modes",
     "orbit",
     "preset_notes",
@@ -39,5 +44,6 @@ __all__ = [
     "read_floor",
     "simulate",
     "spectrum",
+    "stiffness_maps",
     "warm",
 ]

@@ -5,6 +5,7 @@ from bearingcore.defect import EDGES, RACES, Defect
 from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.maps import Maps, stiffness_maps
+from bearingcore.maps import Maps, stiffness_maps
 from bearingcore.modes import Modes, contact_damping, modes
 from bearingcore.motion import Motion, simulate
 from bearingcore.orbit import Orbit, orbit
@@ -26,6 +27,7 @@ __all__ = [
     "Limit",
     "Load",
     "Maps",
+    "Maps",
     "MeasuredFloor",
     "Modes",
     "Motion",
@@ -44,6 +46,7 @@ __all__ = [
     "read_floor",
     "simulate",
     "spectrum",
+    "stiffness_maps",
     "stiffness_maps",
     "warm",
 ]

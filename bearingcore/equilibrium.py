@@ -223,11 +223,11 @@ def _explain(
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.LEAST_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif status[k] == kernels.NOT_CONVERGED and _runs_away(scene, angles[k], active, load):
+        elif status[k] == kernels.NOT_CONVERGED and runs_away(scene, angles[k], active, load):
             status[k] = kernels.NOT_CARRIED
 
 
-def _runs_away(
+def runs_away(
     scene: Scene, cage_angle: float, active: NDArray[np.int64], load: NDArray[np.float64]
 ) -> bool:
     """True where some direction of motion does work on the load and never presses a ball.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
+from bearingcore.maps import stiffness_maps
 from bearingcore.modes import modes
 from bearingcore.motion import simulate
 from bearingcore.presets import presets
@@ -17,6 +18,7 @@ def warm(report: Callable[[str], object] = print) -> None:
     fan_rig, angular = presets["fan-rig"], presets["liew-lim"]
     tasks: tuple[tuple[str, Callable[[], object]], ...] = (
         ("static equilibrium", lambda: modes(fan_rig, [0.0])),
+        ("maps", lambda: stiffness_maps(angular, [0.1], [0.0])),
         ("path of the ball", lambda: fan_rig.defects[0].path([0.0], fan_rig.bearing)),
         ("radial motion", lambda: _all_of_a_motion(fan_rig)),
         ("spectrum", lambda: spectrum([0.0] * 64, 64.0, 1.0)),

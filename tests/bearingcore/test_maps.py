@@ -1,0 +1,185 @@
+"""Maps over extent and cage angle: the answers of `equilibrium`, known faster."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+
+import numpy as np
+import pytest
+
+from bearingcore import (
+    DOF_NAMES,
+    Defect,
+    MeasuredFloor,
+    RoughFloor,
+    Scene,
+    equilibrium,
+    presets,
+    stiffness_maps,
+)
+
+LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
+UPPER = np.triu_indices(5)
+# of the geometric mean of the diagonal terms: what the statics promise themselves
+TOLERANCE = 1e-10
+
+
+def two(scene: Scene, **changes: object) -> Scene:
+    """The scene with a second defect beside its first."""
+    first = scene.defects[0]
+    second = dataclasses.replace(first, center=first.center + 0.3, extent=0.2, **changes)
+    return scene.replace(defect=(first, second))
+
+
+SCENES = {
+    "angular": LIEW_LIM,
+    "radial": FAN_RIG,
+    "chord": LIEW_LIM.replace(edge="chord"),
+    "exact": FAN_RIG.replace(edge="exact"),
+    "inner": LIEW_LIM.replace(race="inner", edge="exact"),
+    "deep": FAN_RIG.replace(depth=400e-6),
+    "shallow": LIEW_LIM.replace(depth=3e-6),
+    "sound": LIEW_LIM.replace(defect=Defect.none()),
+    "held": LIEW_LIM.replace(dofs=("x", "y", "z")),
+    "two that run together": two(LIEW_LIM, depth=30e-6),
+    "two on two races": two(FAN_RIG, race="inner"),
+    "rough": FAN_RIG.replace(floor=RoughFloor(5e-6, 0.3e-3, 3), edge="exact"),
+    "measured": LIEW_LIM.replace(floor=MeasuredFloor((-1.0, 0.2, 1.0), (0.1, 1.0, 0.4))),
+    "no load": FAN_RIG.replace(fy=0.0),
+    "one ball short of rest": FAN_RIG.replace(n_balls=2),
+    "sideways only": LIEW_LIM.replace(fx=1.0, fy=0.0, fz=0.0),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_each_row_is_the_equilibrium_of_its_extent(name: str) -> None:
+    scene = SCENES[name]
+    extents = np.radians([0.0, 0.5, 6.0, 6.5, 7.0, 29.0, 30.0, 44.0, 63.5, 64.0, 90.0, 360.0])
+    # not at symmetric angles, where a ball may just touch and its stiffness be known half as well
+    angles = 1e-3 + np.linspace(0.0, scene.bearing.ball_spacing, 41)
+    if name.startswith("two"):
+        extents = extents[:-1]  # around the whole race the others have no place
+    maps = stiffness_maps(scene, extents, angles)
+    assert maps.dofs == scene.active_dofs
+    for i, extent in enumerate(extents):
+        row = equilibrium(scene.replace(extent=extent), angles)
+        np.testing.assert_array_equal(maps.status[i], row.status)
+        np.testing.assert_array_equal(maps.loaded_balls[i], row.loaded_balls)
+        most = row.ball_load.max(axis=1)
+        np.testing.assert_allclose(maps.greatest_load[i], most, rtol=TOLERANCE)
+        expected = row.stiffness[:, UPPER[0], UPPER[1]].T
+        found = maps.stiffness[:, i]
+        np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))
+        if row.converged.any():
+            diagonal = np.nanmax([row.term(f"k_{dof}{dof}") for dof in DOF_NAMES], axis=1)
+            error = np.abs(found - expected) / np.sqrt(np.outer(diagonal, diagonal))[UPPER][:, None]
+            # two balls that hold a ring of five directions leave all but one of them soft
+            soft = name == "sideways only"
+            assert error[:, row.converged].max() < (1e-6 if soft else TOLERANCE)
+
+
+@pytest.mark.parametrize("name", ["angular", "inner", "exact"])
+def test_most_points_are_known_from_the_extent_before(name: str) -> None:
+    maps = stiffness_maps(SCENES[name], cage_angles=np.linspace(0.0, 0.5, 121))
+    assert maps.status.size == 91 * 121
+    assert maps.status.size / 20 < maps.solved < maps.status.size / 3
+    everywhere = stiffness_maps(SCENES[name], maps.extents[::-1], maps.cage_angles)
+    np.testing.assert_array_equal(maps.loaded_balls, everywhere.loaded_balls[::-1])
+
+
+def test_fewest_balls_carry_load_where_three_fit_into_the_defect() -> None:
+    """The paper: the number of loaded balls falls up to about 64 degrees and rises after it."""
+    maps = stiffness_maps(LIEW_LIM)
+    mean = maps.mean_loaded_balls
+    fewest = math.degrees(maps.extents[int(np.argmin(mean))])
+    assert fewest == pytest.approx(64.0, abs=1.0)
+    assert np.all(np.diff(mean[3:63]) < 0.02)
+    assert np.all(np.diff(mean[64:]) > -0.02)
+    assert mean[0] == pytest.approx(10.45, abs=0.01)
+
+
+def test_mean_stiffness_follows_the_extent_as_published() -> None:
+    """Up to 64 degrees k_xx rises on average, k_yy, k_zz and k_rxrx fall; past it k_yy rises."""
+    maps = stiffness_maps(LIEW_LIM)
+    for term, sign in {"k_xx": 1, "k_yy": -1, "k_zz": -1, "k_rxrx": -1}.items():
+        mean = maps.term(term).mean(axis=1)
+        assert sign * (mean[63] - mean[0]) > 0.1 * mean[0], term
+        assert sign * (mean[63] - mean[30]) > 0.0, term
+    vertical = maps.term("k_yy").mean(axis=1)
+    assert vertical[90] > 1.2 * vertical[64]
+
+
+def test_maps_are_symmetric_where_the_scene_is() -> None:
+    """Mirrored about the vertical, cage angle φ becomes −φ, and terms odd in x change sign."""
+    maps = stiffness_maps(LIEW_LIM)
+    np.testing.assert_array_equal(maps.loaded_balls, maps.loaded_balls[:, ::-1])
+    flips = {"x": -1, "y": 1, "z": 1, "rx": 1, "ry": -1}
+    for i, j in zip(*UPPER, strict=True):
+        one, other = DOF_NAMES[i], DOF_NAMES[j]
+        sign = flips[one] * flips[other]
+        values = maps.term(f"k_{one}{other}")
+        scale = np.abs(maps.stiffness).max() if sign < 0 else np.abs(values).max()
+        np.testing.assert_allclose(values, sign * values[:, ::-1], rtol=0.0, atol=1e-8 * scale)
+
+
+def test_an_extent_at_which_defects_cannot_stand_together_has_a_reason_and_no_number() -> None:
+    first = dataclasses.replace(LIEW_LIM.defects[0], extent=0.02)
+    other = dataclasses.replace(first, center=first.center + 0.5, edge="exact")
+    maps = stiffness_maps(LIEW_LIM.replace(defect=(first, other)), np.radians([5.0, 80.0, 10.0]))
+    assert not maps.refusals[0]
+    assert "edge model" in maps.refusals[1]
+    assert "edge model" in maps.reason(1, 0)
+    assert maps.reason(2, 0) == "converged"
+    assert np.isnan(maps.stiffness[:, 1]).all()
+    assert np.isnan(maps.mean_loaded_balls).tolist() == [False, True, False]
+    assert np.isfinite(maps.stiffness[:, [0, 2]]).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"extents": [-0.1]}, "extents"),
+        ({"extents": [math.nan]}, "extents"),
+        ({"extents": [7.0]}, "extents"),
+        ({"cage_angles": [math.inf]}, "cage_angles"),
+        ({"dofs": ("x", "q")}, "dofs"),
+    ],
+)
+def test_bad_input_is_refused(arguments: dict, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        stiffness_maps(FAN_RIG, **arguments)
+
+
+def test_an_unknown_term_is_refused() -> None:
+    with pytest.raises(ValueError, match="k_yx"):
+        stiffness_maps(FAN_RIG, [0.1], [0.0]).term("k_yx")
+
+
+@pytest.mark.parametrize("name", ["angular", "radial"])
+def test_maps_take_less_than_half_of_what_their_rows_take(name: str) -> None:
+    """A ratio within one run, least of several: a quarter or less where nothing else runs."""
+    scene = SCENES[name]
+    extents = np.radians(np.arange(91.0))
+    angles = np.linspace(0.0, scene.bearing.ball_spacing, 121)
+
+    def rows() -> None:
+        for extent in extents:
+            equilibrium(scene.replace(extent=float(extent)), angles)
+
+    def seconds(work) -> float:
+        start = time.perf_counter()
+        work()
+        return time.perf_counter() - start
+
+    rows()
+    stiffness_maps(scene, extents, angles)
+    ours, theirs = zip(
+        *(
+            (seconds(lambda: stiffness_maps(scene, extents, angles)), seconds(rows))
+            for _ in range(5)
+        ),
+        strict=True,
+    )
+    assert min(ours) < 0.5 * min(theirs)

@@ -28,8 +28,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipkm1, elliprd
 
 from bearingcore import checks
 
@@ -143,6 +141,8 @@ def race_contact(
             groove_radius,
             f"below {1.0 / -around:g} m, the radius of the race itself, or it is no groove",
         )
+    from scipy.special import ellipe, ellipkm1  # imported late, as scipy.special is slow to import
+
     # 1 − F without the cancellation that a tight groove would bring
     rest = (4.0 / ball_diameter - 2.0 * groove) / total
     chi = _ellipse_ratio(rest)
@@ -165,6 +165,9 @@ def _ellipse_ratio(rest: float) -> float:
     With m = 1 − 1/χ² and K − E = (m/3) R_D(0, 1/χ², 1) (Carlson's integral) the left side is
     2 R_D/(3 χ² E), which is exact at χ = 1 and falls steadily from 1 to 0.
     """
+
+    from scipy.optimize import brentq  # imported late: slow to import, and seldom needed
+    from scipy.special import ellipe, elliprd
 
     def off(log_chi: float) -> float:
         m1 = math.exp(-2.0 * log_chi)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
 
 from bearingcore.bearing import Bearing
@@ -67,9 +67,35 @@ def _7208(contact_angle_deg: float, thrust: float) -> Scene:
     )
 
 
-presets: Mapping[str, Scene] = MappingProxyType(
+class _Presets(Mapping[str, Scene]):
+    """Scenes by name, each made when it is first asked for.
+
+    Those from drawings need SciPy's elliptic integrals, which take longer to import than the rest
+    of this package together.
+    """
+
+    def __init__(self, makers: Mapping[str, Callable[[], Scene]]) -> None:
+        self._makers = makers
+        self._made: dict[str, Scene] = {}
+
+    def __getitem__(self, name: str) -> Scene:
+        if name not in self._made:
+            self._made[name] = self._makers[name]()
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._makers
+
+
+presets: Mapping[str, Scene] = _Presets(
     {
-        "liew-lim": Scene(
+        "liew-lim": lambda: Scene(
             bearing=Bearing(
                 n_balls=12,
                 ball_diameter=6e-3,
@@ -87,7 +113,7 @@ presets: Mapping[str, Scene] = MappingProxyType(
             shaft_speed=2.0 * math.pi * 7.0,
             support=_FAN_RIG_SUPPORT,
         ),
-        "fan-rig": Scene(
+        "fan-rig": lambda: Scene(
             bearing=Bearing(
                 n_balls=14,
                 ball_diameter=8e-3,
@@ -105,7 +131,7 @@ presets: Mapping[str, Scene] = MappingProxyType(
             shaft_speed=2.0 * math.pi * 7.0,
             support=_FAN_RIG_SUPPORT,
         ),
-        "6205": Scene(
+        "6205": lambda: Scene(
             bearing=Bearing.from_drawing(
                 n_balls=9,
                 pitch_diameter=39.04e-3,
@@ -117,7 +143,7 @@ presets: Mapping[str, Scene] = MappingProxyType(
             shaft_speed=_rpm(1797.0),
             support=_FAN_RIG_SUPPORT,
         ),
-        "6206": Scene(
+        "6206": lambda: Scene(
             bearing=Bearing.from_drawing(
                 n_balls=9,
                 pitch_diameter=46e-3,
@@ -129,10 +155,10 @@ presets: Mapping[str, Scene] = MappingProxyType(
             shaft_speed=_rpm(1470.0),
             support=_FAN_RIG_SUPPORT,
         ),
-        "7208-15deg": _7208(15.0, 1000.0),
-        "7208-25deg": _7208(25.0, 1500.0),
-        "7208-40deg": _7208(40.0, 2500.0),
-        "seven-ball": Scene(
+        "7208-15deg": lambda: _7208(15.0, 1000.0),
+        "7208-25deg": lambda: _7208(25.0, 1500.0),
+        "7208-40deg": lambda: _7208(40.0, 2500.0),
+        "seven-ball": lambda: Scene(
             bearing=Bearing.from_drawing(
                 n_balls=7,
                 pitch_diameter=43.5e-3,

@@ -165,7 +165,6 @@ def _ellipse_ratio(rest: float) -> float:
     With m = 1 − 1/χ² and K − E = (m/3) R_D(0, 1/χ², 1) (Carlson's integral) the left side is
     2 R_D/(3 χ² E), which is exact at χ = 1 and falls steadily from 1 to 0.
     """
-
     from scipy.optimize import brentq  # imported late: slow to import, and seldom needed
     from scipy.special import ellipe, elliprd
 

@@ -216,11 +216,17 @@ def simulate(
             masses = (bodies.inner_mass, bodies.outer_mass)
             kernels.flat_smooth(y, 0.0, *paths, *masses, n_balls, rL, c, 1.0)
             done = kernels.march_flat(*common, *bodies, n_balls, rL, K, c, history)
+        elif scene.contact_law == "published":
+            numbers = np.array([scene.cage_speed, ca, sa, A0, rL, K, c, 1.0])
+            masses = (1.0 / bodies.inner_mass, 1.0 / bodies.outer_mass)
+            packed = np.array([bodies.force, *masses, bodies.stiffness, bodies.damping])
+            done = kernels.march_smooth(
+                y, max(n_steps, 1), h, 0.0, n_balls, numbers, packed, active, *paths, history
+            )
         else:
             force, *others = bodies
-            pull = scene.contact_law == "published"
             done = kernels.march(
-                *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, pull, history
+                *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, False, history
             )
         status = "completed"
         if done < n_steps:

@@ -84,12 +84,15 @@ def _masses(problem: MotionProblem) -> tuple[Array, Array]:
 def _runge_kutta(
     problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
 ) -> March:
-    """The program's own: smooth variables where the scene allows, see `kernels.march_flat`."""
-    if not problem.flat:
+    """The program's own: variables that do not jump where the contact law allows them."""
+    if problem.scene.contact_law != "published":
         return _plain_runge_kutta(problem, step_rate, duration, sample_rate)
     n_steps = _steps(step_rate, duration)
     history = np.empty((n_steps + 1, 6, len(problem.dofs)))
     y = problem.start.copy()
+    if not problem.flat:
+        done = kernels.march_smooth(y, n_steps, 1.0 / step_rate, *problem.packed, history)
+        return March(history, step_rate, 4 * n_steps, _told(done, n_steps, step_rate))
     cage_speed, _, _, _, rL, K, c, _ = problem.numbers
     n_balls = problem.scene.bearing.n_balls
     paths = (problem.rows, problem.tables)
@@ -152,7 +155,7 @@ def _adaptive(stop_at_kinks: bool) -> Marcher:
         history = np.full((n + 1, 6, len(problem.dofs)), math.nan)
         stops = np.zeros(0)
         if stop_at_kinks:
-            # a sliver of a step across each, so that no smooth step begins or ends on the wrong side
+            # a sliver of a step across each: smooth steps begin and end on the right side of it
             kinks = problem.kinks(duration)
             stops = np.sort(np.concatenate([kinks - KINK_SLIVER, kinks + KINK_SLIVER]))
         filled, _, _, calls = kernels.march_adaptive(

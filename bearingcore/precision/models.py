@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -92,9 +91,7 @@ def models_experiment(
     if progress is not None:
         progress(0.0, "references by two families")
     runner = _Models(scene, duration, sample_rate)
-    points = [
-        runner.point(model) for model in in_turn(MODELS, str, progress, cancelled, begin=0.3)
-    ]
+    points = [runner.point(model) for model in in_turn(MODELS, str, progress, cancelled, begin=0.3)]
     return Experiment(
         "models",
         f"Models of the motion over {duration:g} s, each solved with the program's defaults",
@@ -130,9 +127,7 @@ class _Models:
             self.references[FULL] = replace(self.references[FULL], note=note)
 
     def _reference(self, scene: Scene) -> MotionReference:
-        return motion_reference(
-            motion_problem(scene), self.duration, self.sample_rate, self.band
-        )
+        return motion_reference(motion_problem(scene), self.duration, self.sample_rate, self.band)
 
     def point(self, model: str) -> Point:
         """One model, or why it cannot be computed."""
@@ -226,9 +221,7 @@ class _Models:
         words = f"{found.ball_passes} ball pass" + ("es" if found.ball_passes != 1 else "")
         if not found.stable:
             why = found.status + (f" through {found.through}" if found.through else "")
-            return failed(
-                "orbit", words, math.nan, why, seconds, found.right_hand_side_calls
-            )
+            return failed("orbit", words, math.nan, why, seconds, found.right_hand_side_calls)
         frequency, density = spectrum(truth, self.sample_rate)
         mine = found.spectrum(self.sample_rate).density[:, :2]
         level = 10.0 * math.log10(mine.sum() / density.sum())

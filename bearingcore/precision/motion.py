@@ -121,7 +121,9 @@ def motion_experiment(
         progress(0.0, "reference by two families")
     for name in names:
         if not name.startswith("scipy"):  # so that nothing is compiled while time is taken
-            METHODS[name].march(problem, settings_of(METHODS[name], sample_rate)[0], 1e-3, sample_rate)
+            METHODS[name].march(
+                problem, settings_of(METHODS[name], sample_rate)[0], 1e-3, sample_rate
+            )
     reference = motion_reference(problem, duration, sample_rate, BAND * highest)
     usual = default_step_rate(scene, sample_rate, highest)
     tasks = [(METHODS[name], s) for name in names for s in settings_of(METHODS[name], usual)]

@@ -108,7 +108,9 @@ def measured_orders(
                 found = march.history[::multiple, (0, 3)][: len(truth)]
                 square = np.mean((found - truth[: len(found)]) ** 2)
                 errors.append(math.sqrt(float(square)) / swing)
-            counted = [(1.0 / m, e) for m, e in zip(MULTIPLES, errors, strict=True) if e > 5 * floor]
+            counted = [
+                (1.0 / m, e) for m, e in zip(MULTIPLES, errors, strict=True) if e > 5 * floor
+            ]
             order = slope([h for h, _ in counted], [e for _, e in counted])
             rates = tuple(multiple * rate for multiple in MULTIPLES)
             orders.append(Order(name, kind, rates, tuple(errors), order, floor))

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import checks, kernels
+from bearingcore.cage_angles import path_kinks
 from bearingcore.defect import path_tables
 from bearingcore.equilibrium import equilibrium
 from bearingcore.modes import contact_damping, highest_natural_frequency
 from bearingcore.motion import body_numbers, is_flat, static_start
-from bearingcore.cage_angles import path_kinks
 from bearingcore.scene import DOF_NAMES, Scene
 
 Array = NDArray[np.float64]

@@ -103,7 +103,9 @@ def bins_that_count(frequency: Array, density: Array, band: float) -> NDArray[np
     """
     level = density.max(axis=0)
     strong = (density > 1e-4 * level) & (level > 1e-12 * level.max())
-    counts: NDArray[np.bool_] = strong & ((frequency > 2.5 * frequency[1]) & (frequency <= band))[:, None]
+    counts: NDArray[np.bool_] = (
+        strong & ((frequency > 2.5 * frequency[1]) & (frequency <= band))[:, None]
+    )
     return counts
 
 

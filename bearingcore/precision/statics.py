@@ -104,7 +104,8 @@ def static_problem(scene: Scene, angles: Array) -> StaticProblem:
 
 class Contacts(NamedTuple):
     """Energy (m,) [N·m] without the load's, forces (m, 5) [N], stiffness (m, 5, 5) [N/m], and
-    ball loads (m, N_b) [N]."""
+    ball loads (m, N_b) [N].
+    """
 
     energy: Any
     force: Any
@@ -223,9 +224,9 @@ def energy_newton(
             new = contacts(problem, trial, todo[open_])
             evaluations += 0 if step[0] == 1.0 and len(open_) == len(todo) else len(open_)
             fall = (new.energy - trial @ F) - V[open_]
-            flat = (np.abs(((new.force - F) * p[open_]).sum(axis=1)) <= 0.9 * np.abs(slope[open_])) & (
-                np.abs(fall) <= 1e-14 * (np.abs(V[open_]) + new.energy)
-            )
+            flat = (
+                np.abs(((new.force - F) * p[open_]).sum(axis=1)) <= 0.9 * np.abs(slope[open_])
+            ) & (np.abs(fall) <= 1e-14 * (np.abs(V[open_]) + new.energy))
             open_ = open_[~((fall <= 1e-4 * step[open_] * slope[open_]) | flat)]
             if not open_.size:
                 break
@@ -271,9 +272,7 @@ def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool)
             )
             u, solved[k] = fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8)
         else:
-            answer = root(
-                unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
-            )
+            answer = root(unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance)
             u, solved[k] = answer.x, answer.success
         q[k, active] = u * length
     return Found(q, solved, evaluations)

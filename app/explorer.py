@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import math
 import time
@@ -12,14 +13,17 @@ from typing import Any
 import panel as pn
 
 from app.assets import asset_text
-from app.controls import Controls
+from app.controls import Controls, Rows
 from app.live import LatestWins, in_thread, one_message, send_at_once
-from app.quantities import CAGE_ANGLE, Limits, Values, limits_of, read, scene_with, values_of
+from app.quantities import Values
+from app.quantity_list import CAGE_ANGLE
 from app.results import Results
+from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from app.views.base import Ranges, Sources, View
+from app.views.control_view import ControlView
 from app.views.status import StatusLine, Tabs, status_of
 from app.wire import Wire
-from bearingcore import EDGES, Scene, presets
+from bearingcore import Scene
 
 log = logging.getLogger(__name__)
 
@@ -42,11 +46,15 @@ class Section:
 
 @dataclass(frozen=True)
 class Inputs:
-    """What is to be drawn; `mark` is the number of the newest change it holds."""
+    """What is to be drawn; `mark` is the number of the newest change it holds.
+
+    `focus` is the one of the scene's defects that the sliders move.
+    """
 
     scene: Scene
     cage_angle: float
     mark: int
+    focus: int = 0
 
 
 @dataclass(frozen=True)
@@ -79,17 +87,12 @@ class Explorer:
         self._slow_cost = 0.0
         self._slow_at = -math.inf
         self._doc = pn.state.curdoc
+        self._tasks: set[asyncio.Task[None]] = set()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
 
-        self.values: Values
-        self.scene: Scene
-        self._base: Scene
-        self._edge: str
-        self._limits: dict[str, Limits]
-        self._refused: set[str]
-        self._take_preset(preset)
-        self.controls = Controls(self._asked)
-        self.controls.state = self._state()
+        self.editor = SceneEditor(preset)
+        self.controls = Controls(self._asked, state=self.editor.state())
+        self._panels: list[Rows] = [self.controls]
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
         self._shown = next(iter(self._sections))
         self.tabs = Tabs(
@@ -104,7 +107,17 @@ class Explorer:
     def inputs(self) -> Inputs:
         """What is to be drawn now."""
         angle = math.radians(self.values[CAGE_ANGLE])
-        return Inputs(self.scene, angle, self._mark)
+        return Inputs(self.scene, angle, self._mark, self.editor.focus)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as the controls have it."""
+        return self.editor.scene
+
+    @property
+    def values(self) -> Values:
+        """The numbers of the controls."""
+        return self.editor.values
 
     def start(self) -> None:
         """The page is up: draw."""
@@ -129,66 +142,65 @@ class Explorer:
             self._mark = mark
         try:
             if message.get("reset") is True:
-                self._take_preset(self._preset)
-                self.controls.tell(state=self._state())
+                self.editor.take_preset(self.editor.preset)
+                self._tell(state=self.editor.state())
             if isinstance(choose := message.get("choose"), dict):
-                self._choose(choose)
+                refused = self.editor.choose(choose)
+                self._tell(state=self.editor.state(), **({"refused": refused} if refused else {}))
             if isinstance(values := message.get("set"), dict):
-                self._set(values)
+                self._set(values, confirm=False)
             if isinstance(typed := message.get("typed"), dict):
-                self._set(typed)
-                taken = {name: self.values[name] for name in typed if name in self.values}
-                if taken and not self._refused & taken.keys():
-                    self.controls.tell(state={"values": taken})
+                self._set(typed, confirm=True)
+            if isinstance(file := message.get("floor"), dict):
+                self._read(file)
         finally:
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
-    def _set(self, given: Mapping[Any, Any]) -> None:
-        """Take numbers, dragged or typed; what is refused stays as it was, with a sentence."""
-        values = dict(self.values)
-        refused: dict[str, str] = {}
-        for name, value in list(given.items())[: len(values)]:
-            try:
-                values[str(name)] = read(str(name), value, self._limits)
-            except ValueError as error:
-                refused[str(name)] = str(error)
-        try:
-            scene = scene_with(self._base, values, edge=self._edge)
-        except ValueError as error:
-            refused |= {str(name): f"Not possible: {error}." for name in given}
-        else:
-            self.values, self.scene = values, scene
-        self._refused = set(refused)
-        if refused:
-            self.controls.tell(refused=refused)
+    def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
+        """Take numbers; what is refused stays as it was, with a sentence.
 
-    def _choose(self, choice: Mapping[Any, Any]) -> None:
-        preset, edge = choice.get("preset"), choice.get("edge")
-        if isinstance(preset, str) and preset in presets:
-            self._take_preset(preset)
-        if isinstance(edge, str) and edge in EDGES:
-            self.scene = scene_with(self._base, self.values, edge=edge)
-            self._edge = edge
-        self.controls.tell(state=self._state())
+        A slider knows where it is; what was typed is confirmed as it was understood.
+        """
+        was_changed = self.editor.changed
+        refused, changed = self.editor.set(given)
+        names = [name for name in changed if name not in given]
+        if confirm:
+            names += [name for name in given if name in self.values and name not in refused]
+        if names or was_changed != self.editor.changed:
+            self._tell(state=self.editor.state(names))
+        if refused:
+            self._tell(refused=refused)
+
+    def _read(self, file: Mapping[Any, Any]) -> None:
+        """Take a measured floor out of a file's text: parsed off the event loop, it may be long."""
+        name, text = file.get("name"), file.get("text")
+        if not (isinstance(name, str) and isinstance(text, str)):
+            return
+        text = text[: LARGEST_FILE + 1]
+
+        async def read() -> None:
+            found = await in_thread(read_file, text)
+            await one_message(self._doc, lambda: take(found))
+
+        def take(found: Any) -> None:
+            self.editor.take_floor(name[:200], *found)
+            self._tell(state=self.editor.state())
+            self.draw()
+
+        task = asyncio.get_running_loop().create_task(read())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def _tell(self, **news: Any) -> None:
+        """Tell all panels of controls; each shows what is its own."""
+        for panel in self._panels:
+            panel.tell(**news)
 
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None
         if isinstance(name, str) and name in self._sections:
             self._shown = name
             self.draw()
-
-    def _take_preset(self, name: str) -> None:
-        self._preset = name
-        self._base = presets[name]
-        self._edge = next((defect.edge for defect in self._base.defects), EDGES[0])
-        self._limits = limits_of(self._base)
-        self._refused = set()
-        self.values = values_of(self._base)
-        self.scene = scene_with(self._base, self.values, edge=self._edge)
-
-    def _state(self) -> dict[str, Any]:
-        choices = {"preset": self._preset, "edge": self._edge}
-        return Controls.state_of(self.values, self._limits, choices)
 
     def _bring(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first asked for.
@@ -199,6 +211,10 @@ class Explorer:
         if name not in self._containers:
             views = [view(self.wire) for view in self._sections[name].views]
             self._views[name] = views
+            for view in views:
+                if isinstance(view, ControlView):
+                    view.listen(self._asked, self.editor.state())
+                    self._panels.append(view.rows)
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],
@@ -215,7 +231,7 @@ class Explorer:
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
-        results = Results(inputs.scene, inputs.cage_angle)
+        results = Results(inputs.scene, inputs.cage_angle, focus=inputs.focus)
         if self.tabs.active != self._shown:
             await one_message(self._doc, lambda: self._bring(self._shown))
         views = self._views[self._shown]

@@ -11,6 +11,7 @@ import bearingcore
 from app.assets import asset_text
 from app.explorer import Explorer, Section
 from app.views.bearing import BearingDrawing
+from app.views.bearing_editor import BearingEditor
 from app.views.depth_profile import DepthProfile
 from app.views.load_distribution import LoadDistribution
 from app.views.modes import NaturalFrequencies
@@ -25,6 +26,7 @@ SECTIONS = (
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("modes", "Natural frequencies", (NaturalFrequencies,)),
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+    Section("bearing", "Bearing", (BearingEditor,)),
 )
 """The tabs. What is not on the tab that is open is neither computed nor sent."""
 

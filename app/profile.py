@@ -28,13 +28,13 @@ class Profile:
     path: NDArray[np.float64]
 
 
-def profile(scene: Scene, cage_angle: float) -> Profile:
-    """Profile around the first defect of `scene` with the cage at `cage_angle` [rad]."""
+def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
+    """Profile around the defect `focus` of `scene` with the cage at `cage_angle` [rad]."""
     found = spans(scene, cage_angle)
     if not found:
         angle = np.linspace(1.5 * math.pi - LEAST_WIDTH, 1.5 * math.pi + LEAST_WIDTH, 3)
         return Profile("outer", angle, np.zeros(3), np.zeros(3))
-    first = found[0]
+    first = found[focus]
     middle = first.start + 0.5 * first.extent
     half = min(max((0.5 + MARGIN) * first.extent, LEAST_WIDTH), math.pi)
     edges = [

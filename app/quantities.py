@@ -1,4 +1,4 @@
-"""What can be set on the page: names, units, ranges, and the way to a Scene and back.
+"""What can be set on the page: ranges, and the way to a Scene and back.
 
 Degrees, micrometres and hertz live here and in the browser; behind this module all is SI.
 """
@@ -6,175 +6,128 @@ Degrees, micrometres and hertz live here and in the browser; behind this module 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from bearingcore import Scene
+from app.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
+from bearingcore import Defect, RoughFloor, Scene
+from bearingcore.drawing import WIDEST_CONFORMITY
 
 Values = dict[str, float]
-"""A value for each quantity, in the unit of its name."""
+"""A value for each quantity, in the unit of its name; NaN for an optional one left open."""
 
-
-@dataclass(frozen=True)
-class Quantity:
-    """One number of the page.
-
-    `field` is the name `Scene.replace` knows it by (empty: not part of the scene), `unit_si` how
-    much one unit is in SI, `symbol` and `about` may hold simple HTML.
-    """
-
-    name: str
-    field: str
-    label: str
-    symbol: str
-    unit: str
-    unit_si: float
-    group: str
-    about: str
+DEFECT_FIELDS = ("extent", "depth", "center")
+FIRST_ROUGHNESS = RoughFloor(rms_height=2e-6, correlation_length=200e-6)
+"""A rough floor to begin with."""
+GROOVES = ("inner_groove_radius_mm", "outer_groove_radius_mm")
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a quantity may be, and how far one step of its slider goes, in its own unit."""
+    """What a quantity may be, and how far one step of its slider goes, in its own unit.
+
+    The slider reaches from `least` to `most`; a number may be typed from `typed_least` to
+    `typed_most`, and the slider then reaches that far too.
+    """
 
     least: float
     most: float
     step: float
+    typed_least: float = math.nan
+    typed_most: float = math.nan
+
+    @property
+    def allowed(self) -> tuple[float, float]:
+        """Least and greatest number that may be typed."""
+        return (
+            self.least if math.isnan(self.typed_least) else self.typed_least,
+            self.most if math.isnan(self.typed_most) else self.typed_most,
+        )
+
+    def around(self, value: float) -> Limits:
+        """The same, with a slider that reaches `value`: to the end or a round number past it."""
+        if self.least <= value <= self.most or math.isnan(value):
+            return self
+        low, high = self.allowed
+        room = _round_up(1.5 * abs(value))
+        least = self.least if value > self.most else max(low, -room if value < 0.0 else 0.0)
+        most = self.most if value < self.least else min(high, room)
+        return Limits(least, most, self.step, low, high)
 
 
-DEGREE = math.pi / 180.0
-CAGE_ANGLE = "cage_angle_deg"
-
-_QUANTITIES = (
-    Quantity(
-        "extent_deg",
-        "extent",
-        "Extent",
-        "Δφ<sub>f</sub>",
-        "°",
-        DEGREE,
-        "Defect",
-        "How far the defect reaches along the race.",
-    ),
-    Quantity(
-        "depth_um",
-        "depth",
-        "Depth",
-        "h",
-        "µm",
-        1e-6,
-        "Defect",
-        "How deep its floor lies. A ball reaches it only where the defect is long enough.",
-    ),
-    Quantity(
-        "center_deg",
-        "center",
-        "Centre",
-        "φ<sub>f</sub>",
-        "°",
-        DEGREE,
-        "Defect",
-        "Where its middle is. 0° is right, 90° up, 270° down, where the weight of a rotor acts.",
-    ),
-    Quantity(
-        "shaft_speed_hz",
-        "shaft_speed",
-        "Shaft speed",
-        "f<sub>s</sub>",
-        "Hz",
-        2.0 * math.pi,
-        "Turning",
-        "Turns of the shaft a second. Static answers do not depend on it.",
-    ),
-    Quantity(
-        CAGE_ANGLE,
-        "",
-        "Cage angle",
-        "φ<sub>c</sub>",
-        "°",
-        DEGREE,
-        "Turning",
-        "Where the first ball is. Play turns the bearing.",
-    ),
-    Quantity(
-        "fx_n",
-        "fx",
-        "Force, sideways",
-        "F<sub>x</sub>",
-        "N",
-        1.0,
-        "Load",
-        "Force on the inner ring towards 0°.",
-    ),
-    Quantity(
-        "fy_n",
-        "fy",
-        "Force, up",
-        "F<sub>y</sub>",
-        "N",
-        1.0,
-        "Load",
-        "Force on the inner ring towards 90°; negative is down, as a weight acts.",
-    ),
-    Quantity(
-        "fz_n",
-        "fz",
-        "Force, axial",
-        "F<sub>z</sub>",
-        "N",
-        1.0,
-        "Load",
-        "Force on the inner ring along the shaft.",
-    ),
-    Quantity(
-        "mx_nm",
-        "mx",
-        "Moment about x",
-        "M<sub>x</sub>",
-        "N·m",
-        1.0,
-        "Load",
-        "Moment on the inner ring that tilts the shaft up or down.",
-    ),
-    Quantity(
-        "my_nm",
-        "my",
-        "Moment about y",
-        "M<sub>y</sub>",
-        "N·m",
-        1.0,
-        "Load",
-        "Moment on the inner ring that tilts the shaft sideways.",
-    ),
-)
-
-QUANTITIES: Mapping[str, Quantity] = {quantity.name: quantity for quantity in _QUANTITIES}
+QUANTITIES: Mapping[str, Quantity] = {quantity.name: quantity for quantity in QUANTITY_LIST}
 """All quantities by name, in the order of the page."""
 
+_OF_SCENE = [quantity for quantity in QUANTITY_LIST if quantity.of == "scene"]
+_FIELD_WORDS = {quantity.last_name: quantity.label.lower() for quantity in QUANTITY_LIST}
 
-def values_of(scene: Scene) -> Values:
-    """The numbers of a scene as the page shows them, at cage angle 0."""
-    defect = scene.defects[0] if scene.defects else None
-    si = {
-        "extent": defect.extent if defect else 0.0,
-        "depth": defect.depth if defect else 0.0,
-        "center": defect.center if defect else 0.0,
-        "fx": scene.load.fx,
-        "fy": scene.load.fy,
-        "fz": scene.load.fz,
-        "mx": scene.load.mx,
-        "my": scene.load.my,
-        "shaft_speed": scene.shaft_speed,
-        "": 0.0,
-    }
+
+def defects_of(scene: Scene) -> tuple[Defect, ...]:
+    """All defects of a scene, also those without extent or depth; at least one."""
+    several = (scene.defect,) if isinstance(scene.defect, Defect) else scene.defect
+    return several or (Defect.none(),)
+
+
+def values_of(scene: Scene, selected: int = 0) -> Values:
+    """The numbers of a scene as the page shows them, at cage angle 0; `selected` is a defect."""
+    defect = defects_of(scene)[selected]
+    rough = defect.floor if isinstance(defect.floor, RoughFloor) else FIRST_ROUGHNESS
+    values = {}
+    for quantity in QUANTITY_LIST:
+        if quantity.of == "scene":
+            values[quantity.name] = in_unit(quantity, _find(scene, defect, quantity.field))
+        elif quantity.of == "floor":
+            values[quantity.name] = in_unit(quantity, getattr(rough, quantity.last_name))
+        else:
+            values[quantity.name] = 0.0
+    return values
+
+
+def _find(scene: Scene, defect: Defect, field: str) -> Any:
+    if field in DEFECT_FIELDS:
+        return getattr(defect, field)
+    return next(
+        getattr(part, field)
+        for part in (scene, scene.bearing, scene.load, scene.support)
+        if hasattr(part, field)
+    )
+
+
+def in_unit(quantity: Quantity, si: float | None) -> float:
+    """A number in SI as the page shows it; NaN for one left open."""
     # The last digits of π have no business on a page.
-    return {q.name: float(f"{si[q.field] / q.unit_si:.12g}") for q in _QUANTITIES}
+    return math.nan if si is None else float(f"{si / quantity.unit_si:.12g}")
 
 
-def scene_with(base: Scene, values: Values, **choices: str) -> Scene:
-    """`base` with the page's numbers and choices. ValueError where the scene refuses."""
-    fields = {q.field: values[q.name] * q.unit_si for q in _QUANTITIES if q.field}
-    return base.replace(**fields, **choices)
+def in_si(quantity: Quantity, value: float) -> float | None:
+    """The other way round."""
+    return None if math.isnan(value) else value * quantity.unit_si
+
+
+def scene_with(
+    scene: Scene, values: Mapping[str, float], selected: int = 0, **others: Any
+) -> Scene:
+    """`scene` with numbers of the page, and other fields by name, changed.
+
+    What a defect is made of changes in the `selected` one. ValueError where the scene refuses.
+    """
+    fields = {q.field: in_si(q, values[q.name]) for q in _OF_SCENE if q.name in values}
+    return scene_with_fields(scene, {**fields, **others}, selected)
+
+
+def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:
+    """`scene` with fields changed by their names, those of a defect in the `selected` one."""
+    own = {name: fields[name] for name in fields if name in Defect.__dataclass_fields__}
+    others = {name: fields[name] for name in fields if name not in own}
+    defects = list(defects_of(scene))
+    if own:
+        single = Scene.replace(scene, defect=defects[selected]).replace(**own)
+        assert isinstance(single.defect, Defect)
+        defects[selected] = single.defect
+        others["defect"] = defects[0] if len(defects) == 1 else tuple(defects)
+    return scene.replace(**others) if others else scene
 
 
 def limits_of(base: Scene) -> dict[str, Limits]:
@@ -182,40 +135,90 @@ def limits_of(base: Scene) -> dict[str, Limits]:
     load = base.load
     force = _round_up(2.5 * max(abs(load.fx), abs(load.fy), abs(load.fz), 1.0))
     moment = _round_up(0.5 * force * 0.5 * base.bearing.pitch_diameter)
+    pull, turn = (-1e6, 1e6), (-1e5, 1e5)
+    values = values_of(base)
     return {
-        "extent_deg": Limits(0.0, 120.0, 0.1),
-        "depth_um": Limits(0.0, 500.0, 1.0),
+        "extent_deg": Limits(0.0, 120.0, 0.1, 0.0, 360.0),
+        "depth_um": Limits(0.0, 500.0, 1.0, 0.0, 5000.0),
         "center_deg": Limits(0.0, 360.0, 0.5),
-        **{name: Limits(-force, force, force / 500.0) for name in ("fx_n", "fy_n", "fz_n")},
-        **{name: Limits(-moment, moment, moment / 500.0) for name in ("mx_nm", "my_nm")},
-        "shaft_speed_hz": Limits(1.0, 100.0, 0.1),
+        "rms_height_um": Limits(0.0, 20.0, 0.1, 0.0, 500.0),
+        "correlation_length_um": Limits(20.0, 2000.0, 10.0, 1.0, 20000.0),
+        "seed": Limits(0.0, 99.0, 1.0, 0.0, 2.0**31 - 1.0),
+        "shaft_speed_hz": Limits(1.0, 100.0, 0.1, 0.0, 1000.0),
         CAGE_ANGLE: Limits(0.0, 360.0, 0.1),
+        **{name: Limits(-force, force, force / 500.0, *pull) for name in ("fx_n", "fy_n", "fz_n")},
+        **{name: Limits(-moment, moment, moment / 500.0, *turn) for name in ("mx_nm", "my_nm")},
+        "n_balls": Limits(3.0, 30.0, 1.0, 1.0, 100.0),
+        "contact_angle_deg": Limits(0.0, 45.0, 0.5, 0.0, 80.0),
+        "radial_clearance_um": Limits(0.0, 50.0, 0.1, 0.0, 1000.0),
+        "youngs_modulus_gpa": Limits(60.0, 400.0, 1.0, 1.0, 1000.0),
+        "poisson": Limits(0.1, 0.45, 0.005, 0.0, 0.49),
+        **groove_limits(base),
+        **{name: _near(value) for name, value in values.items() if name not in _FIXED},
     }
+
+
+def groove_limits(scene: Scene) -> dict[str, Limits]:
+    """Ranges of the groove radii, from hardly wider than a ball to the widest that guides one."""
+    ball = scene.bearing.ball_diameter * 1e3
+    most = float(f"{WIDEST_CONFORMITY * ball:.12g}")
+    least = float(f"{0.501 * ball:.6g}")
+    return {name: Limits(least, most, 0.0005 * ball, 0.0, 1e4) for name in GROOVES}
+
+
+_FIXED = frozenset(
+    {quantity.name for quantity in QUANTITY_LIST if quantity.of != "scene"}
+    | {quantity.name for quantity in QUANTITY_LIST if quantity.group in ("Defect", "Load")}
+    | {"shaft_speed_hz", "n_balls", "contact_angle_deg", "radial_clearance_um"}
+    | {*GROOVES, "youngs_modulus_gpa", "poisson"}
+)
+
+
+def _near(value: float) -> Limits:
+    """A slider from nothing to a few times `value`; what is typed may go much further."""
+    most = _round_up(2.0 * value) if value > 0.0 else 100.0  # NaN too: nobody knows its size
+    return Limits(0.0, most, _round_up(most / 2000.0), 0.0, 1e9)
 
 
 def read(name: str, given: object, limits: Mapping[str, Limits]) -> float:
     """The number a person gave for a quantity; ValueError with a sentence for the page."""
     if name not in QUANTITIES:
         raise ValueError("There is no such quantity.")
-    quantity, allowed = QUANTITIES[name], limits[name]
-    text = str(given).strip()[:40]
+    quantity = QUANTITIES[name]
+    least, most = limits[name].allowed
+    text = str(given)[:80].strip()[:40]
+    if quantity.optional and text in ("", "None"):
+        return math.nan
     try:
         value = float(text.replace("−", "-").replace(",", "."))
     except ValueError:
         value = math.nan
     unit = _unit(quantity.unit)
-    span = f"{allowed.least:g} to {allowed.most:g}{unit}".replace("-", "−")
+    span = f"{least:g} to {most:g}{unit}".replace("-", "−")
     if not math.isfinite(value):
         shown = f"“{text}” is not a number" if text else "A number is missing"
-        raise ValueError(f"{shown}: {quantity.label.lower()} goes from {span}.")
-    if not allowed.least <= value <= allowed.most:
+        raise ValueError(f"{shown}: {_named(quantity)} goes from {span}.")
+    if not least <= value <= most:
         shown = f"{value:g}{unit}".replace("-", "−")
-        raise ValueError(f"{shown} is out of range: {quantity.label.lower()} goes from {span}.")
+        raise ValueError(f"{shown} is out of range: {_named(quantity)} goes from {span}.")
     return value
 
 
+def refusal(error: ValueError) -> str:
+    """What the core refuses, as a sentence for the page: fields by the names they have there."""
+    text = re.sub(
+        r"[a-z]+(?:_[a-z]+)*", lambda word: _FIELD_WORDS.get(word[0], word[0]), str(error)
+    )
+    return f"Not possible: {text}."
+
+
+def _named(quantity: Quantity) -> str:
+    label = quantity.label
+    return label if label[:2] in ("Yo", "Po") else label[0].lower() + label[1:]
+
+
 def _unit(unit: str) -> str:
-    return unit if unit == "°" else f" {unit}"
+    return unit if unit in ("", "°") else f" {unit}"
 
 
 def _round_up(value: float) -> float:

@@ -7,6 +7,8 @@ answer somebody else is computing waits for that one instead of computing it aga
 
 from __future__ import annotations
 
+import dataclasses
+import math
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
@@ -16,6 +18,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 import bearingcore as core
 from app.excerpt import Excerpt, excerpt
@@ -25,9 +28,13 @@ from bearingcore.equilibrium import default_cage_angles
 from bearingcore.passes import ball_drop
 
 if TYPE_CHECKING:
-    from bearingcore import Equilibrium, Modes, Motion, Scene, Spectrum
+    from bearingcore import Defect, Equilibrium, Maps, Modes, Motion, Scene, Spectrum
 
 Answer = TypeVar("Answer")
+
+
+MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
+"""How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
 
 
 class ComputedOnce(Generic[Answer]):
@@ -63,24 +70,29 @@ class ComputedOnce(Generic[Answer]):
 class Settings:
     """How finely a session wants its results.
 
-    `n_cage_angles` to a ball spacing; `duration` [s] and `sample_rate` [Hz] of motions.
+    `n_cage_angles` to a ball spacing and across maps, `n_extents` of maps; `duration` [s] and `sample_rate` [Hz] of motions.
     """
 
     n_cage_angles: int = 121
+    n_extents: int = 91
     duration: float = 1.4
     sample_rate: float = 65536.0
 
 
-def _over_spacing(scene: Scene, n_cage_angles: int) -> Equilibrium:
-    return core.equilibrium(scene, default_cage_angles(scene, n_cage_angles))
+def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
+    return core.equilibrium(scene, np.linspace(first, last, n_cage_angles))
 
 
 def _at(scene: Scene, cage_angle: float) -> Equilibrium:
     return core.equilibrium(scene, np.array([cage_angle]))
 
 
-def _modes(scene: Scene, n_cage_angles: int) -> Modes:
-    return core.modes(scene, default_cage_angles(scene, n_cage_angles))
+def _modes(scene: Scene, first: float, last: float, n_cage_angles: int) -> Modes:
+    return core.modes(scene, np.linspace(first, last, n_cage_angles))
+
+
+def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int) -> Maps:
+    return core.stiffness_maps(scene, np.linspace(0.0, reach, m), np.linspace(first, last, n))
 
 
 def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
@@ -99,9 +111,10 @@ def _spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spe
     }
 
 
-equilibria = ComputedOnce(_over_spacing, 512)
+equilibria = ComputedOnce(_over_period, 512)
 single_equilibria = ComputedOnce(_at, 2048)
 modes = ComputedOnce(_modes, 256)
+maps = ComputedOnce(_maps, 16)  # about 2 MB each
 motions = ComputedOnce(_motion, 8)  # about 20 MB each
 excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
@@ -112,9 +125,12 @@ class Results:
 
     scene: the Scene shown
     cage_angle: the cage angle shown [rad]
-    equilibrium, sound_equilibrium: over one period of the curves, with the defect and without
+    focus: which of the scene's defects is looked at
+    equilibrium, sound_equilibrium: over the stretch of the curves, with the defect and without
     now, sound_now: at `cage_angle` alone (arrays of length 1)
     modes, sound_modes: over the same cage angles
+    extent: of the defect looked at [rad]
+    maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
     motion, sound_motion: simulated motion
@@ -126,21 +142,55 @@ class Results:
     slow = frozenset({"motion", "sound_motion", "excerpt", "spectra", "sound_spectra"})
 
     def __init__(
-        self, scene: Scene, cage_angle: float = 0.0, settings: Settings | None = None
+        self,
+        scene: Scene,
+        cage_angle: float = 0.0,
+        settings: Settings | None = None,
+        focus: int = 0,
     ) -> None:
         self.scene = scene
         self.cage_angle = cage_angle
         self.settings = settings or Settings()
+        self.focus = focus
+
+    @property
+    def over_shaft(self) -> bool:
+        """Whether curves are drawn over a turn of the shaft: a defect turns with it."""
+        return any(defect.race == "inner" for defect in self.scene.defects)
+
+    @cached_property
+    def stretch(self) -> tuple[float, float, int]:
+        """First and last cage angle [rad] that curves are drawn over, and how many there are.
+
+        A ball spacing, after which all is as before. With a defect of the inner race nothing
+        repeats so soon: then the turn of the shaft that the cage angle shown lies in.
+        """
+        angles = default_cage_angles(self.scene, self.settings.n_cage_angles)
+        length = float(angles[-1])
+        turn = math.floor(self.cage_angle / length + 1e-9) if self.over_shaft else 0
+        return turn * length, (turn + 1) * length, angles.size
+
+    def along(self, cage_angle: ArrayLike) -> NDArray[np.float64]:
+        """Cage angles [rad] as curves show them [degrees], within the stretch.
+
+        Those of the cage, or where the curves are over a turn of the shaft, those of the shaft.
+        """
+        first, last, _ = self.stretch
+        angle = np.asarray(cage_angle, dtype=float)
+        inside = first + np.where(angle == last, last - first, (angle - first) % (last - first))
+        if self.over_shaft:
+            return 360.0 * (inside - first) / (last - first)
+        return np.degrees(inside)
 
     @cached_property
     def equilibrium(self) -> Equilibrium:
-        """Static answers over one period: a ball spacing, or a shaft turn for an inner race."""
-        return equilibria(self.scene, self.settings.n_cage_angles)
+        """Static answers over the stretch."""
+        return equilibria(self.scene, *self.stretch)
 
     @cached_property
     def sound_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
-        return equilibria(self.scene.sound(), self.settings.n_cage_angles)
+        return equilibria(self.scene.sound(), *self.stretch)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -155,12 +205,36 @@ class Results:
     @cached_property
     def modes(self) -> Modes:
         """Natural frequencies over the same cage angles."""
-        return modes(self.scene, self.settings.n_cage_angles)
+        return modes(self.scene, *self.stretch)
 
     @cached_property
     def sound_modes(self) -> Modes:
         """The same without the defect."""
-        return modes(self.scene.sound(), self.settings.n_cage_angles)
+        return modes(self.scene.sound(), *self.stretch)
+
+    @property
+    def extent(self) -> float:
+        """Extent [rad] of the defect that is looked at."""
+        return self._defects[self.focus].extent
+
+    @property
+    def _defects(self) -> tuple[Defect, ...]:
+        defect = self.scene.defect
+        return (defect,) if isinstance(defect, core.Defect) else defect
+
+    @cached_property
+    def maps(self) -> Maps:
+        """Stiffness and loaded balls over extents of the defect looked at, and cage angles.
+
+        The same maps for every extent that they hold: moving along them computes nothing.
+        """
+        first, last, _ = self.stretch
+        others = list(self._defects)
+        looked_at = dataclasses.replace(others.pop(self.focus), extent=0.0)
+        scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
+        reach = next(reach for reach in MAP_REACHES if self.extent <= reach)
+        size = self.settings.n_extents, first, last, self.settings.n_cage_angles
+        return maps(scene, reach, *size)
 
     @cached_property
     def drop(self) -> dict[str, np.ndarray]:
@@ -171,7 +245,7 @@ class Results:
     @cached_property
     def profile(self) -> Profile:
         """The race around the defect and the path of a ball's centre over it."""
-        return profile(self.scene, self.cage_angle)
+        return profile(self.scene, self.cage_angle, self.focus)
 
     @cached_property
     def motion(self) -> Motion:

@@ -152,10 +152,10 @@ def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> No
 @pytest.mark.parametrize(
     ("typed", "sentence"),
     [
-        ("200", "200° is out of range: extent goes from 0 to 120°."),
-        ("-3", "−3° is out of range: extent goes from 0 to 120°."),
-        ("a lot", "“a lot” is not a number: extent goes from 0 to 120°."),
-        ("NaN", "“NaN” is not a number: extent goes from 0 to 120°."),
+        ("400", "400° is out of range: extent goes from 0 to 360°."),
+        ("-3", "−3° is out of range: extent goes from 0 to 360°."),
+        ("a lot", "“a lot” is not a number: extent goes from 0 to 360°."),
+        ("NaN", "“NaN” is not a number: extent goes from 0 to 360°."),
     ],
 )
 def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(

@@ -1,0 +1,65 @@
+// The bearing: every dimension, and a picture that shows what each one is. rows.js and
+// bearing_picture.js are put in front of this file.
+
+export function render({ model }) {
+  const spec = model.spec
+  const about = element("p", { class: "about", "aria-hidden": "true" })
+  let last = ""
+  const touched = (name) => {
+    if (name === last) return
+    last = name
+    drawing.mark(name)
+    const { label, symbol, about: sentence } = panel.rows[name]
+    about.innerHTML = `<strong>${label} <i class="symbol">${symbol}</i></strong> `
+    about.append(sentence)
+  }
+  const panel = make_rows(model, { touched })
+  const drawing = bearing_picture((name) => {
+    const row = panel.rows[name]
+    if (row && !row.root.hidden) row.number.focus()
+    else if (row) touched(name)
+  })
+
+  const fields = element("form", { class: "fields", "aria-label": "Dimensions of the bearing" })
+  fields.addEventListener("submit", (event) => event.preventDefault())
+  fields.append(panel.choice("numbers"))
+  for (const group of spec.groups) {
+    const box = element("fieldset", { "data-group": group.title }, element("legend", {}, group.title))
+    box.append(...group.controls.map(panel.control))
+    fields.append(box)
+  }
+  const facts = element("dl", { class: "facts", "aria-label": "What follows from the dimensions" })
+  const note = element("p", { class: "origin" })
+  const side = element("div", { class: "side" }, drawing.picture, about, facts, note)
+
+  let preset = "", changed = false
+  const take = (state) => {
+    panel.take(state)
+    preset = state.choices?.preset ?? preset
+    changed = state.changed ?? changed
+    note.textContent = (spec.notes[preset] ?? "") + (changed
+      ? " Some numbers of the bearing have been changed since; Reset brings them back." : "")
+    for (const box of fields.querySelectorAll("fieldset"))
+      box.hidden = [...box.querySelectorAll(".control")].every((row) => row.hidden)
+  }
+  let numbers = ""
+  const show = () => {
+    const { shape: now, facts: list } = model.shown
+    if (!now) return
+    if (JSON.stringify(now) !== numbers) {
+      numbers = JSON.stringify(now)
+      drawing.draw(now)
+    }
+    facts.replaceChildren(...list.map(({ label, symbol, value, about: sentence }) => {
+      const name = element("dt", { title: sentence }, label, " ")
+      name.append(element("i", { class: "symbol", html: symbol }))
+      return element("div", {}, name, element("dd", {}, value))
+    }))
+  }
+  take(model.state)
+  panel.listen(take)
+  show()
+  touched("ball_diameter_mm")
+  model.on("shown", show)
+  return element("div", { class: "editor" }, fields, side)
+}

@@ -1,0 +1,181 @@
+// Cross-section of a bearing, drawn from its numbers; each dimension can be pointed at.
+
+const SVG = "http://www.w3.org/2000/svg"
+
+function shape(tag, attributes = {}, ...children) {
+  const made = document.createElementNS(SVG, tag)
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+  made.append(...children)
+  return made
+}
+
+// `pointed` hears which dimension was clicked. Returns the picture, `draw(numbers)`, `mark(name)`.
+function bearing_picture(pointed) {
+  const picture = shape("svg", {
+    viewBox: "0 0 740 400", role: "img", class: "picture",
+    "aria-label": "Cross-section of the bearing with its dimensions",
+  })
+  let marked = ""
+
+  const symbol = (text, below) => {
+    const parts = [shape("tspan", {}, text)]
+    if (below) parts.push(shape("tspan", { class: "below", dy: 4 }, below))
+    return parts
+  }
+  const label = (x, y, [text, below, after], anchor = "middle") => {
+    const words = shape("text", { x, y, "text-anchor": anchor, class: "label" }, ...symbol(text, below))
+    if (after) words.append(shape("tspan", { dy: below ? -4 : 0 }, after))
+    return words
+  }
+  // Everything of one dimension: it lights up together, and a click on it leads to its control.
+  const dimension = (name, ...parts) => {
+    const group = shape("g", { class: "dimension", "data-name": name }, ...parts)
+    group.classList.toggle("marked", name === marked)
+    group.addEventListener("click", () => pointed(name))
+    return group
+  }
+  const arrow = (x1, y1, x2, y2, both = true) => {
+    const length = Math.hypot(x2 - x1, y2 - y1)
+    const line = [shape("path", { d: `M${x1} ${y1}L${x2} ${y2}`, class: "line" }),
+      shape("path", { d: `M${x1} ${y1}L${x2} ${y2}`, class: "grip" })]
+    const head = (x, y, dx, dy) => shape("path", { class: "head", d:
+      `M${x} ${y}l${-7 * dx - 2.6 * dy} ${-7 * dy + 2.6 * dx}l${5.2 * dy} ${-5.2 * dx}z` })
+    if (length < 4) return line
+    const dx = (x2 - x1) / length, dy = (y2 - y1) / length
+    line.push(head(x2, y2, dx, dy))
+    if (both) line.push(head(x1, y1, -dx, -dy))
+    return line
+  }
+  const dot = (x, y, cls = "centre") => shape("circle", { cx: x, cy: y, r: 2.6, class: cls })
+  const witness = (x1, y1, x2, y2) => shape("path", { d: `M${x1} ${y1}L${x2} ${y2}`, class: "witness" })
+
+  // Half of the section through the shaft, to scale: radii are heights above its middle.
+  const section = (n) => {
+    const rim = n.outer_raceway_radius + 0.42 * n.ball_diameter
+    const scale = Math.min(325 / rim, 84 / n.ball_diameter)
+    const axis = 372, middle = 155
+    const up = (radius) => axis - scale * radius
+    const ball = 0.5 * scale * n.ball_diameter
+    const centre = up(0.5 * n.pitch_diameter), half = 1.6 * ball
+    const top = up(rim), bore = Math.min(up(Math.max(n.inner_raceway_radius - 0.42 * n.ball_diameter, 0)), axis - 6)
+    const outer = up(n.outer_raceway_radius), inner = up(n.inner_raceway_radius)
+    const lip = 0.42 * ball, wide = 0.8 * ball
+    const parts = [
+      shape("path", { class: "steel", d: `M${middle - half} ${top}H${middle + half}V${outer + lip}` +
+        `H${middle + wide}Q${middle} ${outer - lip} ${middle - wide} ${outer + lip}H${middle - half}Z` }),
+      shape("path", { class: "steel", d: `M${middle - half} ${bore}H${middle + half}V${inner - lip}` +
+        `H${middle + wide}Q${middle} ${inner + lip} ${middle - wide} ${inner - lip}H${middle - half}Z` }),
+      shape("circle", { class: "ball", cx: middle, cy: centre, r: ball }),
+      shape("path", { class: "axis", d: `M14 ${axis}H296` }),
+    ]
+    const height = (name, x, from, level, text) => dimension(name,
+      witness(from, level, x - 5 * Math.sign(from - x), level), ...arrow(x, axis, x, level),
+      label(x + (x < middle ? -5 : 5), axis - 0.45 * (axis - level), text, x < middle ? "end" : "start"))
+    return [...parts,
+      height("groove_center_radius_mm", 30, middle - half, up(n.groove_center_radius), ["r", "d"]),
+      height("pitch_diameter_mm", 72, middle - half, centre, ["D", "p", "/2"]),
+      height("inner_raceway_radius_mm", 236, middle + half, inner, ["R", "i"]),
+      height("outer_raceway_radius_mm", 266, middle + half, outer, ["R", "o"]),
+      dimension("ball_diameter_mm", ...arrow(middle - ball, centre, middle + ball, centre),
+        label(middle, centre - 5, ["D", "b"])),
+      dot(middle, centre),
+      label(155, 392, ["to scale, above the middle of the shaft"]),
+    ]
+  }
+
+  // A ball between its grooves; what is small in a bearing is drawn large.
+  const contact = (n) => {
+    const x = 440, y = 142, ball = 76
+    const drawn = (radius) => ball * (0.16 + 2.4 * Math.min(Math.max(2 * radius / n.ball_diameter - 1, 0), 0.2))
+    const known = n.outer_groove_radius !== null
+    const likely = 0.5 * (n.groove_center_distance + n.ball_diameter)
+    const far = [n.outer_groove_radius ?? likely, n.inner_groove_radius ?? likely].map(drawn)
+    const gap = n.radial_clearance > 0 ? 5 + 16 * (1 - Math.exp(-n.radial_clearance / 2e-5)) : 0
+    const sin = Math.sin(n.contact_angle), cos = Math.cos(n.contact_angle)
+    const outer = { x: x - far[0] * sin, y: y + far[0] * cos, r: ball + far[0] }
+    const inner = { x: x + far[1] * sin, y: y - far[1] * cos + gap, r: ball + far[1] }
+    const at = (circle, angle) =>
+      [circle.x + circle.r * Math.sin(angle), circle.y - circle.r * Math.cos(angle)]
+    const ring = (circle, side) => {
+      const spread = 0.9
+      const [a, b] = [-spread, spread].map((turn) => at(circle, side > 0 ? turn : Math.PI - turn))
+      const back = y - side * (ball + 34) + (side < 0 ? gap : 0)
+      return shape("path", { class: "steel", d: `M${x - 118} ${back}V${a[1]}H${a[0]}A${circle.r} ${circle.r} ` +
+        `0 0 ${side > 0 ? 1 : 0} ${b[0]} ${b[1]}H${x + 118}V${back}Z` })
+    }
+    const top = [x + ball * sin, y - ball * cos], foot = [x - ball * sin, y + ball * cos]
+    const parts = [
+      ring(outer, 1), ring(inner, -1),
+      shape("circle", { class: "ball", cx: x, cy: y, r: ball }),
+      dimension("contact_angle_deg",
+        shape("path", { class: "line dashed", d: `M${foot}L${x + 1.5 * ball * sin} ${y - 1.5 * ball * cos}` }),
+        shape("path", { class: "witness", d: `M${x} ${y}V${y - 1.5 * ball}` }),
+        shape("path", { class: "line", fill: "none", d: n.contact_angle > 0
+          ? `M${x} ${y - 1.32 * ball}A${1.32 * ball} ${1.32 * ball} 0 0 1 ` +
+            `${x + 1.32 * ball * sin} ${y - 1.32 * ball * cos}` : "" }),
+        label(x + 1.32 * ball * Math.sin(0.5 * n.contact_angle) + 4, y - 1.32 * ball * Math.cos(0.5 * n.contact_angle) - 5,
+          ["α", "0"], "start")),
+      dimension("groove_center_distance_um", ...arrow(outer.x, outer.y, inner.x, inner.y),
+        dot(outer.x, outer.y), dot(inner.x, inner.y),
+        label(0.5 * (outer.x + inner.x) - 9, 0.5 * (outer.y + inner.y) + 4, ["A", "0"], "end")),
+    ]
+    if (known) {
+      const a = at(outer, -0.62), b = at(inner, Math.PI + 0.62)
+      parts.push(
+        dimension("outer_groove_radius_mm", ...arrow(outer.x, outer.y, a[0], a[1], false),
+          label(a[0] - 4, a[1] - 6, ["r", "o"], "end")),
+        dimension("inner_groove_radius_mm", ...arrow(inner.x, inner.y, b[0], b[1], false),
+          label(b[0] - 4, b[1] + 14, ["r", "i"], "end")))
+    }
+    if (gap) {
+      const right = x + ball + 52, low = y + ball
+      parts.push(dimension("radial_clearance_um",
+        witness(x - 10, low, right + 6, low), witness(x + 10, low + gap, right + 6, low + gap),
+        ...arrow(right, low - 18, right, low, false), ...arrow(right, low + gap + 18, right, low + gap, false),
+        label(right + 8, low + 4 + 0.5 * gap, ["r", "L"], "start")))
+    }
+    return [...parts, label(x, 300, ["a ball in its grooves, gaps drawn large"])]
+  }
+
+  // All balls, seen along the shaft.
+  const front = (n) => {
+    const x = 660, y = 100, scale = 66 / (n.outer_raceway_radius + 0.3 * n.ball_diameter)
+    const pitch = 0.5 * scale * n.pitch_diameter
+    const balls = Array.from({ length: n.n_balls }, (_, i) => {
+      const turn = 2 * Math.PI * i / n.n_balls
+      return shape("circle", { class: "ball", cx: x + pitch * Math.cos(turn), cy: y - pitch * Math.sin(turn),
+        r: 0.5 * scale * n.ball_diameter })
+    })
+    const circle = (radius) => shape("circle", { class: "ring", cx: x, cy: y, r: scale * radius })
+    return [circle(n.outer_raceway_radius), circle(n.inner_raceway_radius),
+      dimension("n_balls", ...balls, label(x, y + 5, ["N", "b", ` = ${n.n_balls}`]))]
+  }
+
+  // What a ball carries when it is pressed: the curve that K stands for.
+  const law = (n) => {
+    const x = 606, y = 300, width = 104, height = 74
+    const most = 20e-6, greatest = 1.6e10
+    const top = Math.min(1, Math.sqrt(n.load_deflection_factor / greatest))
+    const points = Array.from({ length: 25 }, (_, i) =>
+      `${x + width * i / 24} ${y - height * top * (i / 24) ** 1.5}`)
+    return [
+      shape("path", { class: "ring", d: `M${x} ${y - height - 8}V${y}H${x + width + 8}` }),
+      dimension("load_deflection_factor",
+        shape("path", { class: "line curve", d: "M" + points.join("L") }),
+        shape("path", { class: "grip", d: "M" + points.join("L") }),
+        label(x + 8, y - height + 4, ["Q = K δ", "", "¹·⁵"], "start")),
+      label(x + width, y + 16, [`compression δ, to ${1e6 * most} µm`], "end"),
+    ]
+  }
+
+  return {
+    picture,
+    draw: (numbers) => picture.replaceChildren(
+      ...section(numbers), ...contact(numbers), ...front(numbers), ...law(numbers)),
+    mark: (name) => {
+      marked = { youngs_modulus_gpa: "load_deflection_factor", poisson: "load_deflection_factor" }[name] ?? name
+      for (const group of picture.querySelectorAll(".dimension"))
+        group.classList.toggle("marked", group.dataset.name === marked)
+    },
+  }
+}

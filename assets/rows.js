@@ -1,0 +1,196 @@
+// What all panels of controls share: sliders with numbers to type into, and choices.
+//
+// What a hand moves is sent at once, but never more than two changes ahead of what is drawn
+// (`window.__mark` is the number of the newest change drawn): a slow server is asked less often,
+// and always for the newest position. The server judges everything; a refusal comes back as a
+// sentence that is shown beside its control.
+
+const AHEAD = 2           // changes that may be on their way
+const PATIENCE = 400      // ms until a change counts as lost
+
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag)
+  for (const [name, value] of Object.entries(attributes))
+    name === "html" ? (made.innerHTML = value) : made.setAttribute(name, value)
+  made.append(...children)
+  return made
+}
+
+const format = (value, step) => {
+  if (value === null) return ""
+  const digits = Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)))
+  // A typed number keeps its own digits, a dragged one those of the step.
+  const short = Number(value.toFixed(digits))
+  return String(Math.abs(short - value) < 1e-9 * (1 + Math.abs(value)) ? short : value)
+    .replace("-", "\u2212")
+}
+
+// Rows of one panel. `told` hears of every change of a value, `touched` of the control in use.
+function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
+  const rows = {}, selects = {}
+  let limits = {}, values = {}
+  let pending = null, sent_at = 0, waiting = false
+
+  const drawn = () => window.__mark || 0
+  const asked = () => window.__asked || 0
+  const send = (message) => {
+    window.__asked = asked() + 1
+    sent_at = performance.now()
+    model.send_msg({ mark: asked(), ...message })
+  }
+  const late = () => performance.now() - sent_at > PATIENCE
+  const pump = () => {
+    waiting = false
+    if (pending === null) return
+    if (asked() - drawn() >= AHEAD && !late()) {
+      waiting = true
+      requestAnimationFrame(pump)
+      return
+    }
+    const set = pending
+    pending = null
+    send({ set })
+  }
+  const push = (name, value) => {
+    pending = { ...pending, [name]: value }
+    if (!waiting) pump()
+  }
+
+  const paint = (name) => {
+    const row = rows[name], limit = limits[name], value = values[name]
+    if (!limit) return
+    const share = (v) => 100 * (v - limit.least) / (limit.most - limit.least)
+    const origin = limit.least < 0 && limit.most > 0 ? 0 : limit.least
+    const ends = [share(origin), share(value ?? origin)].sort((a, b) => a - b)
+    row.slider.style.setProperty("--from", `${ends[0]}%`)
+    row.slider.style.setProperty("--to", `${ends[1]}%`)
+    row.slider.setAttribute("aria-valuetext", value === null
+      ? row.number.placeholder || "no value" : `${format(value, limit.step)} ${row.unit}`)
+    told(name, value)
+  }
+  const put = (name, value) => {
+    const row = rows[name]
+    values[name] = value
+    row.slider.value = value ?? limits[name].least
+    if (row.root.querySelector("input:focus") !== row.number)
+      row.number.value = format(value, limits[name].step)
+    paint(name)
+  }
+  const refuse = (name, sentence) => {
+    const row = rows[name] ?? selects[name]
+    if (!row) return
+    row.refusal.textContent = sentence
+    row.refusal.hidden = !sentence
+    row.root.classList.toggle("refused", !!sentence)
+    row.number?.setAttribute("aria-invalid", sentence ? "true" : "false")
+  }
+  const move = (name, value) => {
+    refuse(name, "")
+    put(name, value)
+    rows[name].number.value = format(value, limits[name].step)
+    push(name, value)
+  }
+
+  const control = ({ name, label, symbol, unit, about }) => {
+    const id = `control-${name}`
+    const slider = element("input", {
+      type: "range", id, "aria-describedby": `${id}-refusal ${id}-about`,
+    })
+    const number = element("input", {
+      type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
+      class: "number", "aria-label": `${label}${unit ? ` in ${unit}` : ""}, type a number`,
+    })
+    const refusal = element("p", { class: "refusal", role: "alert", id: `${id}-refusal` })
+    const extra = element("span", { class: "extra" })
+    const symbolic = element("i", { class: "symbol", html: symbol })
+    const head = element("div", { class: "head" },
+      element("label", { for: id, title: about }, label, " ", symbolic), extra,
+      element("span", { class: "entry" }, number, element("span", { class: "unit" }, unit)))
+    const line = element("div", { class: "line" }, slider)
+    const words = element("span", { id: `${id}-about`, hidden: "" }, about)
+    const root = element("div", { class: `control control-${name}`, "data-name": name },
+      head, line, refusal, words)
+    refusal.hidden = true
+    rows[name] = { root, slider, number, refusal, extra, unit, line, about, label, symbol }
+
+    slider.addEventListener("input", () => move(name, Number(slider.value)))
+    number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
+    number.addEventListener("focus", () => number.select())
+    number.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") {
+        refuse(name, "")
+        number.value = format(values[name], limits[name].step)
+      } else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
+        event.preventDefault()
+        const { least, most, step } = limits[name]
+        const moved = (values[name] ?? least) + (event.key === "ArrowUp" ? step : -step)
+        move(name, Number(Math.min(most, Math.max(least, moved)).toPrecision(12)))
+      }
+    })
+    root.addEventListener("focusin", () => touched(name))
+    root.addEventListener("pointerenter", () => touched(name))
+    return root
+  }
+
+  // A choice out of a list, with its note behind a question mark.
+  const choice = (name, ...extra) => {
+    const { label, options } = model.spec.choices[name]
+    const select = element("select", { id: `choice-${name}` })
+    const note = element("p", { class: "note" })
+    for (const option of options)
+      select.append(element("option", { value: option.value, title: option.about }, option.label))
+    select.addEventListener("change", () => send({ choose: { [name]: select.value } }))
+    const more = element("button", {
+      type: "button", class: "info", "aria-expanded": "false", "aria-controls": `note-${name}`,
+      "aria-label": `About this ${label.toLowerCase()}`, title: "About this choice",
+    }, "?")
+    note.id = `note-${name}`
+    note.hidden = true
+    more.addEventListener("click", () => {
+      note.hidden = !note.hidden
+      more.setAttribute("aria-expanded", String(!note.hidden))
+    })
+    const refusal = element("p", { class: "refusal", role: "alert", hidden: "" })
+    const title = element("label", { for: `choice-${name}` }, label)
+    const root = element("div", { class: `choice choice-${name}` }, ...(model.spec.choices[name].group
+      ? [element("div", { class: "head" }, title, select, more)]
+      : [element("div", { class: "head" }, title, ...extra, more), select]), refusal, note)
+    selects[name] = { refusal, root, select, show: (value) => {
+      select.value = value
+      note.textContent = options.find((option) => option.value === value)?.about ?? ""
+    } }
+    return root
+  }
+
+  // Values and choices that this panel does not show are other panels' business.
+  const take = (state) => {
+    for (const [name, limit] of Object.entries(state.limits ?? {})) {
+      if (!rows[name]) continue
+      limits[name] = limit
+      Object.assign(rows[name].slider, { min: limit.least, max: limit.most, step: limit.step })
+      if (values[name] !== undefined) put(name, values[name])
+    }
+    for (const [name, value] of Object.entries(state.values ?? {})) {
+      if (!rows[name] || !limits[name]) continue
+      refuse(name, "")
+      put(name, value)
+      rows[name].number.value = format(value, limits[name].step)
+    }
+    for (const [name, value] of Object.entries(state.choices ?? {})) {
+      if (!selects[name]) continue
+      refuse(name, "")
+      selects[name].show(value)
+    }
+    if (state.hidden)
+      for (const [name, { root }] of [...Object.entries(rows), ...Object.entries(selects)])
+        root.hidden = state.hidden.includes(name)
+  }
+
+  const listen = (takes = take) => model.on("msg:custom", (message) => {
+    if (message.state) takes(message.state)
+    for (const [name, sentence] of Object.entries(message.refused ?? {})) refuse(name, sentence)
+  })
+
+  return { rows, selects, values, limits, control, choice, take, listen, send, push, put,
+           drawn: () => asked() <= drawn() || late() }
+}

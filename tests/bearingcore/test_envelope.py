@@ -1,0 +1,67 @@
+"""The envelope spectrum finds how often something rings, not what rings."""
+
+import numpy as np
+import pytest
+
+from bearingcore import envelope_spectrum, spectrum
+
+RATE = 20_000.0
+TIME = np.arange(40_000) / RATE
+
+
+def knocks(frequency: float, rings_at: float) -> np.ndarray:
+    since = TIME % (1.0 / frequency)
+    return np.exp(-since / 2e-3) * np.sin(2.0 * np.pi * rings_at * since)
+
+
+def strongest(spec, lowest=5.0) -> float:
+    frequency, density = spec
+    inside = frequency > lowest
+    return float(frequency[inside][density[inside].argmax()])
+
+
+def test_modulation_of_a_carrier_has_the_line_that_theory_gives():
+    """Envelope 1 + m cos: power m²/2 at the modulation's frequency, nothing elsewhere."""
+    signal = (1.0 + 0.3 * np.cos(2.0 * np.pi * 40.0 * TIME)) * np.cos(2.0 * np.pi * 3000.0 * TIME)
+    frequency, density = envelope_spectrum(signal, RATE, (2500.0, 3500.0))
+    step = frequency[1]
+    near = np.abs(frequency - 40.0) < 3.0
+    assert density[near].sum() * step == pytest.approx(0.3**2 / 2.0, rel=0.02)
+    assert density[~near].sum() * step < 0.01 * 0.3**2 / 2.0
+
+
+@pytest.mark.parametrize("rings_at", [2000.0, 4321.0])
+def test_knocks_show_at_their_rate_whatever_rings(rings_at):
+    noise = np.random.default_rng(3).standard_normal(TIME.size)
+    signal = knocks(40.3, rings_at) + 0.3 * noise + 2.0 * np.sin(2.0 * np.pi * 50.0 * TIME)
+    assert strongest(spectrum(signal, RATE, 1.0)) == pytest.approx(50.0, abs=1.0)
+    found = envelope_spectrum(signal, RATE, (rings_at - 800.0, rings_at + 800.0))
+    assert strongest(found) == pytest.approx(40.3, abs=0.6)
+
+
+def test_several_signals_side_by_side_and_odd_lengths():
+    both = np.column_stack([knocks(40.0, 3000.0), knocks(55.0, 3000.0)])[:39_989]  # a prime
+    frequency, density = envelope_spectrum(both, RATE, (2000.0, 4000.0), resolution=1.0)
+    assert density.shape == (frequency.size, 2)
+    assert strongest((frequency, density[:, 0])) == pytest.approx(40.0, abs=1.0)
+    assert strongest((frequency, density[:, 1])) == pytest.approx(55.0, abs=1.0)
+    alone = envelope_spectrum(both[:, 1], RATE, (2000.0, 4000.0), resolution=1.0)
+    np.testing.assert_allclose(alone.density, density[:, 1], rtol=1e-6, atol=1e-18)
+
+
+@pytest.mark.parametrize(
+    ("signal", "rate", "band", "told"),
+    [
+        (np.zeros(1000), RATE, (3000.0, 2000.0), "upper end of the band is 2000"),
+        (np.zeros(1000), RATE, (0.0, 2000.0), "lower end of the band is 0"),
+        (np.zeros(1000), RATE, (100.0, 10_000.0), "below 10000"),
+        (np.zeros(1000), RATE, 100.0, "band is 100"),
+        (np.zeros(1000), -1.0, (100.0, 200.0), "sample_rate is -1"),
+        (np.zeros(10), RATE, (100.0, 200.0), "at least 64 samples"),
+        (np.full(1000, np.nan), RATE, (100.0, 200.0), "finite"),
+        (np.zeros((10, 10, 10)), RATE, (100.0, 200.0), "shape"),
+    ],
+)
+def test_bad_input_is_refused_with_a_sentence(signal, rate, band, told):
+    with pytest.raises(ValueError, match=told):
+        envelope_spectrum(signal, rate, band)

@@ -143,8 +143,8 @@ def race_contact(
         )
     from scipy.special import ellipe, ellipkm1  # imported late, as scipy.special is slow to import
 
-    # 1 − F without the cancellation that a tight groove would bring
-    rest = (4.0 / ball_diameter - 2.0 * groove) / total
+    # 1 − F = (4/D_b − 2/r)/Σρ without the cancellation that a tight groove would bring
+    rest = 2.0 * (2.0 * groove_radius - ball_diameter) / (ball_diameter * groove_radius * total)
     chi = _ellipse_ratio(rest)
     m1 = 1.0 / chi**2
     return RaceContact(

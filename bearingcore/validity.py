@@ -49,9 +49,9 @@ CENTRIFUGAL_SHARE = {"most": 0.1, "least": 1.0}
 """Centrifugal force over contact load up to which it may be left out. On the most loaded ball a
 tenth already shifts loads and angles; the least loaded one it may lift off the inner race."""
 
-GREATEST_COMPRESSION = 0.125
-"""Compression over distance of the groove centres. As a/r_b ≈ √(2 δ/A0), the contact reaches half
-a ball radius to either side there."""
+GREATEST_COMPRESSION = 0.2
+"""Compression over distance of the groove centres. The contact's half width is 1.24 r_b √(δ/A0)
+within 4 % for all usual grooves, here 0.55 ball radii: 34° to either side."""
 
 STIFFNESS_MISMATCH = 0.01
 """Part by which the load-deflection factor may differ from what the drawing gives."""
@@ -150,7 +150,7 @@ def limits(
 
 def _known(state: Equilibrium) -> NDArray[np.bool_]:
     """Cage angles at which the balls' loads are known, also where the ring is free to move."""
-    return np.isfinite(state.ball_load).all(axis=1)
+    return np.isfinite(state.ball_load.sum(axis=1))
 
 
 def _unknown(name: str, limit: float, unit: str, why: str) -> Limit:
@@ -282,10 +282,10 @@ def _compression(scene: Scene, load: float) -> Limit:
         f"The most loaded ball is compressed by {compression * 1e6:.3g} µm, {_percent(share)} "
         f"of the {bearing.groove_center_distance * 1e6:.4g} µm between the groove centres"
         + (
-            f": above {100.0 * GREATEST_COMPRESSION:.1f} % grooves so close around the ball touch "
+            f": above {100.0 * GREATEST_COMPRESSION:.0f} % grooves so close around the ball touch "
             "it far up their sides, and Hertz's small contact no longer holds."
             if crossed
-            else f"; up to {100.0 * GREATEST_COMPRESSION:.1f} % the contact is small beside the "
+            else f"; up to {100.0 * GREATEST_COMPRESSION:.0f} % the contact is small beside the "
             "ball, as Hertz asks."
         )
     )

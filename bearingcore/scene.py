@@ -201,6 +201,25 @@ class Scene:
         """The same scene without its defects."""
         return dataclasses.replace(self, defect=Defect.none())
 
+    def to_toml(self) -> str:
+        """The scene as text that `from_toml` reads; SI units and radians."""
+        from bearingcore.scene_file import to_toml  # that module needs this one
+
+        return to_toml(self)
+
+    @classmethod
+    def from_toml(cls, text: str) -> Scene:
+        """The scene of a TOML text.
+
+        Raises
+        ------
+        ValueError
+            that names the table and field, what stands there and what is allowed.
+        """
+        from bearingcore.scene_file import from_toml
+
+        return from_toml(text)
+
     def replace(self, **changes: Any) -> Self:
         """A scene with fields changed, its own or those of its parts, by name.
 

@@ -5,13 +5,12 @@ from bearingcore.defect import EDGES, RACES, Defect
 from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.maps import Maps, stiffness_maps
-from bearingcore.maps import Maps, stiffness_maps
 from bearingcore.modes import Modes, contact_damping, modes
 from bearingcore.motion import Motion, simulate
 from bearingcore.orbit import Orbit, orbit
 from bearingcore.presets import preset_notes, presets
 from bearingcore.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
-from bearingcore.spectrum import Spectrum, spectrum
+from bearingcore.spectrum import Spectrum, envelope_spectrum, spectrum
 from bearingcore.validity import Limit, limits
 from bearingcore.warm_up import warm
 
@@ -27,7 +26,6 @@ __all__ = [
     "Limit",
     "Load",
     "Maps",
-    "Maps",
     "MeasuredFloor",
     "Modes",
     "Motion",
@@ -37,6 +35,7 @@ __all__ = [
     "Spectrum",
     "Support",
     "contact_damping",
+    "envelope_spectrum",
     "equilibrium",
     "limits",
     "modes",
@@ -46,7 +45,6 @@ __all__ = [
     "read_floor",
     "simulate",
     "spectrum",
-    "stiffness_maps",
     "stiffness_maps",
     "warm",
 ]

@@ -119,9 +119,7 @@ def _version_4(content: bytes) -> Iterator[tuple[str, NDArray[np.float64]]]:
         place += whole
 
 
-def _shaped(
-    data: bytes, number: str | None, order: str, size: list[int]
-) -> NDArray[np.float64]:
+def _shaped(data: bytes, number: str | None, order: str, size: list[int]) -> NDArray[np.float64]:
     """Numbers as a matrix, laid out column after column in the file."""
     if number is None or len(data) != size[0] * size[1] * int(number[1]) or min(size) < 0:
         raise ValueError("a matrix whose numbers do not fill it")

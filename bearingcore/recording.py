@@ -255,7 +255,8 @@ def read_table(name: str, content: bytes) -> Table:
         )
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _read_wav(name, content)
-    if content[126:128] in (b"IM", b"MI") or content[:6] == b"MATLAB" or name.lower().endswith(".mat"):
+    marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
+    if marked or name.lower().endswith(".mat"):
         return _read_matlab(name, content)
     return _read_text(name, content)
 
@@ -300,20 +301,15 @@ def _read_text(name: str, content: bytes) -> Table:
     filled = [index for index, line in enumerate(lines) if line]
     if not filled:
         raise checks.refuse("file", name, "one that holds lines of numbers")
-    headings: list[str] = []
-    for place, index in enumerate(filled):
-        style = _style(lines[index])
-        if style is not None:
-            break
-        headings.append(lines[index])
-        if len(headings) > MOST_HEADINGS:
-            style = None
-            break
+    styles = (_style(lines[index]) for index in filled[: MOST_HEADINGS + 1])
+    first, style = next(
+        ((place, style) for place, style in enumerate(styles) if style is not None), (0, None)
+    )
     if style is None:
         raise checks.refuse(
             f"start of {name}", lines[filled[0]][:40], "a table of numbers, headings above it"
         )
-    body = filled[place:]
+    body = filled[first:]
     width = len(_cells(lines[body[0]], style))
     if width * len(body) > MOST_NUMBERS:
         raise checks.refuse(
@@ -321,8 +317,9 @@ def _read_text(name: str, content: bytes) -> Table:
         )
     columns = _numbers(name, lines, body, style, width)
     names = [f"column {i + 1}" for i in range(width)]
-    if headings:
-        told = [cell.strip().strip('"') for cell in _cells(headings[-1], style, width)]
+    if first:
+        headings = lines[filled[first - 1]]
+        told = [cell.strip().strip('"') for cell in _cells(headings, style, width)]
         if len(told) == width and all(told) and len(set(told)) == width:
             names = told
     return _table(name, names, columns)

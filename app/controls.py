@@ -20,6 +20,12 @@ from bearingcore import preset_notes, presets
 _PRESET_LABELS = {
     "liew-lim": "Angular contact bearing (Liew–Lim)",
     "fan-rig": "Fan rig, deep groove bearing",
+    "6205": "6205, deep groove bearing",
+    "6206": "6206, deep groove bearing",
+    "7208-15deg": "7208, angular contact, 15°",
+    "7208-25deg": "7208, angular contact, 25°",
+    "7208-40deg": "7208, angular contact, 40°",
+    "seven-ball": "Seven balls, commercial code",
 }
 
 #: name: (label, group, whether it stands before the sliders, {value: (label, sentence)})
@@ -29,9 +35,9 @@ _CHOICES: dict[str, tuple[str, str, bool, dict[str, tuple[str, str]]]] = {
         "Defect",
         True,
         {
-            "outer": ("Outer, stands still", "The outer ring stands still, and its defect too."),
+            "outer": ("Outer", "The outer ring stands still, and its defect too."),
             "inner": (
-                "Inner, turns with the shaft",
+                "Inner, turns",
                 "The inner ring turns with the shaft. Curves are then drawn over a turn of the "
                 "shaft, as the defect meets the balls in other places with each turn of the cage.",
             ),

@@ -21,6 +21,7 @@ from app.results import Results
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from app.views.base import Ranges, Sources, View
 from app.views.control_view import ControlView
+from app.views.limits import LimitsStrip, rows_of
 from app.views.status import StatusLine, Tabs, status_of
 from app.wire import Wire
 from bearingcore import Scene
@@ -72,6 +73,7 @@ class Picture:
 
     drawings: list[Drawing]
     status: dict[str, Any]
+    limits: list[dict[str, Any]]
 
 
 class Explorer:
@@ -94,6 +96,7 @@ class Explorer:
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
         self._shown = next(iter(self._sections))
         self.tabs = Tabs(
             self._tab_asked,
@@ -265,6 +268,7 @@ class Explorer:
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
             self.status.line = picture.status
+            self.limits.rows = picture.limits
 
         await one_message(self._doc, change)
 
@@ -282,7 +286,8 @@ class Explorer:
 def _picture(results: Results, views: Sequence[View], started: float) -> Picture:
     """Compute what the views need and have them say it. Runs in a worker thread."""
     drawings = [_drawing(results, view) for view in views]
-    return Picture(drawings, status_of(results, time.perf_counter() - started))
+    status = status_of(results, time.perf_counter() - started)
+    return Picture(drawings, status, rows_of(results.limits))
 
 
 def _drawing(results: Results, view: View) -> Drawing:

@@ -13,7 +13,10 @@ from app.explorer import Explorer, Section
 from app.views.bearing import BearingDrawing
 from app.views.bearing_editor import BearingEditor
 from app.views.depth_profile import DepthProfile
+from app.views.dof_comparison import DofDifferences
 from app.views.load_distribution import LoadDistribution
+from app.views.maps import StiffnessMaps
+from app.views.model_editor import ModelEditor
 from app.views.modes import NaturalFrequencies
 from app.views.stiffness import Stiffness
 from app.views.vibration_spectrum import VibrationSpectra
@@ -24,9 +27,11 @@ log = logging.getLogger(__name__)
 SECTIONS = (
     Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
     Section("stiffness", "Stiffness", (Stiffness,)),
+    Section("maps", "Maps", (StiffnessMaps,)),
     Section("modes", "Natural frequencies", (NaturalFrequencies,)),
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("bearing", "Bearing", (BearingEditor,)),
+    Section("model", "Model", (ModelEditor, DofDifferences)),
 )
 """The tabs. What is not on the tab that is open is neither computed nor sent."""
 
@@ -47,6 +52,7 @@ def page() -> pn.Template:
     template.add_panel("controls", explorer.controls)
     template.add_panel("main", explorer.main)
     template.add_panel("status", explorer.status)
+    template.add_panel("limits", explorer.limits)
     template.add_panel("wire", pn.pane.Bokeh(explorer.wire.anchor, margin=0))
     pn.state.onload(explorer.start)
     pn.state.on_session_destroyed(lambda _: explorer.stop())

@@ -342,29 +342,31 @@ _DRAWING = (
 )
 
 
-def _along(what: str, letter: str, sentence: str, radial: tuple[str, float], tilt: str) -> list:
+def _along(
+    what: str, letter: str, sentence: str, radial: tuple[str, float], tilt: str
+) -> list[Quantity]:
     """The five quantities of the support of one kind, along x, y, z and about x, y."""
     unit, unit_si = radial
     group = f"Support, {what}"
     made = []
     for dof, shown, words in (
-        ("x", "x", "sideways"),
-        ("y", "y", "up and down"),
+        ("x", "x", "along x"),
+        ("y", "y", "along y"),
         ("z", "z", "along the shaft"),
-        ("rx", "θx", "against tilt about x"),
-        ("ry", "θy", "against tilt about y"),
+        ("rx", "θx", "about x"),
+        ("ry", "θy", "about y"),
     ):
         tilts = dof.startswith("r")
         made.append(
             Quantity(
                 f"{what}_{dof}",
                 f"{what}_{dof}",
-                f"{what.capitalize()}, {words}",
+                f"{what.capitalize()} {words}",
                 _sub(letter, shown),
                 tilt if tilts else unit,
                 1.0 if tilts else unit_si,
                 group,
-                sentence,
+                sentence + (" Against tilt." if tilts else ""),
                 optional=dof not in ("x", "y"),
             )
         )
@@ -433,7 +435,7 @@ _CONTACT_DAMPING = (
 
 SCENE_GROUPS = ("Defect", "Turning", "Load")
 BEARING_GROUPS = ("Balls", "Drawing", "Contact", "Races")
-MODEL_GROUPS = ("Bodies", "Support, stiffness", "Support, damping", "Contact of a moving ball")
+MODEL_GROUPS = ("Bodies", "Contact of a moving ball", "Support, stiffness", "Support, damping")
 
 QUANTITY_LIST: tuple[Quantity, ...] = (
     *_DEFECT,

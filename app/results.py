@@ -21,14 +21,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import bearingcore as core
+from app.dof_comparison import (
+    DofComparison,
+    other_dofs,
+    spectrum_differences,
+    static_differences,
+)
 from app.excerpt import Excerpt, excerpt
 from app.profile import Profile, profile
+from app.quantities import defects_of
 from bearingcore.defect import RACES
 from bearingcore.equilibrium import default_cage_angles
+from bearingcore.modes import highest_natural_frequency
+from bearingcore.motion import default_step_rate
 from bearingcore.passes import ball_drop
 
 if TYPE_CHECKING:
-    from bearingcore import Defect, Equilibrium, Maps, Modes, Motion, Scene, Spectrum
+    from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Scene, Spectrum
 
 Answer = TypeVar("Answer")
 
@@ -70,7 +79,8 @@ class ComputedOnce(Generic[Answer]):
 class Settings:
     """How finely a session wants its results.
 
-    `n_cage_angles` to a ball spacing and across maps, `n_extents` of maps; `duration` [s] and `sample_rate` [Hz] of motions.
+    `n_cage_angles` to a ball spacing and across maps, `n_extents` of maps; `duration` [s] and
+    `sample_rate` [Hz] of motions.
     """
 
     n_cage_angles: int = 121
@@ -103,6 +113,13 @@ def _excerpt(scene: Scene, duration: float, sample_rate: float) -> Excerpt:
     return excerpt(scene, motions(scene, duration, sample_rate))
 
 
+def _step_rate(scene: Scene, sample_rate: float) -> float | None:
+    highest = highest_natural_frequency(scene)
+    if scene.shaft_speed == 0.0 or not math.isfinite(highest):
+        return None
+    return default_step_rate(scene, sample_rate, highest)
+
+
 def _spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spectrum]:
     motion = motions(scene, duration, sample_rate)
     return {
@@ -116,6 +133,7 @@ single_equilibria = ComputedOnce(_at, 2048)
 modes = ComputedOnce(_modes, 256)
 maps = ComputedOnce(_maps, 16)  # about 2 MB each
 motions = ComputedOnce(_motion, 8)  # about 20 MB each
+step_rates = ComputedOnce(_step_rate, 512)
 excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
 
@@ -136,10 +154,15 @@ class Results:
     motion, sound_motion: simulated motion
     excerpt: the last ball passes of the motion
     spectra, sound_spectra: {dof: Spectrum} of the housing's acceleration
+    contact_damping: of a loaded contact [N·s/m], given or from the stiffness
+    limits: what the model leaves out, each with its number and its limit
+    dof_comparison: what other free directions would change
     """
 
     #: attributes that take long enough to be drawn after the others
-    slow = frozenset({"motion", "sound_motion", "excerpt", "spectra", "sound_spectra"})
+    slow = frozenset(
+        {"motion", "sound_motion", "excerpt", "spectra", "sound_spectra", "dof_comparison"}
+    )
 
     def __init__(
         self,
@@ -215,12 +238,7 @@ class Results:
     @property
     def extent(self) -> float:
         """Extent [rad] of the defect that is looked at."""
-        return self._defects[self.focus].extent
-
-    @property
-    def _defects(self) -> tuple[Defect, ...]:
-        defect = self.scene.defect
-        return (defect,) if isinstance(defect, core.Defect) else defect
+        return defects_of(self.scene)[self.focus].extent
 
     @cached_property
     def maps(self) -> Maps:
@@ -229,10 +247,10 @@ class Results:
         The same maps for every extent that they hold: moving along them computes nothing.
         """
         first, last, _ = self.stretch
-        others = list(self._defects)
+        others = list(defects_of(self.scene))
         looked_at = dataclasses.replace(others.pop(self.focus), extent=0.0)
         scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
-        reach = next(reach for reach in MAP_REACHES if self.extent <= reach)
+        reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
         size = self.settings.n_extents, first, last, self.settings.n_cage_angles
         return maps(scene, reach, *size)
 
@@ -271,3 +289,31 @@ class Results:
     def sound_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect."""
         return spectra(self.scene.sound(), self.settings.duration, self.settings.sample_rate)
+
+    @cached_property
+    def contact_damping(self) -> float:
+        """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
+        return core.contact_damping(self.scene)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """What the model leaves out of the scene, also of a simulated motion where it moves."""
+        try:
+            step_rate = step_rates(self.scene, self.settings.sample_rate)
+        except ValueError:
+            step_rate = None  # no motion, no steps
+        return core.limits(self.scene, self.equilibrium, step_rate=step_rate)
+
+    @cached_property
+    def dof_comparison(self) -> DofComparison:
+        """The scene with its free directions against those it needs, or against all five."""
+        chosen, other = self.scene.active_dofs, other_dofs(self.scene)
+        if chosen == other:
+            return DofComparison(chosen, other, {}, {})
+        against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
+        static = static_differences(self.equilibrium, against.equilibrium)
+        try:
+            moving = spectrum_differences(self.spectra, against.spectra)
+        except ValueError as error:
+            return DofComparison(chosen, other, static, {}, str(error))
+        return DofComparison(chosen, other, static, moving)

@@ -51,7 +51,7 @@ NUMBERS = ("direct", "drawing")
 LARGEST_FILE = 1_000_000
 """Characters of a file with a measured floor."""
 
-_FIRST_DEFECT = {"extent": math.radians(10.0), "depth": 50e-6}
+_FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _NO_FILE = "No file yet: the floor is flat."
 _OF_FLOOR = [quantity for quantity in QUANTITY_LIST if quantity.of == "floor"]
 _DRAWN_ONLY = (*GROOVES, "youngs_modulus_gpa", "poisson")
@@ -266,12 +266,9 @@ class SceneEditor:
         if len(self.defects) >= MOST_DEFECTS:
             raise ValueError(f"defects are {MOST_DEFECTS} already; allowed: at most {MOST_DEFECTS}")
         last = self.defects[-1]
-        new = dataclasses.replace(
-            last,
-            center=_freest(self.defects),
-            floor=None,
-            **{} if not last.is_none else _FIRST_DEFECT,
-        )
+        extent, depth = _FIRST_DEFECT if last.is_none else (last.extent, last.depth)
+        center = _freest(self.defects)
+        new = dataclasses.replace(last, center=center, floor=None, extent=extent, depth=depth)
         gap = _room(self.defects, new.center)
         new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
         if new.is_none:
@@ -297,7 +294,7 @@ class SceneEditor:
         if how == "drawing" and not bearing.is_drawn:
             self._take(self.scene.replace(bearing=drawn(bearing)))
         elif how == "direct" and bearing.is_drawn:
-            fields = dict.fromkeys(OPTIONAL_FIELDS)
+            fields: dict[str, Any] = dict.fromkeys(OPTIONAL_FIELDS)
             self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
 
     # A floor from a file

@@ -43,6 +43,9 @@ TOUCH_FOUND, TOUCH_SEEN = 1e-11, 1e-9
 """A gap below the first part of the load's compression counts as the touch itself when one is
 looked for, and below the second as no sign of another."""
 
+OFF_MIDDLE = 0.4
+"""Where other intervals are divided. In the very middle an S-shaped curve crosses its own line."""
+
 LEAST_SWING = 0.01
 """Errors are taken over a curve's swing, but not over less than this part of its size."""
 
@@ -57,6 +60,9 @@ class CageAngles:
         rising, over one period of the scene's curves.
     kinks, touches : (k,) [rad]
         those of them at which a ball meets an edge or floor, and at which one touches or lets go.
+    jumps : (k,) [rad]
+        where a curve jumps, between two nodes too near to each other to be told apart. Stiffness
+        does as a loaded ball's groove centres pass each other, and where an answer begins or ends.
     predicted_error
         greatest error of a straight line between nodes, over the curve's swing (see LEAST_SWING).
     solved
@@ -68,6 +74,7 @@ class CageAngles:
     angles: Array
     kinks: Array
     touches: Array
+    jumps: Array
     predicted_error: float
     solved: int
     met: bool
@@ -134,6 +141,7 @@ class _Nodes:
     def __init__(self, scene: Scene, curves: str, dofs: tuple[str, ...], angles: Array) -> None:
         self.scene, self.curves, self.dofs = scene, curves, dofs
         self.solved = 0
+        self.jumps: list[Array] = []
         self.angles, self.values, self.gaps = self.solve(angles)
         self.touch = np.zeros(angles.size, dtype=bool)
         load = float(np.linalg.norm(scene.load.vector[:3])) or 1.0
@@ -214,8 +222,8 @@ class _Nodes:
             at = np.flatnonzero(fresh)
             a, b = self.angles[at], self.angles[at + 1]
             root_a, root_b = self.touch[at], self.touch[at + 1]
-            part = np.where(root_a & ~root_b, ROOT_SPLIT, np.where(root_b & ~root_a, 1 - ROOT_SPLIT,
-                                                                   0.5))  # fmt: skip
+            part = np.where(root_a & ~root_b, ROOT_SPLIT, OFF_MIDDLE)
+            part[root_b & ~root_a] = 1.0 - ROOT_SPLIT
             middle = a + part * (b - a)
             angles, values, gaps = self.solve(middle)
             line = self.values[at] + part[:, None] * (self.values[at + 1] - self.values[at])
@@ -226,9 +234,11 @@ class _Nodes:
                 np.stack([self.values[at, 0], values[:, 0], self.values[at + 1, 0]])
             )
             border = known.any(axis=0) & ~known.all(axis=0)
-            divide = (error > budget) & (b - a > least)
+            wide = b - a > least
+            divide = (error > budget) & wide
             divide |= border & (b - a > 1e4 * least)
-            done = error[~divide]
+            self.jumps.append(middle[(error > budget) & ~wide])
+            done = error[~divide & wide]
             left_over = max(left_over, float(done.max(initial=0.0)))
             # the new nodes' intervals, in the order of all nodes
             marks = np.zeros(self.angles.size + angles.size, dtype=bool)
@@ -282,18 +292,23 @@ def place(
     error = math.inf
     nodes.find_touches()
     for _ in range(4):
-        error = nodes.bend(budget, LEAST_INTERVAL * spacing)
+        nodes.jumps.clear()
+        error = nodes.bend(AIM * budget, LEAST_INTERVAL * spacing)
         if not nodes.find_touches():
             break
     return CageAngles(
         nodes.angles,
         kinks,
         nodes.angles[nodes.touch],
+        np.sort(np.concatenate([*nodes.jumps, np.zeros(0)])),
         AFTER_SPLIT * error,
         nodes.solved,
-        error <= budget,
+        error <= AIM * budget,
     )
 
+
+AIM = 0.5
+"""Part of the budget that an interval's one test point may use up: it can miss the worst place."""
 
 AFTER_SPLIT = 0.6
 """What dividing an interval leaves of the error found in it: a quarter for a smooth curve, 0.6 for

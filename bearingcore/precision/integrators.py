@@ -186,7 +186,7 @@ def _of_scipy(name: str) -> Marcher:
         time = np.arange(n + 1) / sample_rate
         limited = _Limited(problem, MOST_SCIPY_CALLS)
         try:
-            answer = solve_ivp(
+            answer = solve_ivp(  # type: ignore[call-overload]
                 limited.rate,
                 (0.0, time[-1]),
                 problem.start,

@@ -36,8 +36,8 @@ FEW = {
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 
 LEFT_OUT = (
-    "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods with "
-    "the right-hand side in NumPy, five times slower with the same errors; exponential and "
+    "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods "
+    "with the right-hand side in NumPy, five times slower with the same errors; exponential and "
     "multirate methods, as no part of the motion is slow while another is fast"
 )
 

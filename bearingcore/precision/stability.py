@@ -159,10 +159,10 @@ def amplification(method: str, K: Array, C: Array, h: float) -> Array:
     k, c = h * h * K, h * C
     if method in ("RK4", "RK4 in velocities"):
         z = np.block([[zero, one], [-k, -c]])
-        step: Array = np.eye(2 * m) + z @ (
+        step = np.eye(2 * m) + z @ (
             np.eye(2 * m) + z @ (np.eye(2 * m) / 2 + z @ (np.eye(2 * m) / 6 + z / 24))
         )
-        return step
+        return np.asarray(step)
     if method == "Verlet":
         x = np.hstack([one, one, 0.5 * one])
         foretold = np.hstack([zero, one, one])
@@ -240,7 +240,8 @@ def stability_chart(
     limits = linear_limits(scene)
     # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π
     rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
-    tasks = [(name, float(rate)) for name in FIXED_STEP for rate in rates]
+    fitting = sorted({_fitting_rate(float(rate), sample_rate) for rate in rates})
+    tasks = [(name, rate) for name in FIXED_STEP for rate in fitting]
     trials = [
         _trial(reference, name, rate)
         for name, rate in in_turn(
@@ -252,11 +253,14 @@ def stability_chart(
     )
 
 
-def _trial(reference: MotionReference, name: str, rate: float) -> Trial:
-    """Rates are moved to the nearest that fits the samples, so that errors can be taken."""
-    sample_rate = reference.sample_rate
+def _fitting_rate(rate: float, sample_rate: float) -> float:
+    """The nearest step rate [Hz] that fits the samples, so that errors can be taken."""
     ratio = sample_rate / rate
-    step_rate = sample_rate / round(ratio) if ratio >= 1.0 else sample_rate * round(1.0 / ratio)
+    return sample_rate / round(ratio) if ratio >= 1.0 else sample_rate * round(1.0 / ratio)
+
+
+def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
+    sample_rate = reference.sample_rate
     with np.errstate(all="ignore"):
         march = METHODS[name].march(reference.problem, step_rate, reference.duration, sample_rate)
         signal = march.history[:, 5]
@@ -268,10 +272,9 @@ def _trial(reference: MotionReference, name: str, rate: float) -> Trial:
         errors = reference.errors(history)
         amplitude = math.sqrt(float(np.mean(history[:, 5] ** 2)) / float(np.mean(good**2)))
     decibel = errors["spectrum"]
+    verdict = LOST if amplitude < LOST_PART else WRONG
     if decibel <= RIGHT_DB:
         verdict = RIGHT
-    else:
-        verdict = LOST if amplitude < LOST_PART else WRONG
     return Trial(name, step_rate, verdict, decibel, amplitude)
 
 

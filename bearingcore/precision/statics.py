@@ -272,7 +272,9 @@ def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool)
             )
             u, solved[k] = fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8)
         else:
-            answer = root(unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance)
+            answer = root(  # type: ignore[call-overload]
+                unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
+            )
             u, solved[k] = answer.x, answer.success
         q[k, active] = u * length
     return Found(q, solved, evaluations)
@@ -336,7 +338,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     other = _by_scipy(problem, 1e-12, "hybr", warm=False)
     at = contacts(problem, exact.q)
     residual = np.sqrt((((at.force - problem.force)[:, problem.active]) ** 2).sum(axis=1))
-    active = np.ix_(range(len(exact.q)), problem.active, problem.active)
+    active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
     least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
     greatest = np.abs(at.stiffness.astype(float)[active]).max(axis=(1, 2))
     with np.errstate(invalid="ignore"):
@@ -416,7 +418,7 @@ def statics_experiment(
         points.append(_measured(problem, reference, name, tolerance))
     return Experiment(
         "statics",
-        f"Static equilibrium in {', '.join(scene.active_dofs)} at {len(problem.angles)} cage angles",
+        f"Static equilibrium in {', '.join(scene.active_dofs)}, {len(problem.angles)} cage angles",
         STATIC_ERRORS,
         "evaluations of all contacts at one cage angle",
         {"": reference.reference},

@@ -1,0 +1,576 @@
+"""The cheapest settings that keep a scene's picture inside an error budget.
+
+Model no more than a scene needs: only directions that can move, cage angles at events and where a
+curve bends, the longest step that will do, and instead of a transient the periodic orbit where it
+is proven stable. A plan says what was chosen, the error to expect and what it costs.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import checks
+from bearingcore.adaptive import simulate_adaptive, simulate_in_velocities
+from bearingcore.cage_angles import CURVES, curves_of, place, swings
+from bearingcore.equilibrium import Equilibrium, equilibrium
+from bearingcore.modes import contact_damping, highest_natural_frequency, modes
+from bearingcore.motion import Motion, default_step_rate, is_flat, simulate
+from bearingcore.orbit import Orbit, orbit
+from bearingcore.scene import DOF_NAMES, Scene, check_dofs
+from bearingcore.spectrum import spectrum
+
+Array = NDArray[np.float64]
+
+VIBRATION, SETTLED = "vibration", "settled vibration"
+VIEWS = (*CURVES, VIBRATION, SETTLED)
+"""What a plan can be for: curves over the cage angle (ball loads, stiffness, natural frequencies),
+the housing's motion from rest with its spectrum, and the spectrum it settles to."""
+
+BUDGETS = {"load": 5e-3, "stiffness": 5e-3, "modes": 5e-3, VIBRATION: 0.05, SETTLED: 0.05}
+"""Error budgets that nobody sees on a screen: for curves the greatest error over the swing (see
+`cage_angles`), for vibration the greatest error of the spectrum [dB]."""
+
+FULL_ANGLES, FULL_RATE = 361, 65536.0
+"""What a plan is compared with: all five directions, a degree apart, 65,536 steps a second."""
+
+PILOT = 0.125
+"""[s] of motion that are marched to see what a step costs in accuracy."""
+
+SAFETY = 2.5
+"""Predicted errors of motions: the pilot's times this, as it is shorter than what it speaks for."""
+
+BAND = 1.25
+"""Spectra count up to this times the highest natural frequency."""
+
+COUNTS = 1e-4
+"""Frequencies at which a direction is below this part of its greatest density do not count."""
+
+
+@dataclass(frozen=True)
+class Offer:
+    """Fewer directions than a scene needs, with the error that they bring; never taken unasked."""
+
+    dofs: tuple[str, ...]
+    error: float
+    """measured, in the unit of the budget"""
+    seconds: float
+    """predicted cost [s]"""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How to compute one view of one scene.
+
+    Attributes
+    ----------
+    scene
+        with its directions as planned.
+    view, error_budget
+        what for, and how well: see VIEWS and BUDGETS.
+    dofs
+        directions that move.
+    cage_angles : (n,) [rad] or None
+        for curves.
+    step_rate, tolerance
+        for motions: steps a second [Hz] where they are fixed, or the tolerance of steps that
+        choose themselves; the other one is NaN.
+    duration, drop
+        of motions: how long [s], and how much of it at the beginning is transient to be dropped.
+    sample_rate
+        [Hz] of motions.
+    orbit
+        the stable orbit that stands for a settled motion, already found; None for a march.
+    predicted_error, met
+        in the unit of the budget, and whether it is within it.
+    evaluations, seconds
+        predicted cost: evaluations of all contacts, and time [s] on this machine as measured.
+    full_evaluations, full_seconds
+        the same of the full model: all five directions where the support is known along them,
+        FULL_ANGLES equally spaced angles or FULL_RATE steps a second, marched.
+    full_error
+        what the full model's equally spaced angles miss, or 65,536 steps a second.
+    planning_seconds
+        [s] it took to find this plan.
+    offers
+        fewer directions, with their errors.
+    note
+        why something was chosen against expectation; empty else.
+    """
+
+    scene: Scene
+    view: str
+    error_budget: float
+    dofs: tuple[str, ...]
+    cage_angles: Array | None = field(repr=False, compare=False)
+    step_rate: float
+    tolerance: float
+    duration: float
+    drop: float
+    sample_rate: float
+    orbit: Orbit | None = field(repr=False, compare=False)
+    predicted_error: float
+    met: bool
+    evaluations: int
+    seconds: float
+    full_evaluations: int
+    full_seconds: float
+    full_error: float
+    planning_seconds: float
+    offers: tuple[Offer, ...] = ()
+    note: str = ""
+
+    @property
+    def method(self) -> str:
+        """One of "static", "orbit", "fixed steps" and "adaptive steps"."""
+        if self.cage_angles is not None:
+            return "static"
+        if self.orbit is not None:
+            return "orbit"
+        return "fixed steps" if math.isnan(self.tolerance) else "adaptive steps"
+
+    def run(self) -> Equilibrium | Motion | Orbit:
+        """What was planned: static states, a motion, or the orbit."""
+        if self.cage_angles is not None:
+            return equilibrium(self.scene, self.cage_angles)
+        if self.orbit is not None:
+            return self.orbit
+        if self.method == "adaptive steps":
+            return simulate_adaptive(
+                self.scene, self.duration, self.sample_rate, tolerance=self.tolerance
+            )
+        return simulate(self.scene, self.duration, self.sample_rate, step_rate=self.step_rate)
+
+    def sentence(self) -> str:
+        """In a line: what was chosen, its cost and error, and the full model's."""
+        parts = [f"{len(self.dofs)} DOF"]
+        if self.cage_angles is not None:
+            parts.append(f"{len(self.cage_angles)} cage angles")
+            error = f"error {100.0 * self.predicted_error:.2g} %"
+            full = f"{FULL_ANGLES} equally spaced angles {_duration(self.full_seconds)}"
+            full += f", error {100.0 * self.full_error:.2g} %"
+        else:
+            fixed = f"{self.step_rate / 1e3:.3g} kHz"
+            adaptive = f"adaptive steps at {self.tolerance:.0e}"
+            parts.append(adaptive if self.method == "adaptive steps" else fixed)
+            if self.orbit is not None:
+                passes = self.orbit.ball_passes
+                parts.append(f"{passes} ball pass{'es' if passes > 1 else ''}")
+            else:
+                parts.append(f"{self.duration:.3g} s")
+            error = f"error {self.predicted_error:.2g} dB"
+            full = f"full model {_duration(self.full_seconds)}, error {self.full_error:.2g} dB"
+        text = f"this scene: {', '.join(parts)}: {_duration(self.seconds)}, {error}; {full}"
+        if not self.met:
+            text += "; the budget is not met"
+        return f"{text}; {self.note}" if self.note else text
+
+
+def _duration(seconds: float) -> str:
+    return f"{1e3 * seconds:.2g} ms" if seconds < 1.0 else f"{seconds:.2g} s"
+
+
+def plan(
+    scene: Scene,
+    view: str,
+    error_budget: float | None = None,
+    *,
+    duration: float = 1.4,
+    sample_rate: float = 65536.0,
+    dofs: Iterable[str] | None = None,
+    step_rate: float | None = None,
+    march: bool = False,
+) -> Plan:
+    """The cheapest way to compute a view of a scene within an error budget.
+
+    Parameters
+    ----------
+    scene, view
+        what to show of what: see VIEWS.
+    error_budget
+        None takes that of BUDGETS.
+    duration, sample_rate
+        [s], [Hz] of motions.
+    dofs, step_rate, march
+        overrule the plan: directions, steps a second [Hz], a march where an orbit would do. The
+        predicted error is then that of what was asked for.
+
+    Raises
+    ------
+    ValueError
+        for unknown views, a budget that is not positive, or what `simulate` refuses.
+    """
+    checks.choice("view", view, VIEWS)
+    budget = checks.number(
+        "error_budget", BUDGETS[view] if error_budget is None else error_budget, above=0.0
+    )
+    began = time.perf_counter()
+    if dofs is not None:
+        scene = scene.replace(dofs=check_dofs(dofs))
+    if view in CURVES:
+        return _curves(scene, view, budget, began)
+    return _motion(scene, view, budget, began, duration, sample_rate, step_rate, march)
+
+
+# --- curves over the cage angle -------------------------------------------------------------------
+
+
+def _curves(scene: Scene, view: str, budget: float, began: float) -> Plan:
+    nodes = place(scene, view, budget)
+    planned = time.perf_counter()
+    state = equilibrium(scene, nodes.angles)
+    seconds = time.perf_counter() - planned
+    full = scene.replace(dofs=DOF_NAMES)
+    equal = np.linspace(nodes.angles[0], nodes.angles[-1], FULL_ANGLES)
+    start = time.perf_counter()
+    everything = equilibrium(full, equal)
+    full_seconds = time.perf_counter() - start
+    return Plan(
+        scene=scene,
+        view=view,
+        error_budget=budget,
+        dofs=scene.active_dofs,
+        cage_angles=nodes.angles,
+        step_rate=math.nan,
+        tolerance=math.nan,
+        duration=math.nan,
+        drop=0.0,
+        sample_rate=math.nan,
+        orbit=None,
+        predicted_error=nodes.predicted_error,
+        met=nodes.met,
+        evaluations=int(state.evaluations.sum()),
+        seconds=seconds,
+        full_evaluations=int(everything.evaluations.sum()),
+        full_seconds=full_seconds,
+        full_error=_equal_error(scene, view, state, equal),
+        planning_seconds=planned - began,
+        offers=_static_offers(scene, view, seconds),
+    )
+
+
+def _equal_error(scene: Scene, view: str, state: Equilibrium, equal: Array) -> float:
+    """What lines between equally spaced angles miss of the curves at the placed ones."""
+    values = curves_of(state, view)
+    coarse = curves_of(equilibrium(scene, equal), view)
+    lines = np.stack(
+        [np.interp(state.cage_angles, equal, coarse[:, i]) for i in range(values.shape[1])], axis=1
+    )
+    error = np.abs(lines - values) / swings(values)
+    return float(error[np.isfinite(error)].max(initial=0.0))
+
+
+def _static_offers(scene: Scene, view: str, seconds: float) -> tuple[Offer, ...]:
+    angles = np.linspace(0.0, scene.bearing.ball_spacing, 13)
+    truth = equilibrium(scene, angles)
+    offers = []
+    for fewer in _fewer(scene.active_dofs):
+        state = equilibrium(scene, angles, fewer)
+        both = truth.converged & state.converged
+        if view == "modes" or not both.any():
+            continue  # a mode less is not an error of a mode
+        values = curves_of(truth, view)[both]
+        error = np.abs(curves_of(state, view)[both] - values) / swings(values)
+        offers.append(Offer(fewer, float(error.max()), seconds))
+    return tuple(offers)
+
+
+def _fewer(dofs: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Smaller sets of directions that keep x and y."""
+    return [DOF_NAMES[:n] for n in (2, 3) if n < len(dofs) and set(DOF_NAMES[:n]) <= set(dofs)]
+
+
+# --- motions -------------------------------------------------------------------------------------
+
+
+class _Way(NamedTuple):
+    """A way to march.
+
+    Steps a second [Hz] for fixed ones, a tolerance for those that choose themselves, the other
+    NaN; its predicted error [dB], and calls and time for each second of motion.
+    """
+
+    step_rate: float
+    tolerance: float
+    error: float
+    calls: float
+    cost: float
+
+
+def _motion(
+    scene: Scene,
+    view: str,
+    budget: float,
+    began: float,
+    duration: float,
+    sample_rate: float,
+    step_rate: float | None,
+    march: bool,
+) -> Plan:
+    pilot = _Pilot(scene, budget, sample_rate)
+    fixed = way = pilot.fixed(step_rate)
+    # where the force jumps, fixed steps have order 1; where it does not, nothing beats them
+    if step_rate is None and _jumps(scene):
+        way = _better(fixed, pilot.adaptive(), budget)
+    found, note, drop = None, "", 0.0
+    if view == SETTLED:
+        drop = settling_time(scene)
+        orbital = fixed if march else pilot.orbital(step_rate)
+        if not march and orbital.error <= budget:
+            found, note = _stable_orbit(scene, orbital.step_rate)
+            if found is not None:
+                drop = dying_time(found)
+        elif not march:
+            note = "marched, as the fixed steps of an orbit would have to be very short"
+    length = drop + duration
+    seconds, calls = way.cost * length, way.calls * length
+    if found is not None:
+        start = time.perf_counter()
+        orbit(scene, step_rate=orbital.step_rate)
+        taken = time.perf_counter() - start
+        if taken < seconds:
+            way, seconds, calls = orbital, taken, found.right_hand_side_calls
+        else:
+            found, note = None, f"marched, as the orbit takes longer: {_duration(taken)}"
+    planned = time.perf_counter()
+    full_calls = 4.0 * FULL_RATE * length
+    full = pilot.fixed(FULL_RATE) if 2.5 * pilot.highest <= FULL_RATE else fixed
+    return Plan(
+        scene=scene,
+        view=view,
+        error_budget=budget,
+        dofs=scene.active_dofs,
+        cage_angles=None,
+        step_rate=way.step_rate,
+        tolerance=way.tolerance,
+        duration=length,
+        drop=drop,
+        sample_rate=sample_rate,
+        orbit=found,
+        predicted_error=way.error,
+        met=way.error <= budget,
+        evaluations=round(calls),
+        seconds=seconds,
+        full_evaluations=round(full_calls),
+        full_seconds=full_calls
+        * _seconds_a_call("fixed", scene.bearing.n_balls, 5, scene.contact_law),
+        full_error=full.error,
+        planning_seconds=planned - began,
+        offers=_motion_offers(scene, pilot, seconds),
+        note=note,
+    )
+
+
+def _jumps(scene: Scene) -> bool:
+    """True where the force of a contact jumps and no change of variables takes the jump away."""
+    return scene.contact_law != "published" and contact_damping(scene) > 0.0
+
+
+def _better(one: _Way, other: _Way, budget: float) -> _Way:
+    """The cheaper of two within the budget, else the more exact."""
+    if one.error <= budget and other.error <= budget:
+        return min(one, other, key=lambda way: way.cost)
+    return min(one, other, key=lambda way: way.error)
+
+
+def _stable_orbit(scene: Scene, step_rate: float) -> tuple[Orbit | None, str]:
+    """The orbit where it is proven stable, else why there is none."""
+    found = orbit(scene, step_rate=step_rate)
+    if found.stable:
+        return found, ""
+    through = f", through {found.through}" if found.through else ""
+    return None, f"marched, as there is no stable orbit: {found.status}{through}"
+
+
+def step_rates(sample_rate: float) -> list[float]:
+    """Step rates [Hz] that fit a sample rate, rising."""
+    return [sample_rate / k for k in (16, 12, 8, 6, 4, 3, 2)] + [
+        sample_rate * k for k in (1, 2, 3, 4, 6, 8)
+    ]
+
+
+class _Pilot:
+    """A short motion, marched in several ways to see what each is off by and costs."""
+
+    def __init__(self, scene: Scene, budget: float, sample_rate: float) -> None:
+        self.scene, self.budget, self.sample_rate = scene, budget, sample_rate
+        self.highest = highest_natural_frequency(scene)
+        self.band = BAND * self.highest
+        self._known: dict[tuple[str, float], tuple[Array, int]] = {}
+
+    def signal(self, kind: str, setting: float) -> tuple[Array, int]:
+        """The housing's acceleration, NaN for a motion that diverged, and right-hand sides.
+
+        `kind` is "fixed" (steps [Hz]), "adaptive" (tolerance) or "velocities" (steps [Hz] as
+        orbits take them).
+        """
+        if (kind, setting) not in self._known:
+            with np.errstate(all="ignore"):
+                told = _told(kind, self.scene, PILOT, self.sample_rate, setting)
+                self._known[kind, setting] = told.outer_acceleration, told.right_hand_side_calls
+        return self._known[kind, setting]
+
+    def a_call(self, kind: str) -> float:
+        """Time [s] of a right-hand side, with its share of everything else."""
+        scene = self.scene
+        n_dofs = len(scene.active_dofs)
+        if n_dofs == 2 and not is_flat(scene):
+            n_dofs = 3  # the kernel for any directions
+        return _seconds_a_call(kind, scene.bearing.n_balls, n_dofs, scene.contact_law)
+
+    def _way(self, kind: str, setting: float, finer: float) -> _Way:
+        found, calls = self.signal(kind, setting)
+        truth = self.signal(kind, finer)[0]
+        error = SAFETY * spectra_apart(found, truth, self.sample_rate, self.band)
+        rate, tolerance = (math.nan, setting) if kind == "adaptive" else (setting, math.nan)
+        return _Way(rate, tolerance, error, calls / PILOT, calls / PILOT * self.a_call(kind))
+
+    def _at(self, rate: float) -> _Way:
+        """What a rate is off by shows beside twice the rate.
+
+        There an error that falls with order 2 or more leaves a quarter at most; one of order 1 a
+        half, which SAFETY allows for.
+        """
+        return self._way("fixed", rate, 2.0 * rate)
+
+    def orbital(self, asked: float | None) -> _Way:
+        """As `fixed`, for the steps of an orbit, which in general marches velocities."""
+        if is_flat(self.scene):
+            return self.fixed(asked)
+        usual = default_step_rate(self.scene, self.sample_rate, self.highest)
+        found = self._way("velocities", usual, 2.0 * usual)
+        for rate in (2.0 * usual, 4.0 * usual):
+            if found.error <= self.budget:
+                break
+            found = self._way("velocities", rate, 2.0 * rate)
+        return found
+
+    def fixed(self, asked: float | None) -> _Way:
+        """The longest fixed step within the budget, or the best of those tried."""
+        if asked is not None:
+            return self._at(asked)
+        usual = default_step_rate(self.scene, self.sample_rate, self.highest)
+        least = 2.5 * self.highest if math.isfinite(self.highest) else usual
+        rates = [rate for rate in step_rates(self.sample_rate) if rate >= least] or [usual]
+        # begin where the program would without a plan, go down while it holds or up until it does
+        at = min(range(len(rates)), key=lambda i: abs(math.log(rates[i] / usual)))
+        # an error that falls with order 1 would need steps without end
+        top = min(at + 2, len(rates)) if _jumps(self.scene) else len(rates)
+        found = self._at(rates[at])
+        while found.error > self.budget and at + 1 < top:
+            at += 1
+            found = self._at(rates[at])
+        while found.error <= self.budget and at > 0:
+            coarser = self._at(rates[at - 1])
+            if coarser.error > self.budget:
+                break
+            at, found = at - 1, coarser
+        return found
+
+    def adaptive(self) -> _Way:
+        """The loosest tolerance within the budget; a hundredth of it stands for the truth."""
+        found = self._way("adaptive", TOLERANCES[0], 1e-2 * TOLERANCES[0])
+        for tolerance in TOLERANCES[1:]:
+            if found.error <= self.budget:
+                break
+            found = self._way("adaptive", tolerance, 1e-2 * tolerance)
+        return found
+
+
+TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
+"""What may be chosen where steps choose themselves."""
+
+
+def spectra_apart(found: Array, expected: Array, sample_rate: float, band: float) -> float:
+    """Greatest difference of spectra [dB] up to `band` [Hz], where they count.
+
+    Infinite where a signal is not finite.
+    """
+    if not (np.all(np.isfinite(found)) and np.all(np.isfinite(expected))):
+        return math.inf
+    frequency, density = spectrum(expected, sample_rate)
+    level = density.max(axis=0)
+    counts = (density > COUNTS * level) & (level > 1e-12 * level.max())
+    counts &= ((frequency > 2.5 * frequency[1]) & (frequency <= band))[:, None]
+    if not counts.any():
+        return 0.0
+    with np.errstate(divide="ignore"):
+        other = spectrum(found, sample_rate).density
+        return float(np.abs(10.0 * np.log10(other[counts] / density[counts])).max())
+
+
+def dying_time(found: Orbit) -> float:
+    """Time [s] in which a disturbance of a stable orbit dies down to a thousandth."""
+    largest = min(max(found.largest_multiplier, 1e-6), 1.0 - 1e-6)
+    return found.period * math.ceil(math.log(1e-3) / math.log(largest))
+
+
+def settling_time(scene: Scene) -> float:
+    """Time [s] in which the slowest mode at the static states dies down to a thousandth.
+
+    A quarter of a second where nothing damps or no state is known, and never more than two.
+    """
+    found = modes(scene)
+    rate = 2.0 * math.pi * found.frequency * found.damping_ratio
+    known = rate[np.isfinite(rate)]
+    if not known.size or known.min() <= 0.0:
+        return 0.25
+    return min(max(math.log(1000.0) / float(known.min()), 0.05), 2.0)
+
+
+def _motion_offers(scene: Scene, pilot: _Pilot, seconds: float) -> tuple[Offer, ...]:
+    """What the pilot motion is off by in fewer directions, at the program's own steps."""
+    fewer = _fewer(scene.active_dofs)
+    if not fewer:
+        return ()
+    offers = []
+    rate = default_step_rate(scene, pilot.sample_rate, pilot.highest)
+    truth, _ = pilot.signal("fixed", rate)
+    for dofs in fewer:
+        smaller = _Pilot(scene.replace(dofs=dofs), pilot.budget, pilot.sample_rate)
+        found, _ = smaller.signal("fixed", rate)
+        if np.all(np.isfinite(found)):
+            error = spectra_apart(found[:, :2], truth[:, :2], pilot.sample_rate, pilot.band)
+            offers.append(
+                Offer(dofs, error, seconds * smaller.a_call("fixed") / pilot.a_call("fixed"))
+            )
+    return tuple(offers)
+
+
+@lru_cache(maxsize=256)
+def _seconds_a_call(kind: str, n_balls: int, n_dofs: int, law: str) -> float:
+    """Time [s] of one right-hand side on this machine, measured once on a scene of that size.
+
+    `kind` is one of those of `_Pilot.signal`.
+    """
+    from bearingcore.presets import presets
+
+    widest = 0.9 * 45e-3 * math.sin(math.pi / n_balls) if n_balls > 1 else 8e-3
+    example = presets["fan-rig"].replace(
+        n_balls=n_balls, ball_diameter=min(8e-3, widest), dofs=DOF_NAMES[:n_dofs],
+        contact_damping=100.0, contact_law=law,
+    )  # fmt: skip
+    least = math.inf
+    for _ in range(4):
+        start = time.perf_counter()
+        told = _told(kind, example, 0.03, FULL_RATE, FULL_RATE if kind != "adaptive" else 1e-6)
+        _ = told.outer_acceleration
+        taken = time.perf_counter() - start
+        least = min(least, taken / max(told.right_hand_side_calls, 1))
+    return least
+
+
+def _told(kind: str, scene: Scene, duration: float, sample_rate: float, setting: float) -> Motion:
+    """A motion by one of the ways that a pilot tries."""
+    if kind == "fixed":
+        return simulate(scene, duration, sample_rate, step_rate=setting)
+    if kind == "adaptive":
+        return simulate_adaptive(scene, duration, sample_rate, tolerance=setting)
+    return simulate_in_velocities(scene, duration, sample_rate, setting)

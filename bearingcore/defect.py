@@ -175,18 +175,23 @@ def _wrapped(angle: NDArray[np.float64]) -> NDArray[np.float64]:
     return angle - TWO_PI * np.floor(angle / TWO_PI + 0.5)
 
 
-def edge_drop(s: NDArray[np.float64], defect: Defect, bearing: Bearing) -> NDArray[np.float64]:
+def edge_drop(
+    s: NDArray[np.float64], defect: Defect, bearing: Bearing, deepest: float
+) -> NDArray[np.float64]:
     """Drop [m] at the angle s [rad] from a corner, of a ball that nothing else holds up.
 
-    Infinite where the ball has lost the corner.
+    Infinite where the ball has lost the corner, and where it would hang below `deepest` [m].
     """
-    row = dataclasses.replace(defect, depth=bearing.ball_radius, extent=math.pi).edge_row(bearing)
-    x = 0.5 * math.pi - np.abs(s).ravel()
+    depth = min(deepest, bearing.ball_radius)
+    row = dataclasses.replace(defect, depth=depth, extent=math.pi).edge_row(bearing)
+    away = np.abs(s).ravel()
+    near = away <= row[4] if deepest < bearing.ball_radius else away < row[4]
+    x = 0.5 * math.pi - away[near]
     rows = row[None, :].copy()
     rows[0, 0] = 0.0
-    drop = kernels.ball_path(x, np.zeros_like(x), rows, np.zeros(0))
-    lost = np.abs(s).ravel() >= row[4]
-    return np.where(lost, math.inf, drop).reshape(np.shape(s))
+    drop = np.full(away.size, math.inf)
+    drop[near] = kernels.ball_path(x, np.zeros_like(x), rows, np.zeros(0))
+    return drop.reshape(np.shape(s))
 
 
 @lru_cache(maxsize=256)
@@ -299,13 +304,15 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, N
     middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
     angle = _nodes(half) + middle
     cuts = sorted({edge for c, w, _ in places for edge in (c - w, c + w)})
+    deepest = max(h for _, _, h in places)
     path = np.minimum(
-        edge_drop(angle - begin, first, bearing), edge_drop(end - angle, first, bearing)
+        edge_drop(angle - begin, first, bearing, deepest),
+        edge_drop(end - angle, first, bearing, deepest),
     )
     for left, right in pairwise(cuts):
         depth = max(h for c, w, h in places if c - w <= 0.5 * (left + right) <= c + w)
         away = np.maximum(np.maximum(left - angle, angle - right), 0.0)
-        path = np.minimum(path, depth + edge_drop(away, first, bearing))
+        path = np.minimum(path, depth + edge_drop(away, first, bearing, deepest))
     return first.center + middle, half, path
 
 
@@ -317,20 +324,18 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray
     race, drop is that of the edge model, so that a square slot gives the edge model back. What is
     neglected is of the order of depth over raceway radius.
     """
-    from scipy import ndimage  # imported late: it would double the time to import this package
-
     half = 0.5 * defect.extent
     angle = _nodes(half)
     step = angle[1] - angle[0]
     surface = defect.surface(defect.center + angle, bearing)
     whole = defect.extent >= TWO_PI
+    # the corners belong to the sound race; a whole race closes on itself
+    surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
+    reach = np.arange(math.ceil(0.5 * math.pi / step)) * step
+    circle = edge_drop(reach, defect, bearing, float(np.ptp(surface)))
+    circle = circle[np.isfinite(circle)][: angle.size]
     if not whole:
-        surface[0] = surface[-1] = 0.0  # the corners belong to the sound race
-    deepest = np.full(1, float(np.ptp(surface)))
-    reach = np.arange(0, angle.size) * step
-    circle = edge_drop(reach[reach <= 0.5 * math.pi], defect, bearing)
-    circle = circle[: int(np.searchsorted(circle, deepest[0])) + 2]
-    circle = circle[np.isfinite(circle)]
-    structure = -np.concatenate([circle[:0:-1], circle])
-    path = ndimage.grey_erosion(surface, structure=structure, mode="wrap" if whole else "nearest")
-    return defect.center, half, path
+        return defect.center, half, kernels.roll_over(surface, circle)
+    past = circle.size - 1
+    around = np.concatenate([surface[-1 - past : -1], surface, surface[1 : 1 + past]])
+    return defect.center, half, kernels.roll_over(around, circle)[past : past + angle.size]

@@ -162,6 +162,41 @@ def ball_path(ball_angles, cage_angles, rows, tables):
     return drops
 
 
+@compiled
+def roll_over(surface, circle):
+    """Depth (n,) to which a ball sinks over a surface: min over j of surface[j] + circle[|i − j|].
+
+    circle holds how far the ball hangs below a point that it touches so many nodes away: it rises
+    and is convex, and so the point touched moves on as the ball does. Halving the nodes again and
+    again finds it for all of them in n log n steps.
+    """
+    n = surface.size
+    reach = circle.size - 1
+    path = np.empty(n)
+    waiting = np.empty((128, 4), dtype=np.int64)  # nodes from, to; touched points from, to
+    waiting[0] = (0, n - 1, 0, n - 1)
+    size = 1
+    while size > 0:
+        size -= 1
+        first, last, low, high = waiting[size]
+        i = (first + last) // 2
+        least = math.inf
+        touched = low
+        for j in range(max(low, i - reach), min(high, i + reach) + 1):
+            depth = surface[j] + circle[abs(i - j)]
+            if depth < least:
+                least = depth
+                touched = j
+        path[i] = least
+        if first < i:
+            waiting[size] = (first, i - 1, low, touched)
+            size += 1
+        if i < last:
+            waiting[size] = (i + 1, last, touched, high)
+            size += 1
+    return path
+
+
 # ------------------------------------------------------------------------------------ contact
 
 

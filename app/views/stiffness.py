@@ -10,7 +10,6 @@ repeats itself, stand the legend and the number of loaded balls.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -34,50 +33,35 @@ from app.views.figures import (
     with_prefix,
     words_of,
 )
+from app.views.matrix_cells import (
+    NEGLIGIBLE,
+    PLACES,
+    SYMBOLS,
+    TERM_UNITS,
+    UNITS,
+    Cell,
+    term_sizes,
+    unit_name,
+)
 from app.views.sticky_range import StickyRange
 from app.wire import Wire
-from bearingcore import DOF_NAMES, STIFFNESS_TERMS, Equilibrium
-
-_SUBSCRIPTS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
-_UNITS = ("N/m", "N/rad", "N·m/rad")  # with no, one and two rotations
-_NEGLIGIBLE = 1e-6  # of the geometric mean of the two diagonal terms: rounding, not coupling
-
-
-@dataclass(frozen=True)
-class Cell:
-    """Where a trace stands in the drawing: its frame, in matrix columns and rows."""
-
-    left: float
-    right: float
-    bottom: float
-    top: float
-
-    def x(self, share: np.ndarray) -> np.ndarray:
-        """Places along the frame for shares of 0 to 1."""
-        return self.left + (self.right - self.left) * share
-
-    def y(self, value: np.ndarray, limits: tuple[float, float]) -> np.ndarray:
-        """Heights of values on an axis with these limits."""
-        low, high = limits
-        return self.bottom + (self.top - self.bottom) * (value - low) / (high - low)
+from bearingcore import STIFFNESS_TERMS
 
 
 def _cell(row: int, column: int) -> Cell:
     return Cell(column + 0.215, column + 0.985, -row - 0.86, -row - 0.27)
 
 
-_PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
-_CELLS = [_cell(i, j) for i, j in _PLACES]
+_CELLS = [_cell(i, j) for i, j in PLACES]
 _BALLS = Cell(0.215, 2.6, -4.86, -3.5)
-_TERM_UNITS = [_UNITS[(i > 2) + (j > 2)] for i, j in _PLACES]
 _FRAMES = [*_CELLS, _BALLS]
-_IS_FOOT = np.array([i == j for i, j in _PLACES] + [True])  # lowest of its column
+_IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest of its column
 _PLACE_COLUMNS = {
     **{
         side: np.array([getattr(cell, side) for cell in _FRAMES])
         for side in ("left", "right", "bottom", "top")
     },
-    "unit": np.array([_UNITS.index(unit) for unit in _TERM_UNITS] + [len(_UNITS)]),
+    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS] + [len(UNITS)]),
 }
 _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
 
@@ -121,7 +105,7 @@ class Stiffness(View):
         period = float(found.cage_angles[-1])
         share = found.cage_angles / period
         now_share = (results.cage_angle % period) / period
-        scales = _scales(found, sound)
+        scales = term_sizes(lambda term: np.concatenate([found.term(term), sound.term(term)]))
         lines: dict[str, list[np.ndarray]] = {"x": [], "defective": [], "sound": []}
         marks: list[tuple[float, float, float, float]] = []
         heads: list[tuple[float, float, float, float]] = []
@@ -190,9 +174,8 @@ class Stiffness(View):
         found, sound = results.equilibrium, results.sound_equilibrium
         columns = {"cage_angle_deg": np.degrees(found.cage_angles)}
         for kind, answer in (("defective", found), ("sound", sound)):
-            for term, unit in zip(STIFFNESS_TERMS, _TERM_UNITS, strict=True):
-                name = unit.replace("N·m", "n_m").replace("/", "_per_").replace("N", "n")
-                columns[f"{kind}_{term}_{name}"] = answer.term(term)
+            for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
+                columns[f"{kind}_{term}_{unit_name(unit)}"] = answer.term(term)
             columns[f"{kind}_loaded_balls"] = answer.loaded_balls
         return columns
 
@@ -200,19 +183,9 @@ class Stiffness(View):
 _GAP = np.array([np.nan])
 
 
-def _scales(*answers: Equilibrium) -> list[float]:
-    """For each term the size that counts as one: geometric mean of its two diagonal terms."""
-    tops = []
-    for dof in DOF_NAMES:
-        values = np.concatenate([answer.term(f"k_{dof}{dof}") for answer in answers])
-        finite = np.abs(values[np.isfinite(values)])
-        tops.append(float(finite.max()) if finite.size else 0.0)
-    return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in _PLACES]
-
-
 def _cleaned(values: np.ndarray, scale: float) -> np.ndarray:
     """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
-    return np.where(np.abs(values) < _NEGLIGIBLE * scale, 0.0, values)
+    return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
 
 
 def _trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
@@ -251,7 +224,7 @@ def _static_parts(plot: figure) -> None:
         "x": [cell.left for cell in _CELLS],
         "y": [cell.top for cell in _CELLS],
         "text": ["k"] * len(_CELLS),
-        "below": [_SUBSCRIPTS[DOF_NAMES[i]] + _SUBSCRIPTS[DOF_NAMES[j]] for i, j in _PLACES],
+        "below": [symbol[1:] for symbol in SYMBOLS],
     }
     source = ColumnDataSource(names)
     serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": INK}
@@ -271,7 +244,7 @@ def _static_parts(plot: figure) -> None:
 def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:
     """Zero lines, limits and values of the cells, and the ends of their cage angles."""
     plot.segment("left", "zero", "right", "zero", source=cells, line_color=STEEL_EDGE)
-    names = f"const unit = {[*_UNITS, '']}[row.unit]\n"
+    names = f"const unit = {[*UNITS, '']}[row.unit]\n"
     limit = """
 if (isNaN(row.low)) return ''
 const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0

@@ -23,6 +23,8 @@ CASES = (
     ("load", "extent_deg", 50.0),
     ("stiffness", "extent_deg", 50.0),
     ("stiffness", "cage_angle_deg", 50.0),
+    ("maps", "fy_n", 100.0),
+    ("maps", "extent_deg", 100.0),
     ("modes", "extent_deg", 50.0),
     ("vibration", "extent_deg", 100.0),
 )
@@ -84,7 +86,7 @@ def steps(page: Page, slider: str, count: int) -> list[dict[str, float]]:
     low, high = page.locator(f"#control-{slider}").evaluate("s => [Number(s.min), Number(s.max)]")
     found = []
     for index in range(count):
-        share = 0.1 + 0.8 * ((index * 0.381966) % 1.0)
+        share = 0.12 + 0.8 * ((index * 0.381966) % 1.0)
         result = page.evaluate(_STEP, [slider, low + share * (high - low)])
         if result["step"] is None:
             raise RuntimeError(f"moving {slider} painted nothing")

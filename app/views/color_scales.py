@@ -1,0 +1,55 @@
+"""Colour scales for maps: perceptually even, and told apart by colour-blind eyes.
+
+`SEQUENTIAL` for numbers of one sign, from dark to light; `DIVERGING` for numbers of both signs,
+blue below zero and orange above it, as light as paper at zero and equally dark at both ends.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from bokeh.palettes import Viridis256
+
+STEPS = 256
+
+
+def _from_hex(color: str) -> np.ndarray:
+    return np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)])
+
+
+def _from_oklab(lab: np.ndarray) -> np.ndarray:
+    """(n, 3) colours of the even colour space Oklab (Ottosson 2020) as 8-bit sRGB."""
+    to_cones = np.array([[1.0, 0.3963377774, 0.2158037573],
+                         [1.0, -0.1055613458, -0.0638541728],
+                         [1.0, -0.0894841775, -1.2914855480]])  # fmt: skip
+    to_rgb = np.array([[4.0767416621, -3.3077115913, 0.2309699292],
+                       [-1.2684380046, 2.6097574011, -0.3413193965],
+                       [-0.0041960863, -0.7034186147, 1.7076147010]])  # fmt: skip
+    linear = np.clip(((lab @ to_cones.T) ** 3) @ to_rgb.T, 0.0, 1.0)
+    coded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return np.rint(255.0 * coded).astype(int)
+
+
+def _arm(hue_deg: float, chroma: float, share: np.ndarray) -> np.ndarray:
+    """From paper white (share 0) to a deep colour (share 1); lightness falls evenly."""
+    lightness = 0.975 - 0.495 * share
+    strength = chroma * np.sin(0.5 * np.pi * np.minimum(1.25 * share, 1.0))
+    hue = np.radians(hue_deg)
+    return np.stack([lightness, strength * np.cos(hue), strength * np.sin(hue)], axis=1)
+
+
+def _diverging() -> np.ndarray:
+    share = (np.arange(STEPS // 2) + 0.5) / (STEPS // 2)
+    blue, orange = _arm(250.0, 0.13, share), _arm(48.0, 0.14, share)
+    return _from_oklab(np.concatenate([blue[::-1], orange]))
+
+
+SEQUENTIAL = np.array([_from_hex(color) for color in Viridis256])
+"""(256, 3) sRGB, dark to light."""
+DIVERGING = _diverging()
+"""(256, 3) sRGB, blue to white to orange."""
+
+
+def packed(scale: np.ndarray) -> list[int]:
+    """The colours as browsers keep pixels: red in the lowest byte, opaque."""
+    red, green, blue = scale.T
+    return [int(x) for x in 0xFF000000 + (blue << 16) + (green << 8) + red]

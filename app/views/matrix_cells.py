@@ -1,0 +1,61 @@
+"""Where the 15 terms of the symmetric 5×5 stiffness matrix stand in a drawing, and their names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import DOF_NAMES
+
+UNITS = ("N/m", "N/rad", "N·m/rad")
+"""Units of stiffness with no, one and two rotations."""
+NEGLIGIBLE = 1e-6
+"""Of the geometric mean of the two diagonal terms: rounding, not coupling."""
+
+PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
+"""Row and column of each term."""
+TERM_UNITS = [UNITS[(i > 2) + (j > 2)] for i, j in PLACES]
+
+_SUBSCRIPTS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
+SYMBOLS = [f"k{_SUBSCRIPTS[DOF_NAMES[i]]}{_SUBSCRIPTS[DOF_NAMES[j]]}" for i, j in PLACES]
+"""Symbols of the terms; all but the first letter is a subscript."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A frame in the drawing, in matrix columns and rows."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    def x(self, share: np.ndarray) -> np.ndarray:
+        """Places along the frame for shares of 0 to 1."""
+        return self.left + (self.right - self.left) * share
+
+    def y(self, value: np.ndarray, limits: tuple[float, float]) -> np.ndarray:
+        """Heights of values on an axis with these limits."""
+        low, high = limits
+        return self.bottom + (self.top - self.bottom) * (value - low) / (high - low)
+
+
+def unit_name(unit: str) -> str:
+    """A unit as the name of a column has it: "N·m/rad" is "n_m_per_rad"."""
+    return unit.replace("N·m", "n_m").replace("/", "_per_").replace("N", "n")
+
+
+def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
+    """For each term the size that counts as one: geometric mean of its two diagonal terms.
+
+    `term` gives the numbers that are shown of a term, by its name.
+    """
+    tops = []
+    for dof in DOF_NAMES:
+        values = np.abs(term(f"k_{dof}{dof}"))
+        tops.append(float(np.max(values, where=np.isfinite(values), initial=0.0)))
+    return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in PLACES]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import Scene, equilibrium
-from bearingcore.passes import crossings
+from bearingcore.passes import Crossing, crossings
 
 if TYPE_CHECKING:
     from bearingcore import Motion
@@ -64,7 +64,7 @@ class Excerpt:
 
 
 def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
-    """The last `n_passes` ball passes of `motion`, beginning a quarter pass before an entry."""
+    """A late stretch of `n_passes` ball passes, beginning a quarter pass before an entry."""
     time, cage = motion.time, motion.cage_angle
     start, length, zero = _stretch(scene, motion, n_passes)
     first = int(np.searchsorted(time, start))
@@ -109,16 +109,28 @@ def _stretch(scene: Scene, motion: Motion, n_passes: float) -> tuple[float, floa
     before = 0.25 * min(one_pass, length)
     latest = end - length + before
     entries = [
-        at
+        found
         for found in crossings(
             scene, float(motion.cage_angle[-1]) - half * speed, float(motion.cage_angle[-1])
         )
         if found.enters
-        and end - half + before <= (at := _time_at(scene, motion, found.cage_angle)) <= latest
+        and end - half + before <= _time_at(scene, motion, found.cage_angle) <= latest
     ]
     if entries:
-        return entries[-1] - before, length, entries[-1]
+        entry = _time_at(scene, motion, _most_telling(scene, entries).cage_angle)
+        return entry - before, length, entry
     return end - length, length, end - length
+
+
+def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
+    """The last of the entries at which the ball would carry most without the defect.
+
+    A defect of the inner race meets balls all around, most of them without load.
+    """
+    angles = np.array([entry.cage_angle for entry in entries])
+    loads = np.nan_to_num(equilibrium(scene.sound(), angles).ball_load)
+    load = loads[np.arange(len(entries)), [entry.ball for entry in entries]]
+    return entries[int(np.flatnonzero(load >= load.max() * (1.0 - 1e-6))[-1])]
 
 
 def _time_at(scene: Scene, motion: Motion, cage_angle: float) -> float:

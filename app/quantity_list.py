@@ -352,7 +352,7 @@ def _along(
     for dof, shown, words in (
         ("x", "x", "along x"),
         ("y", "y", "along y"),
-        ("z", "z", "along the shaft"),
+        ("z", "z", "along z"),
         ("rx", "θx", "about x"),
         ("ry", "θy", "about y"),
     ):

@@ -94,13 +94,18 @@ class DepthProfile(View):
         scene, profile = results.scene, results.profile
         if not scene.defects:
             return "The race has no defect: the profile is flat."
-        defect = scene.defects[0]
+        defect = scene.defects[results.focus]
+        turning = (
+            "; it turns with the shaft, and is shown where it is now"
+            if defect.race == "inner"
+            else ""
+        )
         deepest = float(np.max(profile.path))
         if defect.floor is not None:
             return (
                 f"The {defect.race}-race defect is {figures.number(np.degrees(defect.extent))}° "
                 f"long and up to {figures.with_prefix(float(np.max(profile.depth)), 'm')} deep; "
-                f"a ball's centre sinks by at most {figures.with_prefix(deepest, 'm')}."
+                f"a ball's centre sinks by at most {figures.with_prefix(deepest, 'm')}{turning}."
             )
         floor = figures.with_prefix(defect.depth, "m")
         reaches = (
@@ -111,7 +116,7 @@ class DepthProfile(View):
         )
         return (
             f"The {defect.race}-race defect is {figures.number(np.degrees(defect.extent))}° long; "
-            f"with {EDGE_WORDS[defect.edge]} {reaches}."
+            f"with {EDGE_WORDS[defect.edge]} {reaches}{turning}."
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

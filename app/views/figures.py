@@ -96,6 +96,7 @@ class AxisQuantity:
 BALL_LOAD = AxisQuantity("Ball load", "Q", "N", prefixed=True)
 BALL_ANGLE = AxisQuantity("Angular position", "φ", "°", around=True)
 CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
+SHAFT_ANGLE = AxisQuantity("Shaft angle", "φs", "°")
 
 
 def house_figure(

@@ -25,8 +25,8 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
-        "defect. Dots: balls at this cage angle."
+        "What a ball carries at each angle: blue with the defect, grey without; with a defect of "
+        "the inner race the most in a turn of the shaft. Shaded: the defect. Dots: balls now."
     )
     needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
 
@@ -111,6 +111,8 @@ class LoadDistribution(View):
         _, sound = load_curve(results.sound_equilibrium)
         if results.scene.defects and np.isfinite(sound).any():
             words += f"; without the defect {figures.with_prefix(np.nanmax(sound), 'N')}"
+        if results.over_shaft:
+            words += " (the most at each angle while the shaft makes this turn)"
         now = results.now
         if now.converged[0]:
             count = int(now.loaded_balls[0])

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _LAWS = {
     "published": (
-        "Published: damping may pull",
+        "Published, may pull",
         "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
     ),
     "no tension": (

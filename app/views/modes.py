@@ -42,9 +42,9 @@ class NaturalFrequencies(View):
     name = "modes"
     title = "Natural frequencies"
     about = (
-        "Each mode over the cage angle, named after the direction that moves most: blue x, "
+        "Each mode as the bearing turns, named after the direction that moves most: blue x, "
         "orange y. Shaded: the band in which a mode moves. Grey: the bearing without its defect. "
-        "Black: this cage angle."
+        "Black: now."
     )
     needs = frozenset({"modes", "sound_modes"})
 
@@ -86,6 +86,7 @@ class NaturalFrequencies(View):
             )
         figures.now_line(plot, wire.source("modes_now", "now"))
         self._label(plot, bands, colors)
+        self._axis = plot.xaxis[0]
         return plot
 
     def _label(self, plot: figure, bands: ColumnDataSource, colors: LinearColorMapper) -> None:
@@ -105,7 +106,7 @@ class NaturalFrequencies(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes, sound = results.modes, results.sound_modes
         shown = self._range.fit(modes.frequency, sound.frequency)
-        angle = np.degrees(modes.cage_angles)
+        angle = results.along(modes.cage_angles)
         bands = band_rows(modes)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
         middle = 0.5 * (bands["low"] + bands["high"])
@@ -113,8 +114,8 @@ class NaturalFrequencies(View):
         bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
         sources: Sources = {
             "modes_bands": bands,
-            "modes_sound": lines(np.degrees(sound.cage_angles), sound.frequency),
-            "modes_now": {"now": np.array([now_within(modes, results.cage_angle)])},
+            "modes_sound": lines(results.along(sound.cage_angles), sound.frequency),
+            "modes_now": {"now": results.along([results.cage_angle])},
         }
         for direction in figures.DIRECTIONS:
             own = [i for i, label in enumerate(modes.label) if label[:-1] == direction]
@@ -132,15 +133,24 @@ class NaturalFrequencies(View):
             return "There is no static state to take natural frequencies from."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
         words = [f"{label} within {_from_to(known[label])}" for label in radial]
-        text = f"As the cage turns the natural frequencies move: {figures.list_words(words)}"
+        turning = "shaft makes this turn" if results.over_shaft else "cage turns"
+        text = f"As the {turning} the natural frequencies move: {figures.list_words(words)}"
         first = radial[0]
         if results.scene.defects and np.isfinite(sound.get(first, (np.nan,))[0]):
             text += f"; without the defect {first} within {_from_to(sound[first])}"
         return text + "."
 
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None:
+            over = figures.SHAFT_ANGLE if results.over_shaft else figures.CAGE_ANGLE
+            self._axis.axis_label = over.label()
+
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, sound = results.modes, results.sound_modes
         table = {"cage_angle_deg": np.degrees(modes.cage_angles)}
+        if results.over_shaft:
+            table["shaft_angle_deg"] = results.along(modes.cage_angles)
         for i, label in enumerate(modes.label):
             table[f"{label}_hz"] = modes.frequency[:, i]
         for i, label in enumerate(modes.label):
@@ -173,12 +183,6 @@ def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.
         "angle": np.tile(np.append(x, np.nan), n),
         "frequency": np.append(columns, np.full((1, n), np.nan), axis=0).T.ravel(),
     }
-
-
-def now_within(modes: Modes, cage_angle: float) -> float:
-    """`cage_angle` [rad] in degrees within the period over which the modes are given."""
-    first, last = modes.cage_angles[0], modes.cage_angles[-1]
-    return float(np.degrees(first + (cage_angle - first) % (last - first)))
 
 
 def spread(

@@ -72,7 +72,7 @@ class Stiffness(View):
     name = "stiffness"
     title = "Stiffness of the bearing"
     about = (
-        "The 15 independent terms of its symmetric 5×5 stiffness matrix while the cage turns: "
+        "The 15 independent terms of its symmetric 5×5 stiffness matrix as the bearing turns: "
         "how hard the inner ring resists each displacement (column) with each load (row)."
     )
     needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
@@ -92,6 +92,17 @@ class Stiffness(View):
         defective = wire.source("stiffness_defective", "x", "y")
         now = wire.source("stiffness_now", "x", "y", "low", "high")
         _moving_parts(plot, cells)
+        axis = wire.source("stiffness_axis", "shaft")
+        _text(
+            plot,
+            axis,
+            x=0.5 * (_BALLS.left + _BALLS.right),
+            y=_BALLS.bottom,
+            y_offset=4,
+            text=words_of(axis, _AXIS_WORDS),
+            text_align="center",
+            text_baseline="top",
+        )
         plot.segment("x", "low", "x", "high", source=now, line_color=INK, line_alpha=0.45)
         plot.line("x", "y", source=sound, line_color=SOUND, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
@@ -102,9 +113,9 @@ class Stiffness(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
         found, sound, now = results.equilibrium, results.sound_equilibrium, results.now
-        period = float(found.cage_angles[-1])
-        share = found.cage_angles / period
-        now_share = (results.cage_angle % period) / period
+        first, last, _ = results.stretch
+        share = (found.cage_angles - first) / (last - first)
+        now_share = (results.cage_angle - first) % (last - first) / (last - first)
         scales = term_sizes(lambda term: np.concatenate([found.term(term), sound.term(term)]))
         lines: dict[str, list[np.ndarray]] = {"x": [], "defective": [], "sound": []}
         marks: list[tuple[float, float, float, float]] = []
@@ -145,9 +156,10 @@ class Stiffness(View):
             "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
-                "foot": _IS_FOOT * math.degrees(period),
+                "foot": _IS_FOOT * float(results.along(last)),
                 **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
             },
+            "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
         }, {}
 
     def sentence(self, results: Results) -> str:
@@ -167,12 +179,17 @@ class Stiffness(View):
         balls = found.loaded_balls[found.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
         at = in_degrees(results.cage_angle)
-        return f"{'; '.join(parts)}. {count} balls carry load. Marked: cage angle {at}."
+        over = " Curves are over a turn of the shaft, with which a defect turns."
+        return f"{'; '.join(parts)}. {count} balls carry load. Marked: cage angle {at}." + (
+            over if results.over_shaft else ""
+        )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and sound."""
         found, sound = results.equilibrium, results.sound_equilibrium
         columns = {"cage_angle_deg": np.degrees(found.cage_angles)}
+        if results.over_shaft:
+            columns["shaft_angle_deg"] = results.along(found.cage_angles)
         for kind, answer in (("defective", found), ("sound", sound)):
             for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
                 columns[f"{kind}_{term}_{unit_name(unit)}"] = answer.term(term)
@@ -181,6 +198,7 @@ class Stiffness(View):
 
 
 _GAP = np.array([np.nan])
+_AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
 
 
 def _cleaned(values: np.ndarray, scale: float) -> np.ndarray:
@@ -236,7 +254,7 @@ def _static_parts(plot: figure) -> None:
     y = [-2.36, -2.52, -2.68]
     colors, widths = [DEFECTIVE, SOUND, INK], [2.4, 2.0, 1.2]
     plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
-    words = ["with the defect", "sound bearing", "cage angle now"]
+    words = ["with the defect", "sound bearing", "now"]
     legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": words})
     _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
 

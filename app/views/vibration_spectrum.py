@@ -48,7 +48,7 @@ class VibrationSpectra(View):
         level = wire.range("spectrum_level", -80.0, -20.0)
         lines = wire.source("spectrum_lines", "frequency", *SHOWN)
         sound = wire.source("spectrum_sound", "frequency", *SHOWN)
-        passes = wire.source("spectrum_passes", "frequency")
+        passes = wire.source("spectrum_passes", "frequency", "inner")
         first = wire.source("spectrum_first_pass", "frequency", "inner")
         plots, marks = [], []
         for dof in SHOWN:
@@ -133,14 +133,15 @@ class VibrationSpectra(View):
         loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
         low, high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 6.0)
         passing = pass_frequencies(results.scene, top)
+        first = {
+            name: column[np.searchsorted(passing["inner"], np.unique(passing["inner"]))]
+            for name, column in passing.items()
+        }
         sources: Sources = {
             "spectrum_lines": drawn,
             "spectrum_sound": levels(results.sound_spectra, top),
-            "spectrum_passes": {"frequency": passing},
-            "spectrum_first_pass": {
-                "frequency": passing[:1],
-                "inner": np.full(passing[:1].size, float(_inner(results.scene))),
-            },
+            "spectrum_passes": passing,
+            "spectrum_first_pass": first,
         }
         for index, dof in enumerate(figures.DIRECTIONS):
             if dof in SHOWN:
@@ -168,11 +169,13 @@ class VibrationSpectra(View):
             if words
             else "The housing cannot move along x or y in this scene"
         )
-        scene = results.scene
-        rate = scene.bearing.bpfi if _inner(scene) else scene.bearing.bpfo
-        passing = figures.number(rate(scene.shaft_speed), 4)
-        race = "inner" if _inner(scene) else "outer"
-        return f"{text}; balls pass a point of the {race} race at {passing} Hz."
+        passing = figures.list_words(
+            [
+                f"of the {race} race at {figures.number(frequency, 4)} Hz"
+                for race, frequency in passed(results.scene)
+            ]
+        )
+        return f"{text}; balls pass a point {passing}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
@@ -203,13 +206,22 @@ def levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]
     }
 
 
-def _inner(scene: Scene) -> bool:
-    return bool(scene.defects) and scene.defects[0].race == "inner"
+def passed(scene: Scene) -> list[tuple[str, float]]:
+    """Races with a defect and how often a point of them is passed [Hz]; outer without defects."""
+    bearing, speed = scene.bearing, scene.shaft_speed
+    races = {defect.race for defect in scene.defects} or {"outer"}
+    rates = {"outer": bearing.bpfo(speed), "inner": bearing.bpfi(speed)}
+    return [(race, rate) for race, rate in rates.items() if race in races]
 
 
-def pass_frequencies(scene: Scene, top: float) -> NDArray[np.float64]:
-    """Frequency at which balls pass the defect and its harmonics [Hz], up to `top`."""
-    bearing = scene.bearing
-    first = (bearing.bpfi if _inner(scene) else bearing.bpfo)(scene.shaft_speed)
-    count = int(top / first) if first > 0.0 else 0
-    return first * np.arange(1.0, count + 1.0)
+def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
+    """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
+
+    Columns: frequency, and whether it belongs to the inner race; the outer race comes first.
+    """
+    frequencies, inner = [np.empty(0)], [np.empty(0)]
+    for race, first in passed(scene):
+        count = int(top / first) if first > 0.0 else 0
+        frequencies.append(first * np.arange(1.0, count + 1.0))
+        inner.append(np.full(count, float(race == "inner")))
+    return {"frequency": np.concatenate(frequencies), "inner": np.concatenate(inner)}

@@ -12,7 +12,7 @@ from app.results import Results
 from app.views.vibration_spectrum import VibrationSpectra, decibels, pass_frequencies
 from app.views.vibration_time import EVENT_ROWS, LABEL_WIDTH, VibrationInTime, event_rows
 from app.wire import Wire
-from bearingcore import presets
+from bearingcore import Defect, presets
 
 FAN_RIG = presets["fan-rig"]
 
@@ -93,13 +93,34 @@ def test_bands_of_a_direction_stand_in_its_figure(results: Results) -> None:
 
 
 def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> None:
-    marks = pass_frequencies(FAN_RIG, 2500.0)
+    marks = pass_frequencies(FAN_RIG, 2500.0)["frequency"]
     assert marks[0] == pytest.approx(40.289, abs=1e-3)
     np.testing.assert_allclose(np.diff(marks), marks[0])
     assert 2500.0 - marks[0] < marks[-1] <= 2500.0
     inner = pass_frequencies(FAN_RIG.replace(race="inner"), 2500.0)
-    assert inner[0] == pytest.approx(14 * (7.0 - 2.8778), abs=1e-2)
-    assert pass_frequencies(FAN_RIG.replace(shaft_speed=0.0), 2500.0).size == 0
+    assert inner["frequency"][0] == pytest.approx(14 * (7.0 - 2.8778), abs=1e-2)
+    assert inner["inner"].all()
+    still = pass_frequencies(FAN_RIG.replace(shaft_speed=0.0), 2500.0)
+    assert still["frequency"].size == 0
+
+
+def test_defects_of_both_races_are_both_marked_and_named() -> None:
+    both = FAN_RIG.replace(defect=(FAN_RIG.defect, Defect(0.1, 50e-6, 1.0, "inner")))
+    results = Results(both)
+    sources, _ = VibrationSpectra(Wire()).data(results)
+    first = sources["spectrum_first_pass"]
+    assert first["inner"].tolist() == [0.0, 1.0]
+    assert first["frequency"] == pytest.approx([40.289, 57.711], abs=1e-3)
+    words = VibrationSpectra(Wire()).sentence(results)
+    assert "outer race at 40.29 Hz and of the inner race at 57.71 Hz" in words
+
+
+def test_an_inner_race_defect_is_shown_where_it_meets_load() -> None:
+    shown = Results(FAN_RIG.replace(race="inner")).excerpt
+    entering = next(event for event in shown.events if event.time == pytest.approx(0.0, abs=1e-9))
+    column = list(shown.balls).index(entering.ball)
+    before = shown.static_load[shown.static_time < 0.0, column]
+    assert before[-1] > 30.0, "the ball that enters carried nothing"
 
 
 def test_silence_has_a_level() -> None:

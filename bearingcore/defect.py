@@ -134,9 +134,11 @@ class Defect:
         R = self.raceway_radius(bearing)
         h = self.depth
         if self.edge == "exact":
-            # law of cosines: the ball touches floor and corner at once
+            # law of cosines: the ball touches floor and corner at once; one much larger than the
+            # inner race (2 or 3 balls) never reaches the floor
             rho = R + r_b - h if inner else R - r_b + h
-            s_floor = math.acos(min(1.0, (R * R + rho * rho - r_b * r_b) / (2.0 * R * rho)))
+            cosine = (R * R + rho * rho - r_b * r_b) / (2.0 * R * rho)
+            s_floor = math.acos(min(max(cosine, -1.0), 1.0))
         else:
             factor = 0.25 if self.edge == "published" else 1.0
             s_floor = math.sqrt(h * (2.0 * r_b - h) / factor) / R

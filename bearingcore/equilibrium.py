@@ -27,8 +27,8 @@ ANGLES_A_PERIOD = 121
 REASONS = {
     kernels.CONVERGED: "converged",
     kernels.NOTHING_TOUCHES: (
-        "nothing touches: no load acts along the free directions, so the ring floats in its "
-        "clearance and its place is not determined"
+        "nothing touches: no load acts along the free directions, so no ball is pressed and the "
+        "ring's place within its clearance is not determined"
     ),
     kernels.FREE_DIRECTION: "the ring can move without resistance along {free}",
     kernels.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
@@ -58,7 +58,9 @@ class Equilibrium:
     status : (n,)
         codes of `kernels`; `reason(i)` puts them into words.
     residual : (n,)
-        size of the unbalanced load over the size of the load, moments over r_d.
+        size of the unbalanced load over the size of the load, moments over r_d; to the load counts
+        what the held directions take. Converged is 1e-9 or less, or what the digits of a
+        displacement allow where a very light load meets very stiff balls.
     iterations, evaluations : (n,)
         Newton steps, and how often the energy was evaluated.
     state : (n, 5) [m]
@@ -183,7 +185,10 @@ def equilibrium(
         gone = status >= kernels.NOT_CARRIED
         loads[gone] = math.nan
         loaded[gone] = 0
-        nowhere = gone | (status == kernels.NOTHING_TOUCHES)
+        loose = status == kernels.NOTHING_TOUCHES
+        loads[loose] = 0.0
+        loaded[loose] = 0
+        nowhere = gone | loose
         displacement[nowhere] = math.nan
         stiffness[nowhere] = math.nan
     stiffness *= units[:, None] * units
@@ -221,9 +226,13 @@ def _explain(
         if status[k] == kernels.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
             values, vectors = np.linalg.eigh(K)
-            soft = vectors[:, values <= 10 * kernels.LEAST_PIVOT * values[-1]]
+            soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif status[k] == kernels.NOT_CONVERGED and runs_away(scene, angles[k], active, load):
+        elif (
+            status[k] == kernels.NOT_CONVERGED
+            and load.any()
+            and runs_away(scene, angles[k], active, load)
+        ):
             status[k] = kernels.NOT_CARRIED
 
 
@@ -255,5 +264,6 @@ def runs_away(
         A_eq=axial * ca - radial * sa,
         b_eq=zero,
         bounds=(-1.0, 1.0),
+        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
     return bool(answer.status == 0 and answer.fun is not None and answer.fun < -1e-9)

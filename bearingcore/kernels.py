@@ -60,11 +60,27 @@ PUBLISHED, CHORD, EXACT, INNER_EXACT, TABLE = 0, 1, 2, 3, 4
 # What became of a cage angle; the sentences are in equilibrium.py:
 CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
 
-# A residual |∂V/∂q| below this part of |F| ends the iteration; one that rounding keeps above it is
-# still taken below the second. The third is the least pivot, relative to the greatest stiffness,
-# that counts as a stiffness and not as a direction without one.
+# A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
+# it is still taken below the second. The third is the least pivot, relative to the greatest
+# stiffness, with which a Newton step is taken as it is.
 RESIDUAL_AIM, RESIDUAL_LIMIT, LEAST_PIVOT = 1e-12, 1e-9, 1e-12
-MOST_ITERATIONS = 200
+# So many Newton steps before another way is taken, and at each softness of that way.
+MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = 60, 600
+
+# A stiffness below this part of the greatest is none: rounding leaves more than it. Where a pivot
+# is below the second, taking them in the order of the directions does not tell.
+NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
+
+# Digits that q loses times the stiffness are a residual too: where a light load meets stiff balls
+# far from q = 0, none smaller can be had.
+ROUNDING = 4e-16
+
+# A ball that carries less than this many residuals may as well carry nothing.
+FAINT = 10.0
+
+# Where the centres of a loaded ball have passed each other nothing holds it along its line; nearer
+# than this part of A0 to passing, rounding decides whether they have.
+GUARD = 1e-12
 
 
 # ---------------------------------------------------------------------------- path of the ball
@@ -222,9 +238,11 @@ def compression(m, w, A0):
 def energy_gradient_hessian(q, F, c, s, d, ca, sa, A0, rL, K, g, H):
     """V(q) [N·m], its gradient g (5,) [N] and its Hessian H (5, 5) [N/m]; returns V and a scale.
 
-    The scale is the sum of the sizes of V's terms: rounding of V is a small part of it.
+    The scale is the sum of the sizes of V's terms: rounding of V is a small part of it. Third comes
+    the least load [N] that a touching ball carries.
     """
     energy = 0.0
+    faintest = math.inf
     f0 = 0.0
     f1 = 0.0
     f2 = 0.0
@@ -258,10 +276,12 @@ def energy_gradient_hessian(q, F, c, s, d, ca, sa, A0, rL, K, g, H):
         root = math.sqrt(delta)
         Q = K * delta * root  # Equation (13)
         k1 = 1.5 * K * root
-        k2 = Q / A if A0 + m > 0.0 else 0.0
+        k2 = Q / A if A0 + m > GUARD * A0 else 0.0
         er = eu * ca - ew * sa  # Equation (14): er = cos α_j, ez = sin α_j
         ez = eu * sa + ew * ca
         energy += 0.4 * Q * delta
+        if Q < faintest:  # noqa: SIM300
+            faintest = Q
         Qr = Q * er
         Qz = Q * ez
         f0 += Qr * cj  # Equation (15)
@@ -312,7 +332,7 @@ def energy_gradient_hessian(q, F, c, s, d, ca, sa, A0, rL, K, g, H):
     H[4, 2] = -g_c  # (A.12)
     H[4, 3] = -g_cs  # (A.14)
     H[4, 4] = g_cc  # (A.15)
-    return energy - work, energy + abs(work)
+    return energy - work, energy + abs(work), faintest
 
 
 # ------------------------------------------------------------------------------------ statics
@@ -360,52 +380,139 @@ def newton_direction(H, g, active, shift, L, p):
 
 
 @compiled
-def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial):
-    """Move q to the minimum of V over the active directions; Newton's method with a line search.
+def least_pivot(H, active):
+    """Least pivot of H over the active directions, relative to the greatest, the greatest first.
 
-    G (2, 5) and H (2, 5, 5) are work space. Returns (which, status, residual, iterations,
-    evaluations): G[which] and H[which] belong to the final q.
+    In any other order a pivot that should be zero keeps the rounding of those before it, divided by
+    the least of them.
     """
-    size = 0.0
+    n = active.size
+    A = np.empty((n, n))
+    for i in range(n):
+        for j in range(n):
+            A[i, j] = H[max(active[i], active[j]), min(active[i], active[j])]
+    greatest = 0.0
+    least = 0.0
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if A[i, i] > A[best, best]:
+                best = i
+        for i in range(n):
+            A[k, i], A[best, i] = A[best, i], A[k, i]
+        for i in range(n):
+            A[i, k], A[i, best] = A[i, best], A[i, k]
+        least = A[k, k]
+        if k == 0:
+            greatest = least
+        if least <= NO_PIVOT * greatest:
+            return 0.0
+        for i in range(k + 1, n):
+            for j in range(k + 1, n):
+                A[i, j] -= A[i, k] * A[k, j] / least
+    return least / greatest
+
+
+@compiled
+def without_faint(q, F, noise, c, s, d, active, ca, sa, A0, rL, K, G, H, now):
+    """Whether the balls that carry more than `noise` [N] hold the ring on their own.
+
+    The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
+    they held the ring there. Returns the least pivot without them, and which of H has it: the other
+    one where the ring is not held.
+    """
+    firm = 0
+    c2 = np.empty(c.size)
+    s2 = np.empty(c.size)
+    d2 = np.empty(c.size)
+    for j in range(c.size):
+        r = q[0] * c[j] + q[1] * s[j] - rL
+        z = q[2] + q[3] * s[j] - q[4] * c[j]
+        delta, _, _, _ = compression(r * ca + z * sa - d[j], z * ca - r * sa, A0)
+        if K * delta * math.sqrt(max(delta, 0.0)) > noise:
+            c2[firm] = c[j]
+            s2[firm] = s[j]
+            d2[firm] = d[j]
+            firm += 1
+    energy_gradient_hessian(
+        q, F, c2[:firm], s2[:firm], d2[:firm], ca, sa, A0, rL, K, G[1 - now], H[1 - now]
+    )
+    least = least_pivot(H[1 - now], active)
+    return least, now if least > NO_PIVOT else 1 - now
+
+
+@compiled
+def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
+    """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
+
+    Other arguments and what is returned are those of `minimise_energy`.
+    """
+    now = 0
+    V, scale, faintest = energy_gradient_hessian(
+        q, F, c, s, d, ca, sa, A0, rL, K, G[0], H[0]
+    )
+    evaluations = 1
+    carried = 0.0
     for i in active:
-        size += F[i] * F[i]
-    size = math.sqrt(size)
+        carried += F[i] * F[i]
+    size = math.sqrt(carried)
     if size == 0.0:
-        return 0, NOTHING_TOUCHES, math.nan, 0, 0
+        # only a clearance so large that the ring, held axially, is wedged presses balls
+        for i in range(5):
+            size += (G[0, i] + F[i]) ** 2
+        size = math.sqrt(size)
+        if size == 0.0 or 2 in active:
+            return 0, NOTHING_TOUCHES, math.nan, 0, 1
     k_typical = 1.5 * (K * K * size) ** (1.0 / 3.0)  # of one ball under all of the load
     shift_part = 1e-3
-    now = 0
-    V, scale = energy_gradient_hessian(q, F, c, s, d, ca, sa, A0, rL, K, G[0], H[0])
-    evaluations = 1
     residual = math.inf
-    for iteration in range(MOST_ITERATIONS):
+    stuck = False
+    for iteration in range(most):
         g = G[now]
         norm = 0.0
+        taken = 0.0  # by what holds the directions that are not active
+        reach = 0.0
+        for i in range(5):
+            taken += (g[i] + F[i]) ** 2
+            reach = max(reach, abs(q[i]))
+        stiffest = 0.0
         for i in active:
+            taken -= (g[i] + F[i]) ** 2
             norm += g[i] * g[i]
+            stiffest = max(stiffest, H[now, i, i])
+        whole = math.sqrt(carried + max(taken, 0.0))
+        if whole <= RESIDUAL_AIM * size:
+            return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
         before = residual
-        residual = math.sqrt(norm) / size
+        residual = math.sqrt(norm) / whole
+        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
         least = newton_direction(H[now], g, active, 0.0, L, p)
-        settled = residual <= RESIDUAL_LIMIT and residual >= 0.5 * before
-        if residual <= RESIDUAL_AIM or settled:
-            status = CONVERGED if least > LEAST_PIVOT else FREE_DIRECTION
+        settled = residual <= limit and residual >= 0.5 * before
+        if residual <= RESIDUAL_AIM or settled or stuck:
+            noise = FAINT * max(residual, RESIDUAL_AIM) * whole
+            if faintest < noise:
+                least, now = without_faint(
+                    q, F, noise, c, s, d, active, ca, sa, A0, rL, K, G, H, now
+                )
+            if least < DOUBTFUL_PIVOT:
+                least = least_pivot(H[now], active)
+            status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
             return now, status, residual, iteration, evaluations
         if not least > LEAST_PIVOT:
             # too few balls touch: a small spring to ground stands in for the missing stiffness
-            stiffest = k_typical
-            for i in active:
-                stiffest = max(stiffest, H[now, i, i])
-            newton_direction(H[now], g, active, shift_part * stiffest, L, p)
+            newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
             shift_part = max(0.1 * shift_part, 1e-10)
         slope = 0.0
         for i in active:
             slope += g[i] * p[i]
         step = 1.0
+        short = 0.0
+        long = math.inf
         found = False
         for _ in range(60):
             for i in active:
                 trial[i] = q[i] + step * p[i]
-            V1, scale1 = energy_gradient_hessian(
+            V1, scale1, faintest1 = energy_gradient_hessian(
                 trial, F, c, s, d, ca, sa, A0, rL, K, G[1 - now], H[1 - now]
             )
             evaluations += 1
@@ -416,21 +523,99 @@ def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial)
             if V + 1e-4 * step * slope >= V1 or (
                 abs(slope1) <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V
             ):
-                found = True
-                break
-            secant = slope / (slope - slope1) if slope1 > 0.0 else 0.5
-            step *= min(max(secant, 0.05), 0.6)
+                if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
+                    found = True
+                    break
+                # V still falls as steeply as at the start: between here and the step that was
+                # too long there is a better one
+                short = step
+                step = math.sqrt(short * long)
+            else:
+                long = step
+                secant = slope / (slope - slope1) if slope1 > 0.0 else 0.5
+                step *= min(max(secant, 0.05), 0.6)
+                if step <= short:
+                    step = math.sqrt(short * long)
         if not found:
-            status = NOT_CONVERGED
-            if residual <= RESIDUAL_LIMIT:
-                status = CONVERGED if least > LEAST_PIVOT else FREE_DIRECTION
-            return now, status, residual, iteration, evaluations
+            if residual > limit:
+                return now, NOT_CONVERGED, residual, iteration, evaluations
+            stuck = True
+            continue
         for i in active:
             q[i] = trial[i]
         V = V1
         scale = scale1
+        faintest = faintest1
         now = 1 - now
-    return now, NOT_CONVERGED, residual, MOST_ITERATIONS, evaluations
+    return now, NOT_CONVERGED, residual, most, evaluations
+
+
+@compiled
+def descend_with_soft_balls(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial):
+    """Move q to the minimum of V where `descend` has not come to its end.
+
+    A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
+    as wide as a compression; Newton's straight steps in it are short. It is reached with soft balls
+    first, whose valley is wide, and from there with harder ones: how far their answers lie apart is
+    about what the softer balls are compressed. Arguments and what is returned are those of
+    `minimise_energy`.
+    """
+    size = 0.0
+    for i in active:
+        size += F[i] * F[i]
+    size = math.sqrt(size)
+    iterations = 0
+    evaluations = 0
+    if size == 0.0:
+        return 0, NOT_CONVERGED, math.nan, 0, 0
+    soft = A0  # compression of one ball under all of the load, for the softness now
+    hard = (size / K) ** (2.0 / 3.0)
+    start = np.zeros(5)
+    for i in active:
+        start[i] = (rL / ca + soft) * F[i] / size
+    ratio = 1.0
+    for _ in range(40):
+        target = max(soft * ratio, hard)
+        Ks = K if target == hard else size / (target * math.sqrt(target))
+        for i in active:
+            q[i] = start[i]
+        now, status, residual, more, evals = descend(
+            q, F, c, s, d, active, ca, sa, A0, rL, Ks, G, H, L, p, trial,
+            MOST_PATIENT_ITERATIONS,
+        )
+        iterations += more
+        evaluations += evals
+        if status != NOT_CONVERGED:
+            if Ks == K:
+                return now, status, residual, iterations, evaluations
+            for i in active:
+                start[i] = q[i]
+            soft = target
+            ratio = 0.1 if ratio == 1.0 else max(ratio * ratio, 1e-4)
+        elif ratio == 1.0 or ratio > 0.7:
+            break
+        else:
+            ratio = math.sqrt(ratio)
+    return now, NOT_CONVERGED, residual, iterations, evaluations
+
+
+@inlined
+def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial):
+    """Move q to the minimum of V over the active directions.
+
+    G (2, 5) and H (2, 5, 5) are work space. Returns (which, status, residual, iterations,
+    evaluations): G[which] and H[which] belong to the final q.
+    """
+    now, status, residual, iterations, evaluations = descend(
+        q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, MOST_ITERATIONS
+    )
+    if status == NOT_CONVERGED:
+        now, status, residual, more, calls = descend_with_soft_balls(
+            q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial
+        )
+        iterations += more
+        evaluations += calls
+    return now, status, residual, iterations, evaluations
 
 
 @inlined
@@ -498,7 +683,7 @@ def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL,
         if k > 0 and status[k - 1] >= NOT_CARRIED:
             for i in active:
                 state[i] = reach * F[i] / size
-        elif k >= 3:
+        elif k >= 3 and max(status[k - 2], status[k - 3]) < NOT_CARRIED:
             foresee(cage_angles, k, q, active, state)
         now, status[k], residuals[k], iterations[k], evaluations[k] = minimise_energy(
             state, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial

@@ -1,0 +1,457 @@
+"""The contact written a second time, slowly and in extended precision, and a judge of answers.
+
+Nothing here is shared with the compiled code but the drop of a ball's centre, which has tests of
+its own. Tilts are carried as r_d θ and moments as M/r_d, so that q is five lengths and F five
+forces.
+
+Quantity                                           | Symbol   | Unit
+-------------------------------------------------- | -------- | ----
+vector between the groove centres                  | δr*, δz* | m
+its part along the unloaded line of contact        | p        | m
+its length, and the compression                    | A, δ     | m
+gradients in q of the ball's motion along and across the unloaded line | along, across |
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, wraps
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+from bearingcore import DOF_NAMES, Equilibrium, Scene, kernels
+
+Long = np.longdouble
+Array = NDArray[np.floating]
+
+RESIDUAL = 1e-9
+"""What every answer has to meet, relative to the load."""
+
+ABOUT_TO_PASS = 1e-9
+"""Part of A0. A loaded ball whose groove centres have passed each other is held across its line
+only, and the stiffness jumps there; nearer to passing than this, either is right."""
+
+FAINT, TOO_FAINT = 1e-8, 1e-13
+"""Parts of the load. Where only balls that carry less hold a direction, it may be called free,
+and below the second it must: what a residual cannot see holds nothing."""
+
+
+def remembered(method: Callable[..., Any]) -> Callable[..., Any]:
+    """A method of `Balls` and q that is computed once for each q."""
+
+    @wraps(method)
+    def recall(self: Balls, q: Array) -> Any:
+        key = (method.__name__, np.asarray(q, dtype=Long).tobytes())
+        if key not in self.memory:
+            self.memory[key] = method(self, q)
+        return self.memory[key]
+
+    return recall
+
+
+@dataclass(frozen=True)
+class Balls:
+    """The balls of a scene at one cage angle [rad], and the energy of the inner ring on them."""
+
+    scene: Scene
+    cage_angle: float
+    memory: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False, compare=False)
+
+    @cached_property
+    def angle(self) -> NDArray[np.float64]:
+        """(N_b,) [rad]"""
+        n = self.scene.bearing.n_balls
+        return self.cage_angle + 2.0 * math.pi / n * np.arange(n)
+
+    @cached_property
+    def drop(self) -> Array:
+        """(N_b,) [m] into all defects."""
+        bearing = self.scene.bearing
+        total = np.zeros(bearing.n_balls, dtype=Long)
+        for defect in self.scene.defects:
+            total += defect.path(self.angle, bearing, self.cage_angle)
+        return total
+
+    @cached_property
+    def load(self) -> Array:
+        """(5,) [N], moments over r_d."""
+        return self.scene.load.vector.astype(Long) / self.units
+
+    @cached_property
+    def units(self) -> Array:
+        """(5,) what a scaled displacement is divided by to give metres and radians."""
+        return np.array([1.0, 1.0, 1.0, *[self.scene.bearing.groove_center_radius] * 2], dtype=Long)
+
+    @cached_property
+    def radial_axial(self) -> tuple[Array, Array]:
+        """Gradients (N_b, 5) of a ball's radial and axial displacement (Eqs. 11, 12)."""
+        c, s = np.cos(self.angle.astype(Long)), np.sin(self.angle.astype(Long))
+        zero, one = np.zeros_like(c), np.ones_like(c)
+        return np.stack([c, s, zero, zero, zero], 1), np.stack([zero, zero, one, s, -c], 1)
+
+    @cached_property
+    def along_across(self) -> tuple[Array, Array]:
+        """Gradients (N_b, 5) of a ball's motion along and across the unloaded line of contact."""
+        radial, axial = self.radial_axial
+        ca, sa = self._line
+        return radial * ca + axial * sa, axial * ca - radial * sa
+
+    @property
+    def _line(self) -> tuple[Array, Array]:
+        alpha = Long(self.scene.bearing.contact_angle)
+        return np.cos(alpha), np.sin(alpha)
+
+    @remembered
+    def vector(self, q: Array) -> tuple[Array, Array, Array]:
+        """δr*, δz* (N_b,) [m] (Eqs. 9, 10) with a negative p taken off, and p over A0."""
+        bearing = self.scene.bearing
+        ca, sa = self._line
+        radial, axial = self.radial_axial
+        A0, clearance = Long(bearing.groove_center_distance), Long(bearing.radial_clearance)
+        dr = A0 * ca + radial @ q.astype(Long) - clearance - self.drop * ca
+        dz = A0 * sa + axial @ q.astype(Long) - self.drop * sa
+        p = dr * ca + dz * sa
+        back = np.minimum(p, 0.0)
+        return dr - back * ca, dz - back * sa, p / A0
+
+    @remembered
+    def compression(self, q: Array) -> Array:
+        """δ (N_b,) [m], negative for gaps."""
+        dr, dz, _ = self.vector(q)
+        return np.hypot(dr, dz) - Long(self.scene.bearing.groove_center_distance)
+
+    @remembered
+    def ball_load(self, q: Array) -> Array:
+        """Q (N_b,) [N] (Eq. 13)."""
+        K = Long(self.scene.bearing.load_deflection_factor)
+        return K * np.maximum(self.compression(q), 0.0) ** Long(1.5)
+
+    def energy(self, q: Array) -> float:
+        """V(q) [N·m]: what the contacts store, less the work of the load."""
+        K = Long(self.scene.bearing.load_deflection_factor)
+        stored = K / Long(2.5) * np.sum(np.maximum(self.compression(q), 0.0) ** Long(2.5))
+        return stored - self.load @ q.astype(Long)
+
+    @remembered
+    def directions(self, q: Array) -> tuple[Array, Array]:
+        """Gradients (N_b, 5) in q along each contact and across it."""
+        dr, dz, _ = self.vector(q)
+        A = np.maximum(np.hypot(dr, dz), Long(1e-300))[:, None]
+        er, ez = dr[:, None] / A, dz[:, None] / A
+        radial, axial = self.radial_axial
+        return er * radial + ez * axial, er * axial - ez * radial
+
+    @remembered
+    def contact_force(self, q: Array) -> Array:
+        """(5,) [N] with which the contacts resist the load (Eq. 15)."""
+        return self.ball_load(q) @ self.directions(q)[0]
+
+    def stiffness(self, q: Array, passed: float = 0.0, faint: float = 0.0) -> Array:
+        """(5, 5) [N/m] (Eq. 17), from directions along and across each contact.
+
+        `passed` is the p, over A0, up to which the centres of a ball count as passed, `faint` the
+        load [N] from which on a ball counts.
+        """
+        K = Long(self.scene.bearing.load_deflection_factor)
+        dr, dz, p = self.vector(q)
+        along, across = self.directions(q)
+        load = self.ball_load(q)
+        load = np.where(load > faint, load, 0.0)
+        push = Long(1.5) * np.cbrt(K) ** 2 * np.cbrt(load)
+        turn = np.where(p > passed, load / np.maximum(np.hypot(dr, dz), Long(1e-300)), 0.0)
+        return (along.T * push) @ along + (across.T * turn) @ across
+
+    def unbalanced(self, q: Array, active: list[int]) -> float:
+        """Size of the unbalanced load along `active` [N]."""
+        return float(np.linalg.norm((self.contact_force(q) - self.load)[active].astype(float)))
+
+    def whole_load(self, q: Array, active: list[int]) -> float:
+        """Size of the load along `active` and of what the other directions take [N]."""
+        whole = self.contact_force(q).copy()
+        whole[active] = self.load[active]
+        return float(np.linalg.norm(whole.astype(float)))
+
+    def way_out(self, active: list[int]) -> tuple[NDArray[np.float64], float]:
+        """Direction w (5,) in which the load works and no ball is ever pressed, and that share.
+
+        A ball stays free for ever just when it moves straight back along its unloaded line. All
+        such w form the cone {along·w ≤ 0, across·w = 0}. What is left of F after the nearest
+        combination of contact forces is taken off, F − Σ a along − Σ b across with a ≥ 0, is the
+        projection of F on that cone. Its share of F is 0 where contacts can carry all.
+        """
+        along, across = (
+            np.where(np.abs(rows) < 1e-13, 0.0, rows)[:, active].astype(float)
+            for rows in self.along_across
+        )
+        F = self.load[active].astype(float)
+        _, sizes, vectors = np.linalg.svd(np.vstack([across, np.zeros((5, len(active)))]))
+        still = vectors[sizes[: len(active)] <= 1e-10]
+        w = np.zeros(5)
+        if len(still):
+            pressing = still @ along.T
+            pressing[np.abs(pressing) < 1e-13] = 0.0
+            working = still @ F / np.linalg.norm(F)
+            w[active] = beyond_cone(pressing, working) @ still
+        return w, float(np.linalg.norm(w))
+
+
+def beyond_cone(rays: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What is left of `point` (m,) after its nearest in the cone of rays (m, k) is taken off.
+
+    Lawson and Hanson's active sets, with a tolerance: rays here often come in opposite pairs.
+    """
+    inside: list[int] = []
+    amounts = np.zeros(rays.shape[1])
+    for _ in range(10 * rays.shape[1]):
+        gain = (point - rays @ amounts) @ rays
+        gain[inside] = -np.inf
+        if gain.max() <= 1e-11:
+            break
+        inside.append(int(gain.argmax()))
+        while True:
+            wanted = np.linalg.lstsq(rays[:, inside], point, rcond=1e-11)[0]
+            if np.all(wanted > 0.0):
+                break
+            now = amounts[inside]
+            blocking = wanted <= 0.0
+            step = np.min(now[blocking] / (now[blocking] - wanted[blocking]), initial=1.0)
+            amounts[inside] = np.maximum(now + step * (wanted - now), 0.0)
+            inside = [j for j in inside if amounts[j] > 1e-13]
+            amounts[[j for j in range(len(amounts)) if j not in inside]] = 0.0
+            if not inside:
+                return point
+        amounts[inside] = wanted
+    return point - rays @ amounts
+
+
+def rounding_of_residual(balls: Balls, q: Array) -> float:
+    """What residual [N] rounding of q and of the balls' places to double precision can make.
+
+    A digit lost of q changes a compression by ε|q|, and the load by the contact's stiffness times
+    that; a digit lost of a ball's angle counts where a loaded ball stands on a defect's edge.
+    """
+    eps = np.finfo(float).eps
+    bearing = balls.scene.bearing
+    size = np.abs(q).max() + bearing.groove_center_distance + bearing.radial_clearance
+    deepest = max((defect.depth for defect in balls.scene.defects), default=0.0)
+    on_edge = (balls.drop > 0.0) & (balls.drop < deepest) & (balls.ball_load(q) > 0.0)
+    if np.any(on_edge):
+        size += 10.0 * bearing.outer_raceway_radius
+    factor = Long(bearing.load_deflection_factor)
+    steepest = 1.5 * np.sum(np.cbrt(factor**2 * balls.ball_load(q)))
+    return float(4.0 * eps * size * steepest)
+
+
+REACHES = (1e-3, 1e-5, 1e-7)
+"""How far to go along a free direction, in parts of the greatest compression or of A0: the nearer
+ones where other balls or centres about to pass are met before."""
+
+
+def flat_directions(
+    balls: Balls, q: Array, active: list[int], faint: float, passed: float
+) -> NDArray[np.float64]:
+    """Orthonormal directions (k, 5) out of `active` along which no loaded ball feels anything.
+
+    Balls count that carry more than the part `faint` of the load.
+    """
+    loaded = balls.ball_load(q) > faint * balls.whole_load(q, active)
+    held_across = loaded & (balls.vector(q)[2] > passed)
+    along, across = balls.directions(q)
+    rows = np.vstack([along[loaded], across[held_across]])[:, active].astype(float)
+    _, sizes, vectors = np.linalg.svd(np.vstack([rows, np.zeros((len(active), len(active)))]))
+    still = vectors[sizes[: len(active)] <= 1e-9 * max(sizes[0], 1e-300)]
+    flat = np.zeros((len(still), 5))
+    flat[:, active] = still
+    return flat
+
+
+def way_to_move(
+    balls: Balls, q: Array, flat: NDArray[np.float64], dof: int, reach: float
+) -> NDArray[np.float64]:
+    """The combination (5,) of flat directions that moves `dof` most at no cost.
+
+    It must not bring centres back that are about to pass, nor press a ball that just touches.
+    Zero where every combination would.
+    """
+    load, depth = balls.ball_load(q), balls.compression(q)
+    passing = balls.vector(q)[2]
+    nearly = -3.0 * reach / balls.scene.bearing.groove_center_distance
+    about = (load > 0.0) & (passing > nearly) & (passing <= ABOUT_TO_PASS)
+    touching = (depth > -3.0 * reach) & (load <= FAINT * np.max(load))
+    along = np.vstack([balls.along_across[0][about], balls.directions(q)[0][touching]])
+    along = along.astype(float)
+    best = np.zeros(5)
+    for sign in (-1.0, 1.0):
+        found = linprog(
+            -sign * flat[:, dof],
+            A_ub=along @ flat.T if len(along) else None,
+            b_ub=np.zeros(len(along)) if len(along) else None,
+            bounds=(-1.0, 1.0),
+        )
+        way = found.x @ flat
+        if abs(way[dof]) > abs(best[dof]):
+            best = way
+    return best
+
+
+def verdict(answer: Equilibrium, i: int) -> str:
+    """What is wrong with the answer at cage angle i; an empty string where nothing is."""
+    balls = Balls(answer.scene, float(answer.cage_angles[i]))
+    active = [DOF_NAMES.index(name) for name in answer.dofs]
+    judge = {
+        kernels.CONVERGED: _judge_converged,
+        kernels.NOTHING_TOUCHES: _judge_nothing_touches,
+        kernels.FREE_DIRECTION: _judge_free,
+        kernels.NOT_CARRIED: _judge_not_carried,
+    }.get(int(answer.status[i]))
+    if judge is None:
+        return answer.reason(i)
+    return judge(answer, i, balls, active)
+
+
+def _judge_equilibrium(
+    answer: Equilibrium, i: int, balls: Balls, q: Array, active: list[int]
+) -> str:
+    """Balance of forces, ball loads and stiffness at q, which is an answer or one of many."""
+    size = balls.whole_load(q, active)
+    spoilt = rounding_of_residual(balls, q)
+    rounding = spoilt / size
+    if not answer.residual[i] <= max(RESIDUAL, rounding):
+        return f"residual said to be {answer.residual[i]:.2e}"
+    found = balls.unbalanced(q, active) / size
+    if not found <= RESIDUAL + rounding:
+        return f"residual is {found:.2e}, rounding makes {rounding:.1e} of it"
+    loads = balls.ball_load(q).astype(float)
+    off = np.abs(answer.ball_load[i] - loads).max() / size
+    if not off <= RESIDUAL + rounding:
+        return f"ball loads off by {off:.2e} of the load"
+    if answer.loaded_balls[i] != np.count_nonzero(answer.ball_load[i] > 0.0):
+        return "number of loaded balls is not that of ball loads above zero"
+    units = balls.units.astype(float)
+    K = answer.stiffness[i] / (units[:, None] * units)
+    if not np.all(np.isfinite(K)) or not np.array_equal(answer.stiffness[i], answer.stiffness[i].T):
+        return "stiffness not symmetric"
+    values = np.linalg.eigvalsh(K)
+    if not values[0] >= -1e-13 * values[-1]:
+        return f"stiffness has an eigenvalue of {values[0] / values[-1]:.1e} of the greatest"
+    faint = FAINT * size if answer.status[i] != kernels.CONVERGED else 0.0
+    least = balls.stiffness(q, ABOUT_TO_PASS, faint).astype(float)
+    most = balls.stiffness(q, -ABOUT_TO_PASS).astype(float)
+    # what rounding leaves of a load it leaves of a stiffness, more where a ball only just touches
+    factor = balls.scene.bearing.load_deflection_factor
+    spoilt += 1e-12 * size
+    touched = loads[loads > 0.0]
+    push = 1.5 * np.cbrt(factor**2 * touched)
+    grace = np.minimum(push * spoilt / touched, 1.5 * np.cbrt(factor**2 * spoilt))
+    allowed = 1e-11 * values[-1] + 4.0 * float(np.sum(grace))
+    for below, above in ((least, K), (K, most)):
+        off = -np.linalg.eigvalsh(above - below)[0]
+        if not off <= allowed:
+            return f"stiffness off by {off / values[-1]:.1e}"
+    return ""
+
+
+def _judge_converged(answer: Equilibrium, i: int, balls: Balls, active: list[int]) -> str:
+    """A balanced state, held in every active direction, hence the only one."""
+    q = answer.displacement[i] * balls.units
+    held = [k for k in range(5) if k not in active]
+    if np.any(q[held] != 0.0) or not np.all(np.isfinite(q)):
+        return "displacement moves where it is held, or is not a number"
+    wrong = _judge_equilibrium(answer, i, balls, q, active)
+    if not wrong and len(flat_directions(balls, q, active, TOO_FAINT, -ABOUT_TO_PASS)):
+        return "called converged, though a direction is free"
+    return wrong
+
+
+def _judge_nothing_touches(answer: Equilibrium, i: int, balls: Balls, active: list[int]) -> str:
+    """No load along the active directions, and a place where no ball is pressed."""
+    if np.any(balls.load[active] != 0.0):
+        return "nothing touches, though a load acts"
+    middle = np.zeros(5)
+    wedged = np.max(balls.ball_load(middle))
+    if 2 in active:
+        # a clearance beyond A0 presses a ring in its middle, unless it moves along its axis
+        bearing = balls.scene.bearing
+        middle[2] = -bearing.radial_clearance * math.tan(bearing.contact_angle)
+    pressed = min(np.max(balls.ball_load(q)) for q in (middle, answer.state[i]))
+    if pressed > 1e-9 * wedged + 1e-12:
+        return f"nothing touches, though a ball is pressed by {pressed:.1e} N"
+    if not np.all(np.isnan(answer.displacement[i])) or not np.all(np.isnan(answer.stiffness[i])):
+        return "an undetermined place has a number"
+    if np.any(answer.ball_load[i] != 0.0) or answer.loaded_balls[i] != 0:
+        return "nothing touches, yet a ball carries load"
+    return ""
+
+
+def _judge_free(answer: Equilibrium, i: int, balls: Balls, active: list[int]) -> str:
+    """A balanced state, and the directions named are those that can move at no cost."""
+    q = answer.state[i].astype(Long)
+    wrong = _judge_equilibrium(answer, i, balls, q, active)
+    if wrong:
+        return wrong
+    flat = flat_directions(balls, q, active, FAINT, ABOUT_TO_PASS)
+    if not len(flat):
+        return "called free, though every direction is held"
+    named = np.isnan(answer.displacement[i])
+    most = np.abs(flat).max(axis=0) > 1e-6
+    surely = flat_directions(balls, q, active, TOO_FAINT, -ABOUT_TO_PASS)
+    least = np.abs(surely).max(axis=0, initial=0.0) > 1e-6
+    if not named.any() or np.any(named & ~most) or np.any(least & ~named):
+        return f"free are {np.flatnonzero(most)}, named are {np.flatnonzero(named)}"
+    size = min(float(balls.compression(q).max()), balls.scene.bearing.groove_center_distance)
+    for dof in np.flatnonzero(named):
+        if not any(
+            _costs_nothing(balls, q, active, flat, int(dof), part * size) for part in REACHES
+        ):
+            return f"energy rises along direction {dof}, called free"
+    return ""
+
+
+def _costs_nothing(
+    balls: Balls, q: Array, active: list[int], flat: NDArray[np.float64], dof: int, reach: float
+) -> bool:
+    """Whether the energy [N·m] stays the same at `reach` [m] along some free direction."""
+    # the load's own share is the residual that is allowed
+    stiffest = float(np.trace(balls.stiffness(q)))
+    allowed = 1e-9 * stiffest * reach**2 + 1e-8 * balls.whole_load(q, active) * reach
+    level = balls.energy(q)
+
+    def rise(way: Array) -> float:
+        return abs(float(balls.energy(q + reach * way.astype(Long)) - level))
+
+    straight = flat[np.argmax(np.abs(flat[:, dof]))]
+    if min(rise(straight), rise(-straight)) <= allowed:
+        return True
+    way = way_to_move(balls, q, flat, dof, reach)
+    if abs(way[dof]) < 1e-7:
+        # balls that just touch on all sides press with the power 1.5, so without stiffness
+        way = straight
+        pressed = np.maximum(balls.compression(q + reach * way), 0.0).astype(float)
+        faint = balls.ball_load(q) <= FAINT * balls.whole_load(q, active)
+        allowed += balls.scene.bearing.load_deflection_factor * float(np.sum(pressed[faint] ** 2.5))
+    return rise(way) <= allowed
+
+
+def _judge_not_carried(answer: Equilibrium, i: int, balls: Balls, active: list[int]) -> str:
+    """There is a direction in which the energy falls without end."""
+    if np.any(np.isfinite(answer.displacement[i])) or np.any(np.isfinite(answer.stiffness[i])):
+        return "a state that is not has a number"
+    w, share = balls.way_out(active)
+    if share < 0.5 * RESIDUAL:
+        return f"called not carried, though contacts can carry all but {share:.1e} of the load"
+    way = w.astype(Long) / np.linalg.norm(w)
+    way[np.abs(way) < 1e-7] = 0.0
+    fall = float(balls.load[active] @ way[active])
+    clearance = balls.scene.bearing.radial_clearance
+    # far enough out that every ball which moves back has lost touch
+    far = 1e3 * float(balls.scene.bearing.groove_center_distance + balls.drop.max() + clearance)
+    levels = [float(balls.energy(far * k * way)) for k in (1, 2, 4, 8)]
+    if not all(b - a < -0.4 * fall * far for a, b in itertools.pairwise(levels)):
+        return f"energy does not fall without end: {levels}"
+    return ""

@@ -1,0 +1,501 @@
+"""What symmetry, mechanics and dimension demand of the statics and of the motion, whatever the
+numbers are.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import (
+    DOF_NAMES,
+    EDGES,
+    Bearing,
+    Defect,
+    Equilibrium,
+    Load,
+    Scene,
+    equilibrium,
+    presets,
+    simulate,
+)
+from tests.independent import Balls
+
+LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
+TILTED = LIEW_LIM.replace(fx=300.0, mx=4.0, my=-3.0, extent=math.radians(50.0))
+"""All five loads, and a defect that several balls stand in."""
+
+SCENES = {
+    "five loads": TILTED,
+    "as printed": LIEW_LIM,
+    "sound": TILTED.sound(),
+    "chord edges": TILTED.replace(edge="chord", depth=200e-6),
+    "exact edges": TILTED.replace(edge="exact", depth=20e-6),
+    "inner race": TILTED.replace(race="inner", edge="exact"),
+    "zero contact angle": TILTED.replace(contact_angle=0.0, radial_clearance=5e-6),
+    "steep contact angle": TILTED.replace(contact_angle=math.radians(60.0), fz=5000.0),
+    "fan rig, five directions": FAN_RIG.replace(fz=20.0, mx=0.1, my=-0.2),
+}
+every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
+
+ANGLES = np.array([0.05, 0.23, 0.41])
+
+
+def solve(scene: Scene, angles: np.ndarray = ANGLES) -> Equilibrium:
+    """Static states, all of which must be there."""
+    answer = equilibrium(scene, angles, DOF_NAMES)
+    assert answer.converged.all()
+    return answer
+
+
+def lengths(scene: Scene) -> np.ndarray:
+    """What turns metres and radians into lengths: r_d along the tilts."""
+    lever = scene.bearing.groove_center_radius
+    return np.array([1.0, 1.0, 1.0, lever, lever])
+
+
+def assert_close(found: np.ndarray, expected: np.ndarray, scene: Scene, tolerance: float) -> None:
+    """Equal as displacements (n, 5) or stiffness (n, 5, 5), relative to the greatest number."""
+    scale = lengths(scene)
+    if found.ndim == 3:
+        scale = 1.0 / (scale[:, None] * scale)
+    size = np.abs(expected * scale).max()
+    assert np.abs((found - expected) * scale).max() <= tolerance * size
+
+
+def transformed(scene: Scene, matrix: np.ndarray, defect_center: float) -> Scene:
+    """The scene with its load vector multiplied by `matrix` and its defect moved."""
+    fx, fy, fz, mx, my = (matrix @ scene.load.vector).tolist()
+    moved = scene.replace(fx=fx, fy=fy, fz=fz, mx=mx, my=my)
+    return moved if scene.defect.is_none else moved.replace(center=defect_center)
+
+
+# --- symmetry ------------------------------------------------------------------------------------
+
+
+@every_scene
+@pytest.mark.parametrize("turn", [0.1, 1.0, 2.5, -2.0])
+def test_rotating_load_defect_and_cage_rotates_the_answer(scene: Scene, turn: float) -> None:
+    """Forces and moments are vectors of the plane; displacement and stiffness turn with them."""
+    c, s = math.cos(turn), math.sin(turn)
+    R = np.eye(5)
+    R[:2, :2] = R[3:, 3:] = [[c, -s], [s, c]]
+    before = solve(scene)
+    if scene.defects and scene.defect.race == "inner":
+        # the shaft, and with it the defect, has its own angle: turn it by hand
+        ratio = 1.0 / scene.bearing.cage_ratio
+        center = scene.defect.center + turn - ratio * turn
+    else:
+        center = scene.defect.center + turn
+    after = solve(transformed(scene, R, center), ANGLES + turn)
+    assert_close(after.displacement, before.displacement @ R.T, scene, 1e-9)
+    assert_close(after.stiffness, R @ before.stiffness @ R.T, scene, 1e-8)
+    assert after.ball_load == pytest.approx(before.ball_load, rel=1e-7, abs=1e-6)
+
+
+@every_scene
+def test_mirror_symmetry_about_the_vertical(scene: Scene) -> None:
+    """Mirrored x → −x: a moment about y turns over, one about x does not, as they are axial
+    vectors; balls are counted the other way round.
+    """
+    M = np.diag([-1.0, 1.0, 1.0, 1.0, -1.0])
+    before = solve(scene)
+    center = math.pi - scene.defect.center
+    if scene.defects and scene.defect.race == "inner":
+        center -= math.pi / scene.bearing.cage_ratio  # by which it has turned at cage angle π
+    after = solve(transformed(scene, M, center), math.pi - ANGLES)
+    assert_close(after.displacement, before.displacement @ M, scene, 1e-9)
+    assert_close(after.stiffness, M @ before.stiffness @ M, scene, 1e-8)
+    mirrored = np.roll(after.ball_load[:, ::-1], 1, axis=1)
+    assert mirrored == pytest.approx(before.ball_load, rel=1e-7, abs=1e-6)
+
+
+def test_a_scene_that_is_its_own_mirror_image_has_a_symmetric_answer() -> None:
+    """Vertical load, a defect at the bottom and a ball there: x, ry and their couplings vanish."""
+    scene = LIEW_LIM.replace(mx=5.0, extent=math.radians(40.0))
+    answer = solve(scene, np.array([1.5 * math.pi]))
+    q = answer.displacement[0] * lengths(scene)
+    assert np.abs(q[[0, 4]]).max() < 1e-9 * np.abs(q).max()
+    for odd in ("k_xy", "k_xz", "k_xrx", "k_yry", "k_zry", "k_rxry"):
+        size = solve(scene, ANGLES).term(odd)
+        assert abs(answer.term(odd)[0]) < 1e-7 * np.abs(size).max()
+    assert answer.ball_load[0, 1:] == pytest.approx(answer.ball_load[0, :0:-1], rel=1e-8, abs=1e-6)
+
+
+def test_reflection_along_the_shaft_at_zero_contact_angle() -> None:
+    """Reflected z → −z: axial force and both moments change sign, and so do their displacements."""
+    Z = np.diag([1.0, 1.0, -1.0, -1.0, -1.0])
+    scene = SCENES["zero contact angle"]
+    before = solve(scene)
+    after = solve(transformed(scene, Z, scene.defect.center))
+    assert np.abs(before.displacement[:, 2]).min() > 1e-7
+    assert_close(after.displacement, before.displacement @ Z, scene, 1e-9)
+    assert_close(after.stiffness, Z @ before.stiffness @ Z, scene, 1e-8)
+    assert after.ball_load == pytest.approx(before.ball_load, rel=1e-8, abs=1e-6)
+    assert after.contact_angle == pytest.approx(-before.contact_angle, rel=1e-7, nan_ok=True)
+
+
+@every_scene
+def test_a_ball_spacing_later_the_next_ball_stands_there(scene: Scene) -> None:
+    """The curves of an outer-race defect have this period; an inner one turns on by the shaft."""
+    before = solve(scene)
+    later = scene
+    spacing = scene.bearing.ball_spacing
+    if scene.defects and scene.defect.race == "inner":
+        later = scene.replace(center=scene.defect.center - spacing / scene.bearing.cage_ratio)
+    after = solve(later, ANGLES + spacing)
+    assert_close(after.displacement, before.displacement, scene, 1e-9)
+    assert_close(after.stiffness, before.stiffness, scene, 1e-8)
+    assert np.roll(after.ball_load, 1, axis=1) == pytest.approx(
+        before.ball_load, rel=1e-7, abs=1e-6
+    )
+
+
+@every_scene
+def test_the_order_of_cage_angles_does_not_matter(scene: Scene) -> None:
+    """Each answer starts from those before it, yet is the minimum of a convex energy."""
+    angles = np.linspace(0.0, 2.0 * math.pi, 200)
+    shuffled = np.random.default_rng(3).permutation(200)
+    in_order, anyhow = solve(scene, angles), solve(scene, angles[shuffled])
+    assert_close(anyhow.displacement, in_order.displacement[shuffled], scene, 1e-9)
+    assert_close(anyhow.stiffness, in_order.stiffness[shuffled], scene, 1e-7)
+
+
+# --- energy, load and stiffness ------------------------------------------------------------------
+
+
+@every_scene
+def test_stiffness_is_the_finite_difference_of_the_load(scene: Scene) -> None:
+    """Eq. 17: a load F ± dF moves the ring by ± dq with K dq = dF, along each of the five loads."""
+    at = solve(scene)
+    scale = lengths(scene)
+    for k in range(5):
+        # small against the load, so that no ball meets or leaves an edge of its contact
+        step = 1e-5 * np.linalg.norm(scene.load.vector / scale)
+        dF = np.zeros(5)
+        dF[k] = step * scale[k]
+        ahead, behind = (
+            solve(transformed_by(scene, sign * dF)).displacement for sign in (1.0, -1.0)
+        )
+        moved = 0.5 * (ahead - behind)
+        balanced = np.einsum("nij,nj->ni", at.stiffness, moved)
+        assert np.abs((balanced - dF) / scale).max() < 1e-4 * step
+
+
+def transformed_by(scene: Scene, dF: np.ndarray) -> Scene:
+    """The scene with dF added to its load."""
+    fx, fy, fz, mx, my = (scene.load.vector + dF).tolist()
+    return scene.replace(fx=fx, fy=fy, fz=fz, mx=mx, my=my)
+
+
+@every_scene
+def test_stiffness_is_symmetric_and_positive_definite_where_the_ring_is_held(scene: Scene) -> None:
+    answer = solve(scene, np.linspace(0.0, 2.0 * math.pi, 200))
+    assert np.array_equal(answer.stiffness, np.swapaxes(answer.stiffness, 1, 2))
+    scale = lengths(scene)
+    values = np.linalg.eigvalsh(answer.stiffness / (scale[:, None] * scale))
+    assert values.min() > 0.0
+
+
+@every_scene
+def test_the_energy_at_the_answer_is_not_above_any_neighbours(scene: Scene) -> None:
+    """V = Σ (K/2.5) δ^2.5 − F·q, in extended precision, near and far, in 200 directions."""
+    answer = solve(scene)
+    rng = np.random.default_rng(1)
+    for i, angle in enumerate(ANGLES):
+        balls = Balls(scene, float(angle))
+        q = answer.displacement[i] * balls.units
+        least = balls.energy(q)
+        directions = rng.standard_normal((200, 5))
+        for k, way in enumerate(directions):
+            reach = 10.0 ** (-9 + k % 7) / np.linalg.norm(way)
+            assert balls.energy(q + reach * way) > least
+
+
+@every_scene
+def test_the_energys_gradient_vanishes_and_its_hessian_is_the_stiffness(scene: Scene) -> None:
+    """Finite differences of the energy alone, about the answer."""
+    answer = solve(scene)
+    for i, angle in enumerate(ANGLES):
+        balls = Balls(scene, float(angle))
+        q = answer.displacement[i] * balls.units
+        units = balls.units.astype(float)
+        K = answer.stiffness[i] / (units[:, None] * units)
+        step = np.longdouble(1e-9)
+        basis = np.eye(5, dtype=np.longdouble) * step
+        V = balls.energy
+        size = np.abs(K).max()
+        for a in range(5):
+            slope = float((V(q + basis[a]) - V(q - basis[a])) / (2 * step))
+            assert abs(slope) < 1e-6 * size * float(step) * 100
+            for b in range(a + 1):
+                corners = (
+                    V(q + basis[a] + basis[b])
+                    - V(q + basis[a] - basis[b])
+                    - V(q - basis[a] + basis[b])
+                    + V(q - basis[a] - basis[b])
+                )
+                assert float(corners / (4 * step**2)) == pytest.approx(K[a, b], abs=2e-3 * size)
+
+
+@every_scene
+def test_ball_loads_balance_the_load(scene: Scene) -> None:
+    """Eq. 15 from what is returned: ball loads, ball angles and contact angles."""
+    answer = solve(scene)
+    radial = answer.ball_load * np.cos(np.nan_to_num(answer.contact_angle))
+    axial = answer.ball_load * np.sin(np.nan_to_num(answer.contact_angle))
+    c, s = np.cos(answer.ball_angle), np.sin(answer.ball_angle)
+    lever = scene.bearing.groove_center_radius
+    sums = [
+        (radial * c).sum(axis=1),
+        (radial * s).sum(axis=1),
+        axial.sum(axis=1),
+        lever * (axial * s).sum(axis=1),
+        -lever * (axial * c).sum(axis=1),
+    ]
+    size = np.linalg.norm(scene.load.vector / lengths(scene))
+    off = (np.array(sums).T - scene.load.vector) / lengths(scene)
+    assert np.abs(off).max() < 1e-8 * size
+
+
+# --- dimension -----------------------------------------------------------------------------------
+
+
+def scaled(scene: Scene, stiffer: float = 1.0, larger: float = 1.0) -> Scene:
+    """The scene with its load-deflection factor and with all its lengths multiplied."""
+    bearing = scene.bearing
+    return scene.replace(
+        load_deflection_factor=stiffer * bearing.load_deflection_factor,
+        **{
+            name: larger * getattr(bearing, name)
+            for name in (
+                "ball_diameter",
+                "pitch_diameter",
+                "groove_center_radius",
+                "groove_center_distance",
+                "radial_clearance",
+                "outer_raceway_radius",
+                "inner_raceway_radius",
+            )
+        },
+        depth=larger * scene.defect.depth,
+    )
+
+
+@every_scene
+def test_load_and_factor_together_change_stiffness_only(scene: Scene) -> None:
+    """Twice the factor K under twice the load: the same displacement and twice the stiffness."""
+    before = solve(scene)
+    doubled = transformed(scaled(scene, stiffer=2.0), 2.0 * np.eye(5), scene.defect.center)
+    after = solve(doubled)
+    assert_close(after.displacement, before.displacement, scene, 1e-9)
+    assert_close(after.stiffness, 2.0 * before.stiffness, scene, 1e-8)
+
+
+@every_scene
+def test_a_bearing_of_another_size_scales(scene: Scene) -> None:
+    """All lengths times 3, forces times 3^1.5, moments times 3^2.5: displacements times 3."""
+    power = 3.0**1.5
+    before = solve(scene)
+    load = np.diag([power, power, power, 3.0 * power, 3.0 * power])
+    after = solve(transformed(scaled(scene, larger=3.0), load, scene.defect.center))
+    grown = np.array([3.0, 3.0, 3.0, 1.0, 1.0])
+    assert_close(after.displacement, before.displacement * grown, scene, 1e-9)
+    factor = np.diag(load)[:, None] / grown
+    assert_close(after.stiffness, before.stiffness * factor, scene, 1e-8)
+
+
+def test_compression_grows_with_the_load_to_the_power_two_thirds() -> None:
+    """Radial, zero contact angle, no clearance: the law is exact, and stiffness goes as F^(1/3)."""
+    scene = FAN_RIG.sound().replace(radial_clearance=0.0)
+    light, heavy = (equilibrium(scene.replace(fy=fy), ANGLES) for fy in (-10.0, -80.0))
+    assert heavy.displacement[:, :2] == pytest.approx(4.0 * light.displacement[:, :2], rel=1e-9)
+    assert heavy.term("k_yy") == pytest.approx(2.0 * light.term("k_yy"), rel=1e-9)
+
+
+# --- fewer directions ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_two_directions_are_exact_for_a_radial_load_at_zero_contact_angle(
+    edge: str, race: str
+) -> None:
+    scene = FAN_RIG.replace(fx=40.0, edge=edge, race=race, extent=math.radians(38.6))
+    assert scene.needed_dofs == ("x", "y")
+    few, all_five = equilibrium(scene), equilibrium(scene, dofs=DOF_NAMES)
+    assert few.converged.all()
+    assert all_five.converged.all()
+    assert all_five.displacement[:, :2] == pytest.approx(few.displacement[:, :2], rel=1e-9)
+    assert np.all(all_five.displacement[:, 2:] == 0.0)
+    assert all_five.ball_load == pytest.approx(few.ball_load, rel=1e-7, abs=1e-7)
+    assert_close(all_five.stiffness, few.stiffness, scene, 1e-7)
+
+
+@pytest.mark.parametrize("contact_law", ["published", "no tension"])
+def test_motion_in_two_directions_is_that_in_five(contact_law: str) -> None:
+    """Two kernels, one law: z and the tilts stay where they are."""
+    scene = FAN_RIG.replace(contact_law=contact_law, extent=math.radians(38.6))
+    few = simulate(scene, 0.05, ball_loads=True, step_rate=65536.0)
+    full = simulate(scene.replace(dofs=DOF_NAMES), 0.05, ball_loads=True, step_rate=65536.0)
+    assert few.dofs == ("x", "y")
+    assert full.dofs == DOF_NAMES
+    for name in (
+        "inner_displacement",
+        "outer_displacement",
+        "inner_velocity",
+        "outer_acceleration",
+    ):
+        in_two, in_five = getattr(few, name), getattr(full, name)
+        size = np.abs(in_two).max()
+        assert np.abs(in_five[:, :2] - in_two).max() < 1e-8 * size
+        assert np.all(in_five[:, 2:] == 0.0)
+    assert full.ball_load == pytest.approx(few.ball_load, rel=1e-6, abs=1e-6)
+
+
+def test_an_axial_load_alone_needs_z_alone_in_a_sound_bearing() -> None:
+    scene = LIEW_LIM.sound().replace(fy=0.0, fz=500.0)
+    alone, all_five = equilibrium(scene, ANGLES, ("z",)), solve(scene)
+    assert all_five.displacement[:, 2] == pytest.approx(alone.displacement[:, 2], rel=1e-10)
+    others = (all_five.displacement * lengths(scene))[:, [0, 1, 3, 4]]
+    assert np.abs(others).max() < 1e-10 * np.abs(alone.displacement).max()
+
+
+# --- motion --------------------------------------------------------------------------------------
+
+
+def test_contacts_push_both_rings_alike() -> None:
+    """Σ m a = F − k x_o − c v_o: whatever the contacts do, they act and react, sample by sample."""
+    for scene in (FAN_RIG, LIEW_LIM.replace(fx=100.0, mx=2.0)):
+        motion = simulate(scene, 0.02, step_rate=65536.0)
+        support, dofs = scene.support, motion.dofs
+        pull = (
+            support.inertia("inner", dofs) * motion.inner_acceleration
+            + support.inertia("outer", dofs) * motion.outer_acceleration
+        )
+        ground = (
+            support.stiffness(dofs) * motion.outer_displacement
+            + support.damping(dofs) * motion.outer_velocity
+        )
+        load = scene.load.vector[[DOF_NAMES.index(name) for name in dofs]]
+        size = np.abs(ground).max(axis=0) + np.abs(load)
+        assert np.all(np.abs(pull - load + ground).max(axis=0) <= 1e-6 * size)
+
+
+def undamped(scene: Scene) -> Scene:
+    """Without damping in contacts and support."""
+    nothing = {f"damping_{dof}": 0.0 for dof in DOF_NAMES}
+    return scene.replace(contact_damping=0.0, **nothing)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0),
+        FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0).sound(),
+        LIEW_LIM.replace(shaft_speed=2.0 * math.pi * 30.0),
+    ],
+    ids=["fan rig", "fan rig, sound", "liew-lim"],
+)
+def test_undamped_motion_gains_just_the_work_of_the_turning_cage(scene: Scene) -> None:
+    """Kinetic, contact and support energy less the work of the load change only as balls turn
+    through the clearance and fall into the defect: by ∫ ∂V/∂φ_c dφ_c, V the contacts' energy.
+    """
+    scene = undamped(scene)
+    motion = simulate(scene, 0.05, 2.0**20, step_rate=2.0**20)
+    assert motion.completed
+    dofs, support = motion.dofs, scene.support
+    columns = [DOF_NAMES.index(name) for name in dofs]
+    units = lengths(scene)
+    q = np.zeros((len(motion.time), 5))
+    q[:, columns] = motion.inner_displacement - motion.outer_displacement
+    q *= units
+    own = 0.5 * support.inertia("inner", dofs) * motion.inner_velocity**2
+    own = own + 0.5 * support.inertia("outer", dofs) * motion.outer_velocity**2
+    own = own + 0.5 * support.stiffness(dofs) * motion.outer_displacement**2
+    own = own - scene.load.vector[columns] * motion.inner_displacement
+    contacts = contact_energy(scene, q, motion.cage_angle)
+    total = own.sum(axis=1) + contacts
+    turn = 1e-7
+    ahead = contact_energy(scene, q, motion.cage_angle + turn)
+    behind = contact_energy(scene, q, motion.cage_angle - turn)
+    power = (ahead - behind) / (2.0 * turn) * scene.cage_speed
+    step = motion.time[1]
+    work = np.concatenate([[0.0], np.cumsum(0.5 * step * (power[1:] + power[:-1]))])
+    exchanged = np.ptp(own.sum(axis=1))
+    assert np.ptp(total) > 1e-4 * exchanged  # the cage does work
+    assert np.abs(total - total[0] - work).max() < 2e-5 * exchanged
+
+
+def contact_energy(scene: Scene, q: np.ndarray, cage_angle: np.ndarray) -> np.ndarray:
+    """Σ (K/2.5) δ^2.5 [N·m] at displacements q (n, 5), tilts times r_d, and cage angles (n,)."""
+    bearing = scene.bearing
+    ca, sa = math.cos(bearing.contact_angle), math.sin(bearing.contact_angle)
+    total = np.zeros(len(q))
+    for j in range(bearing.n_balls):
+        phi = cage_angle + j * bearing.ball_spacing
+        c, s = np.cos(phi), np.sin(phi)
+        drop = np.zeros(len(q))
+        for defect in scene.defects:
+            drop += defect.path(phi, bearing, cage_angle)
+        A0 = bearing.groove_center_distance
+        dr = A0 * ca + q[:, 0] * c + q[:, 1] * s - bearing.radial_clearance - drop * ca
+        dz = A0 * sa + q[:, 2] + q[:, 3] * s - q[:, 4] * c - drop * sa
+        back = np.minimum(dr * ca + dz * sa, 0.0)
+        length = np.hypot(dr - back * ca, dz - back * sa)
+        total += bearing.load_deflection_factor / 2.5 * np.maximum(length - A0, 0.0) ** 2.5
+    return total
+
+
+@pytest.mark.parametrize("law", ["published", "no tension"])
+def test_damping_takes_energy_from_a_motion(law: str) -> None:
+    """A sound bearing that hardly turns swings less and less about its static state."""
+    scene = FAN_RIG.sound().replace(contact_law=law, shaft_speed=2.0 * math.pi * 7.0)
+    damped = simulate(scene, 0.3)
+    free = simulate(undamped(scene), 0.3)
+    late = slice(-len(damped.time) // 3, None)
+    assert np.std(damped.outer_velocity[late]) < 0.5 * np.std(free.outer_velocity[late])
+
+
+def test_motion_at_rest_stays_at_rest() -> None:
+    """Turned as slowly as can be, the rings stay at the static state they start from."""
+    scene = LIEW_LIM.replace(shaft_speed=1e-6)
+    motion = simulate(scene, 0.01)
+    start = equilibrium(scene, [0.0]).displacement[0]
+    off = (motion.inner_displacement - motion.outer_displacement - start) * lengths(scene)
+    assert np.abs(off).max() < 1e-8 * np.abs(start * lengths(scene)).max()
+
+
+def test_defects_that_differ_by_a_turn_are_one_defect() -> None:
+    """0°/360° is no place: a defect may lie across it, and its centre may be counted on."""
+    across = TILTED.replace(center=0.02)
+    for turns in (-1, 1, 3):
+        moved = solve(across.replace(center=0.02 + 2.0 * math.pi * turns))
+        assert_close(moved.stiffness, solve(across).stiffness, across, 1e-9)
+
+
+def test_equal_scenes_are_one_scene() -> None:
+    """Hash and equality come from the numbers: what caches stand on."""
+    bearing = Bearing(**{name: getattr(LIEW_LIM.bearing, name) for name in FIELDS})
+    defect = Defect(LIEW_LIM.defect.extent, 50e-6, LIEW_LIM.defect.center)
+    load = Load(fy=-2000, fz=500)
+    again = Scene(bearing, defect, load, LIEW_LIM.shaft_speed, LIEW_LIM.support)
+    assert again == LIEW_LIM
+    assert hash(again) == hash(LIEW_LIM)
+    assert again.replace(fy=-2001.0) != LIEW_LIM
+
+
+FIELDS = (
+    "n_balls",
+    "ball_diameter",
+    "pitch_diameter",
+    "contact_angle",
+    "groove_center_radius",
+    "groove_center_distance",
+    "radial_clearance",
+    "load_deflection_factor",
+    "outer_raceway_radius",
+    "inner_raceway_radius",
+)

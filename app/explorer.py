@@ -14,6 +14,7 @@ import panel as pn
 
 from app.assets import asset_text
 from app.controls import Controls, Rows
+from app.jobs import Jobs
 from app.live import LatestWins, in_thread, one_message, send_at_once
 from app.quantities import Values
 from app.quantity_list import CAGE_ANGLE
@@ -21,6 +22,7 @@ from app.results import Results
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from app.views.base import Ranges, Sources, View
 from app.views.control_view import ControlView
+from app.views.job_view import JobView
 from app.views.limits import LimitsStrip, rows_of
 from app.views.status import StatusLine, Tabs, status_of
 from app.wire import Wire
@@ -91,6 +93,7 @@ class Explorer:
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
+        self.jobs = Jobs(lambda change: one_message(self._doc, change))
 
         self.editor = SceneEditor(preset)
         self.controls = Controls(self._asked, state=self.editor.state())
@@ -130,6 +133,7 @@ class Explorer:
     def stop(self) -> None:
         """The session is over."""
         self._worker.stop()
+        self.jobs.stop()
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""
@@ -218,6 +222,8 @@ class Explorer:
                 if isinstance(view, ControlView):
                     view.listen(self._asked, self.editor.state())
                     self._panels.append(view.rows)
+                if isinstance(view, JobView):
+                    view.employ(self.jobs, self.editor, self.draw)
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],

@@ -18,6 +18,9 @@ from app.views.load_distribution import LoadDistribution
 from app.views.maps import StiffnessMaps
 from app.views.model_editor import ModelEditor
 from app.views.modes import NaturalFrequencies
+from app.views.orbit import SteadyOrbit
+from app.views.speed_run import SpeedRunSpectra
+from app.views.stability_map import OrbitStability
 from app.views.stiffness import Stiffness
 from app.views.vibration_spectrum import VibrationSpectra
 from app.views.vibration_time import VibrationInTime
@@ -30,6 +33,8 @@ SECTIONS = (
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("modes", "Natural frequencies", (NaturalFrequencies,)),
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+    Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
+    Section("speed-run", "Speed run", (SpeedRunSpectra,)),
     Section("bearing", "Bearing", (BearingEditor,)),
     Section("model", "Model", (ModelEditor, DofDifferences)),
 )

@@ -34,16 +34,21 @@ from bearingcore.defect import RACES
 from bearingcore.equilibrium import default_cage_angles
 from bearingcore.modes import highest_natural_frequency
 from bearingcore.motion import default_step_rate
+from bearingcore.orbit import common_ball_passes
 from bearingcore.passes import ball_drop
 
 if TYPE_CHECKING:
-    from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Scene, Spectrum
+    from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 
 Answer = TypeVar("Answer")
 
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
+
+
+LONGEST_ORBIT = 60
+"""Ball passes of the longest orbit that is looked for while sliders move."""
 
 
 class ComputedOnce(Generic[Answer]):
@@ -128,6 +133,15 @@ def _spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spe
     }
 
 
+def _late_spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spectrum]:
+    motion = motions(scene, duration, sample_rate)
+    late = motion.outer_acceleration[motion.time.size // 2 :]
+    if not np.isfinite(late).all():
+        return {}
+    frequency, density = core.spectrum(late, sample_rate)
+    return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(motion.dofs)}
+
+
 equilibria = ComputedOnce(_over_period, 512)
 single_equilibria = ComputedOnce(_at, 2048)
 modes = ComputedOnce(_modes, 256)
@@ -136,6 +150,8 @@ motions = ComputedOnce(_motion, 8)  # about 20 MB each
 step_rates = ComputedOnce(_step_rate, 512)
 excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
+late_spectra = ComputedOnce(_late_spectra, 64)
+orbits = ComputedOnce(core.orbit, 256)
 
 
 class Results:
@@ -154,6 +170,10 @@ class Results:
     motion, sound_motion: simulated motion
     excerpt: the last ball passes of the motion
     spectra, sound_spectra: {dof: Spectrum} of the housing's acceleration
+    late_spectra: the same of the second half of the motion, when the start is forgotten
+    ball_passes: after how many of them the scene is as before; None where it never is
+    orbit: the motion that repeats itself; None where it takes too many ball passes to look for
+    orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
@@ -161,7 +181,17 @@ class Results:
 
     #: attributes that take long enough to be drawn after the others
     slow = frozenset(
-        {"motion", "sound_motion", "excerpt", "spectra", "sound_spectra", "dof_comparison"}
+        {
+            "motion",
+            "sound_motion",
+            "excerpt",
+            "spectra",
+            "sound_spectra",
+            "late_spectra",
+            "orbit",
+            "orbit_spectra",
+            "dof_comparison",
+        }
     )
 
     def __init__(
@@ -284,6 +314,32 @@ class Results:
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
         return spectra(self.scene, self.settings.duration, self.settings.sample_rate)
+
+    @cached_property
+    def late_spectra(self) -> dict[str, Spectrum]:
+        """The same of the second half of the motion; empty where it did not stay finite."""
+        return late_spectra(self.scene, self.settings.duration, self.settings.sample_rate)
+
+    @property
+    def ball_passes(self) -> int | None:
+        """After how many ball passes all is as before; None where it never is."""
+        return common_ball_passes(self.scene)
+
+    @cached_property
+    def orbit(self) -> Orbit | None:
+        """The motion that repeats itself; None where it takes too many ball passes to look for."""
+        return None if (self.ball_passes or 0) > LONGEST_ORBIT else orbits(self.scene)
+
+    @cached_property
+    def orbit_spectra(self) -> dict[str, Spectrum]:
+        """Spectrum of a record as long as the second half of the motion; empty without an orbit."""
+        if self.orbit is None or not self.orbit.multipliers.size:
+            return {}
+        duration = 0.5 * self.settings.duration
+        frequency, density = self.orbit.spectrum(self.settings.sample_rate, duration=duration)
+        return {
+            dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(self.orbit.dofs)
+        }
 
     @cached_property
     def sound_spectra(self) -> dict[str, Spectrum]:

@@ -1,0 +1,58 @@
+// Something that takes a while: what it needs to know, begin, cancel, how far it is.
+export function render({ model }) {
+  const make = (tag, attributes = {}, ...children) => {
+    const made = document.createElement(tag)
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+    made.append(...children)
+    return made
+  }
+  const inputs = {}
+  const field = ({ name, label, options }) => {
+    const id = `job-${name}`
+    const input = inputs[name] = options
+      ? make("select", { id }, ...options.map(([value, words]) => make("option", { value }, words)))
+      : make("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" })
+    input.value = model.values[name] ?? ""
+    input.addEventListener("change", () => fill(name))
+    return make("div", { class: `field field-${name}` }, make("label", { for: id }, label), input)
+  }
+  // What is chosen in one field may bring the numbers of others with it.
+  const fill = (name) => {
+    const others = model.fills[name]?.[inputs[name].value] ?? {}
+    for (const [other, value] of Object.entries(others)) inputs[other].value = value
+  }
+  const start = make("button", { type: "submit", class: "start" }, model.spec.start)
+  const cancel = make("button", { type: "button", class: "cancel" }, "Cancel")
+  const fields = make("div", { class: "fields" }, ...model.spec.fields.map(field), start, cancel)
+  const filled = make("i")
+  const bar = make("div", {
+    class: "bar", role: "progressbar", "aria-label": model.spec.start,
+    "aria-valuemin": "0", "aria-valuemax": "100",
+  }, filled)
+  const words = make("p", { class: "words", role: "status" })
+  const form = make("form", {}, fields, make("div", { class: "going" }, bar, words))
+
+  form.addEventListener("submit", (event) => {
+    event.preventDefault()
+    const given = Object.entries(inputs).map(([name, input]) => [name, input.value])
+    model.send_msg({ start: Object.fromEntries(given) })
+  })
+  cancel.addEventListener("click", () => model.send_msg({ cancel: true }))
+
+  const show = () => {
+    const { mood, part, words: said } = model.state
+    const running = mood == "waiting" || mood == "busy"
+    form.dataset.mood = mood
+    cancel.disabled = !running
+    bar.hidden = !running
+    bar.setAttribute("aria-valuenow", String(Math.round(100*part)))
+    filled.style.width = `${100*part}%`
+    if (words.textContent !== said) words.textContent = said
+  }
+  model.on("state", show)
+  model.on("values", () => {
+    for (const [name, value] of Object.entries(model.values)) inputs[name].value = value
+  })
+  show()
+  return form
+}

@@ -14,7 +14,8 @@ if (p.length > head) {
       pixels[k] = p[at] === none ? 0 : palette[p[at] >> 8]
     maps.push(new Pixels(pixels.buffer, [rows, columns]))
     const count = kind == 2 ? levels : palette.length
-    const bar = Uint32Array.from({length: count}, (_, k) => palette[Math.floor((k + 0.5)*256/count)])
+    const bar = Uint32Array.from({length: count}, (_, k) =>
+      kind == 3 ? 0 : palette[Math.floor((k + 0.5)*256/count)])
     bars.push(new Pixels(bar.buffer, [count, 1]))
   }
   images.data = {...images.data, image: [...maps, ...bars]}

@@ -10,7 +10,8 @@ const at = (name, share) => {
   return Math.max(0, first + share*(last - first)).toFixed(1) + "°"
 }
 if (wanted == "extent") return at("extent", up)
-if (wanted == "angle") return at("angle", across) + (grid.data.of_shaft[0] ? " of the shaft" : "")
+if (wanted == "angle")
+  return (grid.data.of_shaft[0] ? "Shaft angle " : "Cage angle ") + at("angle", across)
 const floats = points.data.bits
 const p = new Uint16Array(floats.buffer, floats.byteOffset, 2*floats.length)
 const rows = p[0], columns = p[1]
@@ -19,10 +20,10 @@ const column = Math.min(columns - 1, Math.max(0, Math.floor(across*columns)))
 const whole = p[head + (i*rows + row)*columns + column]
 if (whole === none || whole === undefined) return "no answer"
 const low = cells.data.low[i], high = cells.data.high[i], unit = units[cells.data.unit[i]]
-const value = low + whole/greatest*(high - low)
-if (!unit) return String(Math.round(value))
-if (cells.data.flat[i]) return "0"
+const found = low + whole/greatest*(high - low)
+if (!unit) return String(Math.round(found))
+if (cells.data.kind[i] == 3) return "0"
 const names = {"-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 const top = Math.max(Math.abs(low), Math.abs(high))
 const e = Math.max(-12, Math.min(12, 3*Math.floor(Math.log10(top*1.0000001)/3)))
-return String(Number((value/10**e).toPrecision(4))).replace("-", "\u2212") + " " + names[e] + unit
+return String(Number((found/10**e).toPrecision(4))).replace("-", "\u2212") + " " + names[e] + unit

@@ -49,7 +49,12 @@ from app.wire import Wire
 from bearingcore import STIFFNESS_TERMS
 
 #: how a map is coloured: kinds of scales, as the browser knows them
-ONE_SIGN, TWO_SIGNS, COUNT = 0, 1, 2
+ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
+
+_TOOLTIP = (
+    '<div style="font: 12px system-ui, sans-serif; line-height: 1.45">'
+    "<b>@name: @left{custom}</b><br>Extent @right{custom}<br>@top{custom}</div>"
+)
 
 NO_ANSWER = 65535
 """The whole number of a point without an answer."""
@@ -99,11 +104,16 @@ class StiffnessMaps(View):
         self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
         self._two = [False] * len(PLACES)
         self._balls = StickyRange(0.0, 1.0, shrink_below=0.0)
-        plot = bare_figure(Range1d(-0.03, 5.07), Range1d(-5.1, 0.0), height=HEIGHT)
+        plot = bare_figure(
+            Range1d(-0.03, 5.23), Range1d(-5.1, 0.0), height=HEIGHT, name="maps_drawing"
+        )
         # Fifteen maps need some width; on a phone they scroll inside their card.
         plot.min_width = None
-        plot.stylesheets = [":host { min-width: 760px; cursor: crosshair; }"]
-        cells = wire.source("maps_cells", "low", "high", "kind", "now", "flat", "unit", *_SIDES)
+        plot.stylesheets = [
+            ":host { min-width: 760px; } .bk-events.bk-events { cursor: crosshair; }"
+            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+        ]
+        cells = wire.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
         grid = wire.source("maps_grid", *_GRID)
         ticks = wire.source("maps_ticks", "x", "y", "value", "beside")
         now = wire.source("maps_now", "x", "y", *_SIDES)
@@ -131,16 +141,16 @@ class StiffnessMaps(View):
             low, high, flat = self._limits(i, values, sizes[i])
             points.append(whole_numbers(values, low, high))
             at_now = 0.0 if abs(at_now) < NEGLIGIBLE * sizes[i] else at_now
-            kind = TWO_SIGNS if flat or self._two[i] else ONE_SIGN
-            cells.append((low, high, kind, at_now, flat, UNITS.index(TERM_UNITS[i])))
+            kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
+            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[i])))
         counts = np.where(maps.converged, maps.loaded_balls, np.nan)
         low, high = self._balls.fit(counts)
         low, high = math.floor(low), math.ceil(high)
         points.append(whole_numbers(counts, low - 0.5, high + 0.5))
         at_now = float(now.loaded_balls[0]) if now.converged[0] else math.nan
-        cells.append((low - 0.5, high + 0.5, COUNT, at_now, False, len(UNITS)))
+        cells.append((low - 0.5, high + 0.5, COUNT, at_now, len(UNITS)))
 
-        columns = dict(zip(("low", "high", "kind", "now", "flat", "unit"), np.array(cells).T,
+        columns = dict(zip(("low", "high", "kind", "now", "unit"), np.array(cells).T,
                            strict=True))  # fmt: skip
         grid = _grid(results)
         levels = high - low + 1
@@ -363,7 +373,7 @@ def _images(plot: figure, points: ColumnDataSource) -> None:
         syncable=False,
     )
     plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
-    scales = [packed(SEQUENTIAL), packed(DIVERGING), packed(SEQUENTIAL)]
+    scales = [packed(SEQUENTIAL), packed(DIVERGING), packed(SEQUENTIAL), packed(DIVERGING)]
     color = CustomJS(
         args={"images": images, "scales": scales, "n": _N, "head": _HEAD, "none": NO_ANSWER},
         code=asset_text("maps_color.js"),
@@ -413,7 +423,7 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
     units = f"const unit = {[*UNITS, '']}[row.unit]\n"
     top = "const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))\n"
     end = (
-        "if (!unit || row.flat || isNaN(row.low)) return ''\n"
+        "if (!unit || row.kind == 3 || isNaN(row.low)) return ''\n"
         + top
         + "return minus(String(Number((row.%s/10**e).toPrecision(4))))"
     )
@@ -421,20 +431,20 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         "if (isNaN(row.now)) return 'no value'\n"
         "if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'\n"
         + top
-        + "return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit"
+        + "return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit"
     )
     beside = {"x": "right", "x_offset": 14}
     low, high = (words_of(cells, units + end % name) for name in ("low", "high"))
-    zero = words_of(cells, units + "return unit && row.kind == 1 && !row.flat ? '0' : ''")
+    zero = words_of(cells, units + "return unit && row.kind == 1 ? '0' : ''")
     middle = {"expr": _between(cells)}
     _text(plot, cells, **beside, y="bottom", text=low, text_baseline="bottom")
     _text(plot, cells, **beside, y="top", text=high, text_baseline="top")
     _text(plot, cells, **beside, y=middle, text=zero, text_baseline="middle")
     _text(
-        plot, cells, x="right", y="top", y_offset=-6, text_align="right",
+        plot, cells, x="right", y="top", x_offset=30, y_offset=-6, text_align="right",
         text=words_of(cells, units + now),
     )  # fmt: skip
-    flat = words_of(cells, "return row.flat ? 'zero everywhere' : ''")
+    flat = words_of(cells, "return row.kind == 3 ? 'zero everywhere' : ''")
     _text(
         plot, cells, x="left", y="top", x_offset=8, y_offset=8, text=flat, text_baseline="top",
     )  # fmt: skip
@@ -486,11 +496,7 @@ def _hover(
             renderers=[frames],
             visible=False,  # no button: it is always on
             point_policy="follow_mouse",
-            tooltips=[
-                ("@name", "@left{custom}"),
-                ("Extent", "@right{custom}"),
-                ("Cage angle", "@top{custom}"),
-            ],
+            tooltips=_TOOLTIP,
             formatters=read,
         )
     )

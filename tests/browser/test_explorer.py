@@ -19,6 +19,7 @@ VIEWS = {
     "load-distribution": "load",
     "depth-profile": "load",
     "stiffness": "stiffness",
+    "maps": "maps",
     "modes": "modes",
     "vibration-time": "vibration",
     "vibration-spectrum": "vibration",

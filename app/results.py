@@ -281,8 +281,10 @@ class Results:
         looked_at = dataclasses.replace(others.pop(self.focus), extent=0.0)
         scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
         reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
-        size = self.settings.n_extents, first, last, self.settings.n_cage_angles
-        return maps(scene, reach, *size)
+        # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
+        n = self.settings.n_cage_angles
+        columns = 2 * n - 1 if self.over_shaft else n
+        return maps(scene, reach, self.settings.n_extents, first, last, columns)
 
     @cached_property
     def drop(self) -> dict[str, np.ndarray]:

@@ -1,4 +1,4 @@
-"""Motion by other steps than `simulate` takes, above all by steps that choose themselves.
+"""Motion by steps that choose themselves, for contacts whose force jumps as they touch.
 
 A fixed step that meets a jump errs by as much as the step is long, whatever its order. Dormand and
 Prince's embedded pair notices, and goes over the jump in short steps. That is for contacts
@@ -42,31 +42,13 @@ def simulate_adaptive(
         number.
     """
     tolerance = checks.number("tolerance", tolerance, at_least=1e-14, at_most=1.0)
-    return _told_by("Dormand-Prince", scene, duration, sample_rate, tolerance)
-
-
-def simulate_in_velocities(
-    scene: Scene, duration: float, sample_rate: float, step_rate: float
-) -> Motion:
-    """Motion by fixed steps with velocities as variables, which is how orbits are found.
-
-    `simulate` marches variables that do not jump; this is for telling what an orbit is off by.
-    Arguments [s], [Hz], [Hz] as there.
-    """
-    return _told_by("RK4 in velocities", scene, duration, sample_rate, step_rate)
-
-
-def _told_by(
-    method: str, scene: Scene, duration: float, sample_rate: float, setting: float
-) -> Motion:
-    """The motion by one of `integrators.METHODS`."""
     duration = checks.number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     if scene.shaft_speed == 0.0:
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a simulated motion")
     problem = motion_problem(scene)
     n = max(round(duration * sample_rate), 1)
-    march = METHODS[method].march(problem, setting, n / sample_rate, sample_rate)
+    march = METHODS["Dormand-Prince"].march(problem, tolerance, n / sample_rate, sample_rate)
     return Motion(
         scene=scene,
         dofs=problem.dofs,

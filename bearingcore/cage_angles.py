@@ -196,8 +196,9 @@ class _Nodes:
         left, right = self.angles[row].copy(), self.angles[row + 1].copy()
         g_left, g_right = before[row, ball].copy(), after[row, ball].copy()
         best = np.where(np.abs(g_left) < np.abs(g_right), left, right)
+        side = np.zeros(best.size)
         for _ in range(12):
-            # false position; the end that stays counts half (the Illinois way)
+            # false position; an end that stays a second time counts half (the Illinois way)
             best = right - g_right * (right - left) / (g_right - g_left)
             order = np.argsort(best, kind="stable")
             gaps = np.empty(best.size)
@@ -207,8 +208,10 @@ class _Nodes:
             ):
                 break
             moved = gaps * g_left > 0.0
-            g_right = np.where(moved, 0.5 * g_right, gaps)
-            g_left = np.where(moved, gaps, 0.5 * g_left)
+            again = np.where(moved, 1.0, -1.0) == side
+            side = np.where(moved, 1.0, -1.0)
+            g_right = np.where(moved, np.where(again, 0.5, 1.0) * g_right, gaps)
+            g_left = np.where(moved, gaps, np.where(again, 0.5, 1.0) * g_left)
             left = np.where(moved, best, left)
             right = np.where(moved, right, best)
         self.insert(np.unique(best), touch=True)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import checks
-from bearingcore.adaptive import simulate_adaptive, simulate_in_velocities
+from bearingcore.adaptive import simulate_adaptive
 from bearingcore.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.equilibrium import Equilibrium, equilibrium
 from bearingcore.modes import contact_damping, highest_natural_frequency, modes
@@ -34,14 +34,14 @@ VIEWS = (*CURVES, VIBRATION, SETTLED)
 """What a plan can be for: curves over the cage angle (ball loads, stiffness, natural frequencies),
 the housing's motion from rest with its spectrum, and the spectrum it settles to."""
 
-BUDGETS = {"load": 5e-3, "stiffness": 5e-3, "modes": 5e-3, VIBRATION: 0.05, SETTLED: 0.05}
+BUDGETS = {"load": 5e-3, "stiffness": 5e-3, "modes": 5e-3, VIBRATION: 0.05, SETTLED: 0.1}
 """Error budgets that nobody sees on a screen: for curves the greatest error over the swing (see
 `cage_angles`), for vibration the greatest error of the spectrum [dB]."""
 
 FULL_ANGLES, FULL_RATE = 361, 65536.0
 """What a plan is compared with: all five directions, a degree apart, 65,536 steps a second."""
 
-PILOT = 0.125
+PILOT = 0.25
 """[s] of motion that are marched to see what a step costs in accuracy."""
 
 SAFETY = 2.5
@@ -294,7 +294,8 @@ class _Way(NamedTuple):
     """A way to march.
 
     Steps a second [Hz] for fixed ones, a tolerance for those that choose themselves, the other
-    NaN; its predicted error [dB], and calls and time for each second of motion.
+    NaN; its predicted error [dB], and calls and time for each second of motion (of an orbit: calls
+    in all).
     """
 
     step_rate: float
@@ -322,21 +323,18 @@ def _motion(
     found, note, drop = None, "", 0.0
     if view == SETTLED:
         drop = settling_time(scene)
-        orbital = fixed if march else pilot.orbital(step_rate)
-        if not march and orbital.error <= budget:
-            found, note = _stable_orbit(scene, orbital.step_rate)
-            if found is not None:
-                drop = dying_time(found)
-        elif not march:
-            note = "marched, as the fixed steps of an orbit would have to be very short"
+        if not march:
+            found, orbital, note = _stable_orbit(scene, pilot, step_rate)
     length = drop + duration
     seconds, calls = way.cost * length, way.calls * length
-    if found is not None:
+    if found is not None and orbital is not None:
         start = time.perf_counter()
         orbit(scene, step_rate=orbital.step_rate)
         taken = time.perf_counter() - start
-        if taken < seconds:
-            way, seconds, calls = orbital, taken, found.right_hand_side_calls
+        if taken < seconds or way.error > budget:
+            way, seconds, calls = orbital, taken, orbital.calls
+            drop = dying_time(found)
+            length = drop + duration
         else:
             found, note = None, f"marched, as the orbit takes longer: {_duration(taken)}"
     planned = time.perf_counter()
@@ -380,13 +378,37 @@ def _better(one: _Way, other: _Way, budget: float) -> _Way:
     return min(one, other, key=lambda way: way.error)
 
 
-def _stable_orbit(scene: Scene, step_rate: float) -> tuple[Orbit | None, str]:
-    """The orbit where it is proven stable, else why there is none."""
-    found = orbit(scene, step_rate=step_rate)
-    if found.stable:
-        return found, ""
-    through = f", through {found.through}" if found.through else ""
-    return None, f"marched, as there is no stable orbit: {found.status}{through}"
+def _stable_orbit(
+    scene: Scene, pilot: _Pilot, asked: float | None
+) -> tuple[Orbit | None, _Way | None, str]:
+    """The orbit where it is proven stable and within the budget, its way, or why there is none.
+
+    Its spectrum is held against that of the same orbit in half the steps: where its acceleration
+    jumps, an orbit is off by what lies between two steps.
+    """
+    rate = asked or default_step_rate(scene, pilot.sample_rate, pilot.highest)
+    time_ = np.arange(round(PILOT * pilot.sample_rate)) / pilot.sample_rate
+    found = orbit(scene, step_rate=rate)
+    for _ in range(1 if asked else ORBIT_DOUBLINGS):
+        if not found.stable:
+            through = f", through {found.through}" if found.through else ""
+            return None, None, f"marched, as there is no stable orbit: {found.status}{through}"
+        finer = orbit(scene, start=found, step_rate=2.0 * rate)
+        apart = math.inf
+        if finer.stable:
+            coarse, fine = found.outer_acceleration(time_), finer.outer_acceleration(time_)
+            apart = ORBIT_SAFETY * spectra_apart(coarse, fine, pilot.sample_rate, pilot.band)
+        if apart <= pilot.budget or asked:
+            return found, _Way(rate, math.nan, apart, found.right_hand_side_calls, math.nan), ""
+        found, rate = finer, 2.0 * rate
+    return None, None, "marched, as the steps of an orbit would have to be very short"
+
+
+ORBIT_SAFETY = 1.5
+"""The same for orbits: what is compared is all there is, and half the steps leave at most half."""
+
+ORBIT_DOUBLINGS = 4
+"""How often the steps of an orbit are halved before it is given up for a march."""
 
 
 def step_rates(sample_rate: float) -> list[float]:
@@ -408,8 +430,7 @@ class _Pilot:
     def signal(self, kind: str, setting: float) -> tuple[Array, int]:
         """The housing's acceleration, NaN for a motion that diverged, and right-hand sides.
 
-        `kind` is "fixed" (steps [Hz]), "adaptive" (tolerance) or "velocities" (steps [Hz] as
-        orbits take them).
+        `kind` is "fixed" (setting: steps a second [Hz]) or "adaptive" (tolerance).
         """
         if (kind, setting) not in self._known:
             with np.errstate(all="ignore"):
@@ -438,19 +459,9 @@ class _Pilot:
         There an error that falls with order 2 or more leaves a quarter at most; one of order 1 a
         half, which SAFETY allows for.
         """
-        return self._way("fixed", rate, 2.0 * rate)
-
-    def orbital(self, asked: float | None) -> _Way:
-        """As `fixed`, for the steps of an orbit, which in general marches velocities."""
-        if is_flat(self.scene):
-            return self.fixed(asked)
-        usual = default_step_rate(self.scene, self.sample_rate, self.highest)
-        found = self._way("velocities", usual, 2.0 * usual)
-        for rate in (2.0 * usual, 4.0 * usual):
-            if found.error <= self.budget:
-                break
-            found = self._way("velocities", rate, 2.0 * rate)
-        return found
+        ratio = round(self.sample_rate / rate)
+        fits = 2.0 * rate if ratio <= 1 or ratio % 2 == 0 else ratio * rate
+        return self._way("fixed", rate, fits)
 
     def fixed(self, asked: float | None) -> _Way:
         """The longest fixed step within the budget, or the best of those tried."""
@@ -571,6 +582,4 @@ def _told(kind: str, scene: Scene, duration: float, sample_rate: float, setting:
     """A motion by one of the ways that a pilot tries."""
     if kind == "fixed":
         return simulate(scene, duration, sample_rate, step_rate=setting)
-    if kind == "adaptive":
-        return simulate_adaptive(scene, duration, sample_rate, tolerance=setting)
-    return simulate_in_velocities(scene, duration, sample_rate, setting)
+    return simulate_adaptive(scene, duration, sample_rate, tolerance=setting)

@@ -75,7 +75,7 @@ def at_rate(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -
     for derivative in range(3):
         weights = hermite_weights(np.arange(ratio) / ratio, derivative, 1.0 / step_rate)
         for body in (0, 3):
-            kernels.between_steps(history, body, weights, out[:, body + derivative])
+            kernels.between_steps(history, body, weights, 0, out[:, body + derivative])
     return out
 
 

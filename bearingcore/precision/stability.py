@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -159,10 +160,10 @@ def amplification(method: str, K: Array, C: Array, h: float) -> Array:
     k, c = h * h * K, h * C
     if method in ("RK4", "RK4 in velocities"):
         z = np.block([[zero, one], [-k, -c]])
-        step = np.eye(2 * m) + z @ (
+        step: NDArray[Any] = np.eye(2 * m) + z @ (
             np.eye(2 * m) + z @ (np.eye(2 * m) / 2 + z @ (np.eye(2 * m) / 6 + z / 24))
         )
-        return np.asarray(step)
+        return step
     if method == "Verlet":
         x = np.hstack([one, one, 0.5 * one])
         foretold = np.hstack([zero, one, one])
@@ -181,7 +182,7 @@ def amplification(method: str, K: Array, C: Array, h: float) -> Array:
         + c @ ((1.0 - af) * v0 + af * v_before)
     )
     left = (1.0 - am) * one + (1.0 - af) * (beta * k + gamma * c)
-    a = -np.linalg.solve(left, right)
+    a = -np.asarray(np.linalg.solve(left, right), dtype=float)
     return np.vstack([x0 + beta * a, v0 + gamma * a, a])
 
 

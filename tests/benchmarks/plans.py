@@ -3,7 +3,7 @@
     python -m tests.benchmarks.plans [--scenes 200] [--motions 200]
 
 Random scenes within what the page's sliders allow, from a seed. For each view the plan's true error
-is measured (curves against 20,000 cage angles and more about every node, motions against a
+is measured (curves against 8,000 cage angles and more about every node, motions against a
 multistep reference on which two families agree) and what the plan saves against the full model.
 """
 
@@ -75,7 +75,7 @@ def held_curves(scene: Scene, view: str, budget: float | None = None) -> Held:
     gaps = np.diff(nodes)
     # where a curve jumps two nodes stand so near to each other that the line between is upright
     wide = gaps > 1.01 * LEAST_INTERVAL * scene.bearing.ball_spacing
-    equal = np.linspace(nodes[0], nodes[-1], 20001)[1:]
+    equal = np.linspace(nodes[0], nodes[-1], 8001)[1:]
     dense = np.unique(
         np.concatenate(
             [equal[wide[np.searchsorted(nodes, equal) - 1]]]

@@ -134,6 +134,7 @@ class SpeedRunSpectra(JobView[Found]):
             frequency,
             self._speeds,
             height=HEIGHT,
+            name=f"speed_run_drawing_{dof}",
         )
         plot.grid.visible = False
         plot.stylesheets = [":host { cursor: crosshair; }"]

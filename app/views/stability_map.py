@@ -102,6 +102,7 @@ class OrbitStability(JobView[Found]):
             wire.range("stability_x", 0.0, 60.0),
             wire.range("stability_y", 0.0, 60.0),
             height=HEIGHT,
+            name="stability_drawing",
         )
         plot.grid.visible = False
         plot.stylesheets = [":host { cursor: crosshair; }"]

@@ -1,0 +1,223 @@
+"""Long computations in the browser: started, followed, cancelled, drawn, read and clicked."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.helpers import Server, Watch, drag
+from tests.browser.test_explorer import (
+    number,
+    open_page,
+    pixels,
+    settle,
+    show,
+    slider,
+    source,
+    value,
+)
+
+
+def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
+    """Where on the screen a place in a figure lies."""
+    found = page.evaluate(
+        """([name, x, y]) => {
+          const [view] = [...Bokeh.index.query(view => view.model.name == name)]
+          view.el.scrollIntoView({block: "center"})
+          const box = view.canvas_view.el.getBoundingClientRect()
+          return [box.left + view.frame.x_scale.compute(x), box.top + view.frame.y_scale.compute(y)]
+        }""",
+        [drawing, x, y],
+    )
+    return float(found[0]), float(found[1])
+
+
+def fill(page: Page, **fields: str) -> None:
+    for name, text in fields.items():
+        page.locator(f"#job-{name}:visible").fill(text)
+
+
+def grid(page: Page, name: str) -> list[float]:
+    """Columns, rows, left, width, bottom, height of a picture; empty before there is one."""
+    return source(page, name)["packed"][:6]
+
+
+def words(page: Page, view: str) -> Locator:
+    return page.locator(f".view-{view} form .words")
+
+
+def wait(page: Page, done: Callable[[], bool], seconds: float = 90.0) -> None:
+    end = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < end, "it did not happen"
+        page.wait_for_timeout(60)
+
+
+def small_map(page: Page) -> None:
+    """A quick map over speeds and extents around the scene of the fan rig."""
+    fill(page, x_from="20", x_to="40", y_from="5", y_to="15")
+    page.locator("#job-grid").select_option("13")
+    page.get_by_role("button", name="Compute the map").click()
+    expect(words(page, "stability-map")).to_have_text(
+        re.compile(r"13 × 13 points after"), timeout=90000
+    )
+    settle(page)
+
+
+def test_the_orbit_follows_the_sliders(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer, "orbits")
+    status = page.locator(".view-orbit [role=status]").first
+    expect(status).to_contain_text("Stable orbit", timeout=30000)
+    expect(page.locator(".view-orbit .line")).to_have_attribute("data-mood", "good")
+    before = pixels(page, "orbit")
+    assert len(source(page, "orbit_inside")["x"]) == 8
+    number(page, "shaft_speed_hz").fill("30")
+    number(page, "shaft_speed_hz").press("Enter")
+    expect(status).to_contain_text("Unstable: the period doubles", timeout=30000)
+    expect(page.locator(".view-orbit .line")).to_have_attribute("data-mood", "bad")
+    settle(page)
+    assert pixels(page, "orbit") != before
+    assert min(source(page, "orbit_outside")["x"]) < -1.0
+
+
+def test_a_map_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer, "orbits")
+    before = pixels(page, "stability-map")
+    small_map(page)
+    assert pixels(page, "stability-map") != before
+    columns, rows, left, width, bottom, height = grid(page, "stability_cells")
+    assert (columns, rows) == (13, 13)
+    expect(page.locator(".view-stability-map")).to_contain_text("points have a stable orbit")
+
+    step = width / columns, height / rows
+    x, y = left + 6.2 * step[0], bottom + 3.2 * step[1]
+    at = place(page, "stability_drawing", x, y)
+    page.mouse.move(*at)
+    tip = page.locator(".bk-Tooltip:visible").first
+    expect(tip).to_contain_text("Shaft speed: 30 Hz")
+    expect(tip).to_contain_text("Extent: 7.5°")
+    expect(tip).to_contain_text("|μ| =")
+
+    page.mouse.click(*at)
+    wait(page, lambda: number(page, "shaft_speed_hz").input_value() == "30")
+    assert value(page, "shaft_speed_hz") == pytest.approx(30.0)
+    assert value(page, "extent_deg") == pytest.approx(7.5)
+    settle(page)
+    mark = source(page, "stability_mark")
+    assert mark["x"] == [30.0]
+    assert mark["y"] == [7.5]
+
+    with page.expect_download() as saving:
+        page.get_by_role("button", name="Save the numbers of “Where the orbit is stable”").click()
+    table = saving.value.path().read_text().splitlines()
+    assert table[0] == "shaft_speed_hz,extent_deg,largest_multiplier,outcome,through"
+    assert len(table) == 1 + 13 * 13
+
+
+def test_a_changed_scene_makes_the_map_faint(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer, "orbits")
+    small_map(page)
+    assert source(page, "stability_cells")["packed"][6] == 1.0
+    drag(page, slider(page, "depth_um"), 0.1, 0.4)
+    settle(page)
+    assert source(page, "stability_cells")["packed"][6] < 0.5
+    expect(page.locator(".view-stability-map")).to_contain_text("the scene has changed")
+
+
+def test_progress_moves_and_cancel_works(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer, "orbits")
+    page.locator("#job-grid").select_option("97")
+    cancel = page.get_by_role("button", name="Cancel")
+    expect(cancel).to_be_disabled()
+    page.get_by_role("button", name="Compute the map").click()
+    expect(cancel).to_be_enabled()
+    bar = page.get_by_role("progressbar")
+    seen: set[int] = set()
+
+    def moved() -> bool:
+        seen.add(int(bar.get_attribute("aria-valuenow") or 0))
+        return len(seen) >= 3
+
+    wait(page, moved)
+    wait(page, lambda: grid(page, "stability_cells")[:2] == [13, 13])  # the coarse picture
+    began = time.monotonic()
+    cancel.click()
+    expect(words(page, "stability-map")).to_have_text(re.compile(r"Cancelled\. \d+ × \d+ points"))
+    assert time.monotonic() - began < 5.0
+    expect(cancel).to_be_disabled()
+    expect(bar).to_be_hidden()
+    assert grid(page, "stability_cells")[0] >= 13
+
+
+def test_sliders_stay_lively_and_tabs_change_while_it_computes(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "orbits")
+    page.locator("#job-grid").select_option("97")
+    page.get_by_role("button", name="Compute the map").click()
+    expect(page.get_by_role("button", name="Cancel")).to_be_enabled()
+    show(page, "load")
+    frames = page.evaluate("window.__frames")
+    drag(page, slider(page, "extent_deg"), 0.1, 0.5, steps=25)
+    settle(page)
+    assert page.evaluate("window.__frames") - frames >= 5
+    page.wait_for_timeout(1500)  # something is found meanwhile
+    show(page, "orbits")
+    wait(page, lambda: len(grid(page, "stability_cells")) == 6)
+    # another tab's job takes the place of this one
+    show(page, "speed-run")
+    page.locator("#job-count").select_option("25")
+    page.get_by_role("button", name="Run up").click()
+    expect(words(page, "speed-run")).to_have_text(re.compile("25 speeds after"), timeout=60000)
+    show(page, "orbits")
+    expect(words(page, "stability-map")).to_contain_text("Given up for something else")
+
+
+def test_what_is_refused_gets_a_sentence(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer, "orbits")
+    fill(page, x_from="50", x_to="20")
+    page.get_by_role("button", name="Compute the map").click()
+    expect(words(page, "stability-map")).to_contain_text("must be greater")
+    fill(page, x_from="0")
+    page.get_by_role("button", name="Compute the map").click()
+    expect(words(page, "stability-map")).to_contain_text("must turn")
+    # another quantity brings its own range
+    page.locator("#job-x").select_option("depth_um")
+    expect(page.locator("#job-x_to")).to_have_value("500")
+
+
+def test_a_speed_run_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer, "speed-run")
+    page.locator("#job-count").select_option("49")
+    page.get_by_role("button", name="Run up").click()
+    expect(words(page, "speed-run")).to_have_text(re.compile("49 speeds after"), timeout=60000)
+    settle(page)
+    columns, rows, left, width, bottom, height = grid(page, "speed_run_cells_y")
+    assert rows == 49
+    assert columns > 100
+    along_y = pixels(page, "speed-run")
+    at = place(page, "speed_run_drawing_y", left + 0.4 * width, bottom + 30.4 * height / rows)
+    page.mouse.move(*at)
+    tip = page.locator(".bk-Tooltip:visible").first
+    expect(tip).to_contain_text("Frequency:")
+    expect(tip).to_contain_text("dB")
+    page.mouse.click(*at)
+    wait(page, lambda: value(page, "shaft_speed_hz") == pytest.approx(39.0, abs=0.06))
+    settle(page)
+    assert source(page, "speed_run_now")["speed"] == pytest.approx([39.0], abs=1e-4)
+
+    page.get_by_role("button", name="Along x").click()
+    page.wait_for_timeout(500)
+    assert pixels(page, "speed-run") != along_y
+    place(page, "speed_run_drawing_x", 0.0, 0.0)

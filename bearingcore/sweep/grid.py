@@ -1,0 +1,425 @@
+"""Grid: the scenes of a sweep and what is asked of each; and its regions, which are its tasks."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import checks
+from bearingcore.defect import Defect
+from bearingcore.scene import DOF_NAMES, Scene
+from bearingcore.sweep.outputs import (
+    MODE,
+    MODES,
+    MOTION,
+    ORBIT,
+    OUTPUTS,
+    SECONDS,
+    SECONDS_IN_A_ROW,
+    STATICS,
+    Numbers,
+    Settings,
+    chosen_outputs,
+    mode_labels,
+    of_row,
+    of_scene,
+    refused,
+)
+
+MOST_AXES = 8
+MOST_VALUES = 1_000_000
+"""Values of one axis at the most."""
+MOST_SCENES = 10_000_000_000
+
+TASK_SECONDS = 2.0
+"""[s] that a task should take about: long beside what handing it out and writing it costs, short
+beside what a killed worker may lose."""
+TASKS_AT_LEAST = 16
+"""So many tasks even where scenes are few, so that all workers have something to do."""
+LONGEST_ROW = 128
+"""Extents that are solved together at the most."""
+
+UNITS = {
+    "n_balls": "1",
+    "ball_diameter": "m",
+    "pitch_diameter": "m",
+    "contact_angle": "rad",
+    "groove_center_radius": "m",
+    "groove_center_distance": "m",
+    "radial_clearance": "m",
+    "load_deflection_factor": "N/m^1.5",
+    "outer_raceway_radius": "m",
+    "inner_raceway_radius": "m",
+    "inner_groove_radius": "m",
+    "outer_groove_radius": "m",
+    "youngs_modulus": "Pa",
+    "poisson": "1",
+    "extent": "rad",
+    "depth": "m",
+    "center": "rad",
+    "race": "",
+    "edge": "",
+    "fx": "N",
+    "fy": "N",
+    "fz": "N",
+    "mx": "N·m",
+    "my": "N·m",
+    "inner_mass": "kg",
+    "outer_mass": "kg",
+    "stiffness_x": "N/m",
+    "stiffness_y": "N/m",
+    "stiffness_z": "N/m",
+    "stiffness_rx": "N·m/rad",
+    "stiffness_ry": "N·m/rad",
+    "damping_x": "N·s/m",
+    "damping_y": "N·s/m",
+    "damping_z": "N·s/m",
+    "damping_rx": "N·m·s/rad",
+    "damping_ry": "N·m·s/rad",
+    "inner_inertia": "kg·m²",
+    "outer_inertia": "kg·m²",
+    "shaft_speed": "rad/s",
+    "contact_damping": "N·s/m",
+    "contact_law": "",
+}
+"""What a sweep can go over, and the unit of each; words have none."""
+
+_WORDS = {name for name, unit in UNITS.items() if not unit}
+_OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
+
+Region = tuple[slice, ...]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One field of the scenes and the values that it takes, in SI units."""
+
+    name: str
+    values: NDArray[Any] = field(compare=False)
+
+    @property
+    def unit(self) -> str:
+        """Empty for words."""
+        return UNITS[self.name]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """All combinations of some values of some fields of a scene, and the outputs asked for."""
+
+    scene: Scene
+    axes: tuple[Axis, ...]
+    outputs: tuple[str, ...]
+    settings: Settings
+    dofs: tuple[str, ...]
+    """directions in which some scene of the grid moves"""
+
+    @classmethod
+    def of(
+        cls,
+        scene: Scene,
+        over: Mapping[str, Any],
+        outputs: Iterable[str],
+        settings: Settings | None = None,
+    ) -> Grid:
+        """A grid of what was asked for, checked.
+
+        Raises
+        ------
+        ValueError
+            naming the field or output, what stands there and what is allowed.
+        """
+        if not isinstance(scene, Scene):
+            raise checks.refuse("scene", scene, "a Scene")
+        if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
+            raise checks.refuse("over", _short(over), f"1 to {MOST_AXES} fields with their values")
+        axes = tuple(_axis(name, values) for name, values in over.items())
+        grid = cls(
+            scene, axes, chosen_outputs(outputs), settings or Settings(), _all_dofs(scene, axes)
+        )
+        if grid.size > MOST_SCENES:
+            raise checks.refuse("number of scenes", grid.size, f"at most {MOST_SCENES:,}")
+        grid._check()
+        return grid
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each axis has."""
+        return tuple(len(axis.values) for axis in self.axes)
+
+    @property
+    def size(self) -> int:
+        """How many scenes."""
+        return math.prod(self.shape)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the axes."""
+        return tuple(axis.name for axis in self.axes)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Modes of the band edges."""
+        return mode_labels(self.dofs)
+
+    @cached_property
+    def needs(self) -> tuple[str, ...]:
+        """Which computations the outputs need."""
+        return tuple(dict.fromkeys(OUTPUTS[name].needs for name in self.outputs))
+
+    @property
+    def in_rows(self) -> bool:
+        """True where scenes that differ in extent alone are solved together."""
+        return self.needs == (STATICS,) and "extent" in self.dims
+
+    def dims_of(self, output: str) -> tuple[str, ...]:
+        """Dimensions of an output."""
+        return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
+
+    def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
+        """Shape of an output over the grid, or over a region of this shape."""
+        part = tuple(self.shape if shape is None else shape)
+        return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
+
+    def values_at(self, index: Sequence[int]) -> dict[str, Any]:
+        """What the axes say at an index."""
+        return {
+            axis.name: axis.values[i].item() if axis.name not in _WORDS else str(axis.values[i])
+            for axis, i in zip(self.axes, index, strict=True)
+        }
+
+    def scene_at(self, index: Sequence[int]) -> Scene:
+        """The scene at an index; ValueError where there can be none."""
+        return self.scene.replace(**self.values_at(index))
+
+    # ---------------------------------------------------------------------------- regions
+
+    def region_shape(self, scenes: int | None = None) -> tuple[int, ...]:
+        """Shape of the regions that make a task each: about `scenes` scenes.
+
+        None takes what should be TASK_SECONDS of work, and not fewer than TASKS_AT_LEAST regions.
+        """
+        if scenes is None:
+            seconds = SECONDS_IN_A_ROW if self.in_rows else sum(SECONDS[n] for n in self.needs)
+            if len(self.dofs) > 2 and set(self.needs) & {MODES, MOTION, ORBIT}:
+                seconds *= 10.0
+            scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
+        left = max(scenes, 1)
+        shape = [1] * len(self.shape)
+        order = list(reversed(range(len(self.shape))))
+        if self.in_rows:
+            # the row first, or there would be nothing to solve together
+            row = self.dims.index("extent")
+            shape[row] = _even(self.shape[row], min(left, LONGEST_ROW))
+            left //= shape[row]
+            order.remove(row)
+        for axis in order:
+            shape[axis] = _even(self.shape[axis], max(left, 1))
+            left //= shape[axis]
+        return tuple(shape)
+
+    def region_counts(self, shape: Sequence[int]) -> tuple[int, ...]:
+        """How many regions of this shape lie along each axis; those at the ends may be smaller."""
+        return tuple(-(-n // part) for n, part in zip(self.shape, shape, strict=True))
+
+    def region(self, shape: Sequence[int], index: Sequence[int]) -> Region:
+        """The slices of one region."""
+        return tuple(
+            slice(i * part, min((i + 1) * part, n))
+            for i, part, n in zip(index, shape, self.shape, strict=True)
+        )
+
+    def part(self, region: Region) -> Grid:
+        """The grid of one region, which knows as much of the whole as it takes to compute it."""
+        axes = tuple(
+            Axis(axis.name, axis.values[piece])
+            for axis, piece in zip(self.axes, region, strict=True)
+        )
+        return dataclasses.replace(self, axes=axes)
+
+    def compute(self) -> tuple[NDArray[np.int8], Numbers]:
+        """Codes of STATUSES and the outputs of all scenes, in this thread."""
+        status = np.zeros(self.shape, dtype=np.int8)
+        numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
+        for at, codes, found in self._rows() if self.in_rows else self._scenes():
+            status[at] = codes
+            for name in self.outputs:
+                if name in found:
+                    numbers[name][at] = found[name]
+        for values in numbers.values():
+            values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
+        return status, numbers
+
+    def _scenes(self) -> Iterator[tuple[Any, Any, Numbers]]:
+        for at in np.ndindex(*self.shape):
+            yield at, *self._scene(at)
+
+    def _scene(self, index: Sequence[int]) -> tuple[Any, Numbers]:
+        try:
+            scene = self.scene_at(index)
+        except ValueError:
+            return refused(), {}
+        return of_scene(scene, self.needs, self.labels, self.settings)
+
+    def _rows(self) -> Iterator[tuple[Any, Any, Numbers]]:
+        row = self.dims.index("extent")
+        extents = self.axes[row].values
+        # a scene without its defect may have another period: it is not of the row
+        together = np.flatnonzero(extents > 0.0)
+        others = [1 if axis == row else n for axis, n in enumerate(self.shape)]
+        for at in np.ndindex(*others):
+
+            def place(i: Any, at: tuple[int, ...] = at) -> tuple[Any, ...]:
+                return (*at[:row], i, *at[row + 1 :])
+
+            alone = set(range(len(extents)))
+            if together.size:
+                try:
+                    scene = self.scene_at(place(together[0]))
+                    yield place(together), *of_row(scene, extents[together], self.settings)
+                    alone -= set(together.tolist())
+                except ValueError:
+                    pass  # what cannot be with one extent may be with another
+            for i in alone:
+                yield place(i), *self._scene(place(i))
+
+    # ---------------------------------------------------------------------------- checks
+
+    def _check(self) -> None:
+        """Refuse what can be seen to be a mistake before hours are spent on it."""
+        for name in self.outputs:
+            dof = OUTPUTS[name].dof
+            if dof and dof not in self.dofs:
+                raise checks.refuse(
+                    "name in outputs",
+                    name,
+                    f"directions in which the scenes move: {', '.join(self.dofs)}",
+                )
+        of_defect = [name for name in self.dims if name in _OF_DEFECTS]
+        if of_defect:
+            largest = {
+                axis.name: float(axis.values.max())
+                for axis in self.axes
+                if axis.name in ("extent", "depth")
+            }
+            if not _or_none(self.scene, largest, lambda scene: scene.defects):
+                raise ValueError(
+                    f"the sweep goes over {of_defect[0]}, but the scenes have no defect: "
+                    "its extent or depth is zero"
+                )
+        # nothing can come out where the first, a middle and the last scene are refused
+        refusals = []
+        for part in (0.0, 0.5, 1.0):
+            try:
+                self._try([round(part * (n - 1)) for n in self.shape])
+            except ValueError as error:
+                refusals.append(str(error))
+        if len(refusals) == 3:
+            raise ValueError(refusals[0])
+
+    def _try(self, index: Sequence[int]) -> None:
+        """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
+        scene = self.scene_at(index)
+        if set(self.needs) & {MODES, MOTION, ORBIT}:
+            dofs = scene.active_dofs
+            scene.support.stiffness(dofs)
+            scene.support.damping(dofs)
+            for body in ("inner", "outer"):
+                scene.support.inertia(body, dofs)
+        if set(self.needs) & {MOTION, ORBIT} and scene.shaft_speed == 0.0:
+            raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion or an orbit")
+
+    # ---------------------------------------------------------------------------- in words
+
+    @cached_property
+    def scene_text(self) -> str:
+        """The scene as TOML."""
+        return self.scene.to_toml()
+
+    @cached_property
+    def request(self) -> str:
+        """What is asked for, as JSON: axes by name, outputs, settings."""
+        return json.dumps(
+            {
+                "over": self.dims,
+                "outputs": self.outputs,
+                "settings": dataclasses.asdict(self.settings),
+            }
+        )
+
+
+def program_version() -> str:
+    """Version of this program; "unknown" where it is not installed."""
+    try:
+        return metadata.version("bearing-explorer")
+    except metadata.PackageNotFoundError:
+        return "unknown"
+
+
+def _axis(name: object, given: Any) -> Axis:
+    """A field's values, of the right kind, all different."""
+    if name not in UNITS:
+        raise checks.refuse("field in over", _short(name), ", ".join(UNITS))
+    assert isinstance(name, str)
+    kind = "words" if name in _WORDS else "numbers"
+    allowed = f"1 to {MOST_VALUES:,} different {kind}"
+    values = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    if not 1 <= len(values) <= MOST_VALUES:
+        raise checks.refuse(f"number of values of {name}", len(values), allowed)
+    if name in _WORDS:
+        if not all(isinstance(value, str) for value in values):
+            raise checks.refuse(f"values of {name}", _short(given), allowed)
+        array = np.array([str(value) for value in values])
+    else:
+        if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
+            raise checks.refuse(f"values of {name}", _short(given), allowed)
+        array = np.array([checks.number(f"value of {name}", value) for value in values])
+        if name == "n_balls":
+            array = np.array(
+                [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]
+            )
+    if len(np.unique(array)) != len(array):
+        raise checks.refuse(f"values of {name}", _short(given), allowed)
+    return Axis(name, array)
+
+
+def _all_dofs(scene: Scene, axes: Iterable[Axis]) -> tuple[str, ...]:
+    """Directions in which some scene of a grid moves."""
+    # what makes a scene need more directions is a number that is not zero
+    richest = {
+        axis.name: max(axis.values.tolist(), key=abs)
+        for axis in axes
+        if axis.name in ("contact_angle", "fz", "mx", "my")
+    }
+    try:
+        return scene.replace(**richest).active_dofs
+    except ValueError:
+        return DOF_NAMES
+
+
+def _even(n: int, most: int) -> int:
+    """The least part size that cuts n into as few parts as parts of size `most` do."""
+    parts = -(-n // min(most, n))
+    return -(-n // parts)
+
+
+def _or_none(scene: Scene, changes: dict[str, Any], ask: Any) -> Any:
+    """What `ask` says of the changed scene; True where there can be none, which is told later."""
+    try:
+        return ask(scene.replace(**changes))
+    except ValueError:
+        return True
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

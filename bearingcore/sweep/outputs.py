@@ -1,0 +1,298 @@
+"""What a sweep can say of a scene: names, units, and how each is computed.
+
+Every output is one number a scene, but for the band edges, which have one for each mode.
+"""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import checks, kernels
+from bearingcore.equilibrium import STIFFNESS_TERMS, TERM_INDICES, default_cage_angles, equilibrium
+from bearingcore.maps import stiffness_maps
+from bearingcore.modes import modes_at
+from bearingcore.motion import simulate
+from bearingcore.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
+from bearingcore.scene import DOF_NAMES, Scene
+from bearingcore.speed_run import SETTLING
+
+Array = NDArray[np.float64]
+
+STATICS, MODES, MOTION, ORBIT = "statics", "modes", "motion", "orbit"
+
+SECONDS = {STATICS: 4e-4, MODES: 8e-3, MOTION: 2e-2, ORBIT: 1e-2}
+"""Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
+a task. Five directions cost about ten times as much, but for statics."""
+
+SECONDS_IN_A_ROW = 1e-4
+"""[s] of statics alone where the extent varies: a row of extents is solved together."""
+
+STATUSES = (
+    "not_computed",
+    "complete",
+    "nothing_touches",
+    "free_direction",
+    "load_not_carried",
+    "static_state_not_converged",
+    "scene_refused",
+    "computation_refused",
+    "no_static_start",
+    "motion_diverged",
+    "orbit_not_converged",
+    "no_common_period",
+    "arithmetic_failed",
+)
+"""What became of a scene, by code: `complete`, or the first thing that kept something from being
+known. Nothing touches, a free direction and what follows: at some cage angle at least; a free
+direction still has a stiffness. Refused: the scene, or a computation of it, cannot be (a standing
+shaft has no motion). What is not known is NaN."""
+
+_CODE = {name: code for code, name in enumerate(STATUSES)}
+# the solver's codes in this table, in which "not computed" must be 0, what an empty file says
+_FROM_KERNELS = {
+    kernels.CONVERGED: "complete",
+    kernels.NOTHING_TOUCHES: "nothing_touches",
+    kernels.FREE_DIRECTION: "free_direction",
+    kernels.NOT_CARRIED: "load_not_carried",
+    kernels.NOT_CONVERGED: "static_state_not_converged",
+    kernels.REFUSED: "scene_refused",
+}
+_STATIC_CODES = np.array([_CODE[_FROM_KERNELS[code]] for code in sorted(_FROM_KERNELS)], np.int8)
+_FROM_ORBIT = {
+    NOT_CONVERGED: "orbit_not_converged",
+    NO_PERIOD: "no_common_period",
+    NO_START: "no_static_start",
+}
+
+MODE = "mode"
+"""Name of the dimension of the band edges."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """One quantity that a sweep gives.
+
+    Attributes
+    ----------
+    unit, meaning
+        for people; the unit is "1" where there is none.
+    needs
+        which computation: "statics", "modes", "motion" or "orbit".
+    dof
+        the direction that must be free for it; empty where none.
+    per_mode
+        True where there is one number for each mode.
+    """
+
+    unit: str
+    meaning: str
+    needs: str
+    dof: str = ""
+    per_mode: bool = False
+
+
+def _stiffness_unit(term: str) -> str:
+    tilts = sum(DOF_NAMES[i].startswith("r") for i in TERM_INDICES[term])
+    return ("N/m", "N/rad", "N·m/rad")[tilts]
+
+
+def _table() -> dict[str, Output]:
+    table: dict[str, Output] = {}
+    over = "over the cage angles of a period"
+    for term in STIFFNESS_TERMS:
+        for which in ("mean", "least", "greatest"):
+            table[f"{term}_{which}"] = Output(
+                _stiffness_unit(term), f"{which} stiffness {term} {over}", STATICS
+            )
+    for which in ("mean", "least", "greatest"):
+        table[f"loaded_balls_{which}"] = Output(
+            "1", f"{which} number of balls that carry load {over}", STATICS
+        )
+    table["ball_load_greatest"] = Output("N", f"greatest load of a ball {over}", STATICS)
+    table["converged_share"] = Output(
+        "1", "share of the cage angles that have one static state, and it was found", STATICS
+    )
+    for which in ("least", "greatest"):
+        table[f"band_{which}"] = Output(
+            "Hz", f"{which} natural frequency of each mode {over}", MODES, per_mode=True
+        )
+    for dof in DOF_NAMES:
+        unit, way = ("rad/s²", "about") if dof.startswith("r") else ("m/s²", "along")
+        along = f"of the housing {way} {dof[-1]} in the settled part of a simulated motion"
+        table[f"acceleration_rms_{dof}"] = Output(
+            unit, f"root mean square acceleration {along}", MOTION, dof
+        )
+        table[f"acceleration_greatest_{dof}"] = Output(
+            unit, f"greatest acceleration, either way, {along}", MOTION, dof
+        )
+    table["floquet_multiplier_greatest"] = Output(
+        "1",
+        "size of the largest Floquet multiplier of the periodic motion; "
+        "above 1 a disturbance of it grows",
+        ORBIT,
+    )
+    return table
+
+
+OUTPUTS: Mapping[str, Output] = _table()
+"""Every output by name."""
+
+
+def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
+    """Names of outputs, `*` and `?` standing for any letters, in the order of OUTPUTS.
+
+    Raises
+    ------
+    ValueError
+        for a name or pattern that fits none, or where nothing is asked for.
+    """
+    patterns = [names] if isinstance(names, str) else list(names)
+    found: set[str] = set()
+    for pattern in patterns:
+        fitting = fnmatch.filter(OUTPUTS, pattern) if isinstance(pattern, str) else []
+        if not fitting:
+            raise checks.refuse("name in outputs", pattern, ", ".join(OUTPUTS))
+        found.update(fitting)
+    if not found:
+        raise checks.refuse("outputs", patterns, "at least one of " + ", ".join(OUTPUTS))
+    return tuple(name for name in OUTPUTS if name in found)
+
+
+def mode_labels(dofs: Iterable[str]) -> tuple[str, ...]:
+    """Labels of the modes of `bearingcore.modes`, two a direction, in the order of directions."""
+    return tuple(f"{dof}{number}" for dof in dofs for number in (1, 2))
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How finely everything is computed.
+
+    Parameters
+    ----------
+    cage_angles
+        how many in a period, ends included; eight times as many for inner-race defects.
+    duration
+        [s] of simulated motions; their first half is left out as transient.
+    sample_rate
+        [Hz] of simulated motions.
+    """
+
+    cage_angles: int = 121
+    duration: float = 1.4
+    sample_rate: float = 65536.0
+
+    def __post_init__(self) -> None:
+        def keep(name: str, value: float) -> None:
+            object.__setattr__(self, name, value)
+
+        angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
+        keep("cage_angles", angles)
+        for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
+            value = checks.number(name, getattr(self, name), above=0.0, at_most=most, unit=unit)
+            keep(name, value)
+
+
+Numbers = dict[str, Array]
+
+
+def of_scene(
+    scene: Scene, needs: Iterable[str], labels: tuple[str, ...], settings: Settings
+) -> tuple[int, Numbers]:
+    """Code of what became of one scene, and its outputs: those of the computations in `needs`.
+
+    `labels` are the modes that the band edges are given for.
+    """
+    codes: list[str] = []
+    numbers: Numbers = {}
+    if STATICS in needs or MODES in needs:
+        state = equilibrium(scene, default_cage_angles(scene, settings.cage_angles))
+        terms = np.stack([state.term(name) for name in STIFFNESS_TERMS])
+        code, numbers = _statics(
+            state.status, terms, state.loaded_balls, state.ball_load.max(axis=1)
+        )
+        codes.append(STATUSES[int(code)])
+    try:
+        if MODES in needs:
+            bands = modes_at(state).bands()
+            edges = np.array([bands.get(label, (math.nan, math.nan)) for label in labels])
+            numbers["band_least"], numbers["band_greatest"] = edges.T
+        if MOTION in needs:
+            codes.append(_motion(scene, settings, numbers))
+        if ORBIT in needs:
+            found = orbit(scene)
+            numbers["floquet_multiplier_greatest"] = np.array(found.largest_multiplier)
+            codes.append(_FROM_ORBIT.get(found.status, "complete"))
+    except ValueError:
+        codes.append("computation_refused")
+    except (ArithmeticError, np.linalg.LinAlgError):
+        codes.append("arithmetic_failed")
+    first = next((code for code in codes if code != "complete"), "complete")
+    return _CODE[first], numbers
+
+
+def of_row(scene: Scene, extents: Array, settings: Settings) -> tuple[NDArray[np.int8], Numbers]:
+    """Codes (m,) and static outputs (m,) of `scene` with each of the extents, solved together."""
+    maps = stiffness_maps(scene, extents, default_cage_angles(scene, settings.cage_angles))
+    return _statics(maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load)
+
+
+def refused() -> int:
+    """Code of a scene that cannot be."""
+    return _CODE["scene_refused"]
+
+
+def _statics(
+    status: NDArray[np.int8],
+    stiffness: Array,
+    loaded_balls: NDArray[np.int64],
+    greatest_load: Array,
+) -> tuple[NDArray[np.int8], Numbers]:
+    """Codes and numbers (...) from the cage angles (..., n) of a period, stiffness (15, ..., n).
+
+    NaN at any of the angles makes NaN of the statistic: a mean over what happens to be known would
+    look like that of a period.
+    """
+    gone = status >= kernels.NOT_CARRIED
+    balls = np.where(gone, math.nan, loaded_balls)
+    numbers: Numbers = {
+        "ball_load_greatest": np.where(gone, math.nan, greatest_load).max(axis=-1),
+        "converged_share": np.asarray(np.mean(status == kernels.CONVERGED, axis=-1)),
+        "loaded_balls_mean": _period_mean(balls),
+        "loaded_balls_least": balls.min(axis=-1),
+        "loaded_balls_greatest": balls.max(axis=-1),
+    }
+    statistics = (
+        ("mean", _period_mean(stiffness)),
+        ("least", stiffness.min(axis=-1)),
+        ("greatest", stiffness.max(axis=-1)),
+    )
+    for which, values in statistics:
+        numbers |= {
+            f"{term}_{which}": value for term, value in zip(STIFFNESS_TERMS, values, strict=True)
+        }
+    # codes of the solver rise with what is missing
+    return _STATIC_CODES[status.max(axis=-1)], numbers
+
+
+def _period_mean(values: Array) -> Array:
+    """Mean over a period whose both ends are given: each counts half."""
+    inner = values[..., 1:-1].sum(axis=-1) + 0.5 * (values[..., 0] + values[..., -1])
+    return np.asarray(inner / (values.shape[-1] - 1))
+
+
+def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> str:
+    """Put what the motion gives into `numbers`; say what became of it."""
+    motion = simulate(scene, settings.duration, settings.sample_rate)
+    late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
+    for i, dof in enumerate(motion.dofs):
+        numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
+        numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()
+    if motion.completed:
+        return "complete"
+    return "no_static_start" if motion.status.startswith(NO_START) else "motion_diverged"

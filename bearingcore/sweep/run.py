@@ -1,0 +1,324 @@
+"""Sweeps: every scene of a grid, on Dask, to an xarray.Dataset."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bearingcore import checks
+from bearingcore.precision.points import Progress
+from bearingcore.scene import Scene
+from bearingcore.sweep import store as stores
+from bearingcore.sweep.grid import Grid, program_version
+from bearingcore.sweep.outputs import Settings
+
+if TYPE_CHECKING:
+    import xarray
+    from distributed import Client
+
+MOST_BYTES = 2_000_000_000
+"""Of results that are kept in memory; larger ones need a store."""
+
+AHEAD = 4
+"""Tasks that are handed out for each thread of the cluster: enough that none waits, few enough for
+the scheduler to carry, however many there are in all."""
+
+LOOK_AGAIN = 5.0
+"""[s] after which the size of the cluster is asked for again."""
+
+
+def needs_extra() -> None:
+    """ImportError with what to do about it, where what sweeps need is not installed."""
+    try:
+        for name in ("xarray", "dask", "distributed", "zarr"):
+            importlib.import_module(name)
+    except ImportError as error:
+        raise ImportError(
+            f"sweeps need xarray, dask, distributed and zarr ({error}): "
+            'pip install "bearing-explorer[scale]"'
+        ) from error
+
+
+def sweep(
+    scene: Scene,
+    over: Mapping[str, Any],
+    outputs: Iterable[str],
+    client: Client | str | None = None,
+    store: str | os.PathLike[str] | None = None,
+    *,
+    settings: Settings | None = None,
+    workers: int | None = None,
+    processes: bool = False,
+    scenes_per_task: int | None = None,
+    progress: Progress | None = None,
+) -> xarray.Dataset:
+    """Outputs of all combinations of values of some fields of `scene`.
+
+    Parameters
+    ----------
+    scene
+        what stays the same.
+    over
+        fields as `Scene.replace` takes them, each with its values, in SI units; the dimensions of
+        the result, in their order.
+    outputs
+        names out of `bearingcore.sweep.OUTPUTS`; `*` and `?` stand for any letters.
+    client
+        a `distributed.Client`, or the address of a scheduler. None computes on this machine.
+    store
+        folder for the results, written as Zarr region by region, by the workers: all must see it.
+        Where it holds a part of the same sweep, that is kept and the rest computed. None keeps
+        results in memory.
+    settings
+        how finely; see `Settings`.
+    workers, processes
+        on this machine: how many (None: one a core), and whether they are processes of their own
+        rather than threads. Processes share nothing and are faster, but take a second or two to
+        start; a script that asks for them must do so under ``if __name__ == "__main__":``.
+    scenes_per_task
+        None takes about two seconds of work. A store that is taken up keeps its own.
+    progress
+        called with the part done, 0 to 1, and a sentence.
+
+    Returns
+    -------
+    xarray.Dataset
+        a variable for each output with its unit in `attrs`, and `status`, codes of
+        `bearingcore.sweep.STATUSES`; NaN where there is no answer. Its `attrs` hold the scene as
+        TOML, what was asked for and the version of the program. From a store it is lazy.
+
+    Raises
+    ------
+    ImportError
+        where xarray, dask, distributed or zarr are missing.
+    ValueError
+        for what cannot be, in a sentence; also where `store` holds anything but this sweep.
+    ConnectionError
+        where the scheduler cannot be reached or is lost. What is finished is in the store.
+    """
+    needs_extra()
+    return run(
+        Grid.of(scene, over, outputs, settings),
+        client=client,
+        store=store,
+        workers=workers,
+        processes=processes,
+        scenes_per_task=scenes_per_task,
+        progress=progress,
+    )
+
+
+def run(
+    grid: Grid,
+    *,
+    client: Client | str | None,
+    store: str | os.PathLike[str] | None,
+    workers: int | None,
+    processes: bool,
+    scenes_per_task: int | None,
+    progress: Progress | None,
+    say: Callable[[str], object] | None = None,
+) -> xarray.Dataset:
+    """`sweep` of a grid. `say` is told once where Dask's page shows what its workers do."""
+    if scenes_per_task is not None:
+        scenes_per_task = checks.whole_number(
+            "scenes_per_task", scenes_per_task, at_least=1, at_most=10_000_000
+        )
+    if workers is not None:
+        workers = checks.whole_number("workers", workers, at_least=1, at_most=1000)
+    region_shape = grid.region_shape(scenes_per_task)
+    if store is None:
+        return _in_memory(grid, region_shape, client, workers, processes, progress, say)
+    path = stores.local_path(store)
+    region_shape = stores.prepare(path, grid, region_shape)
+    regions = (
+        stores.region(path, grid, region_shape, index)
+        for index in np.ndindex(*grid.region_counts(region_shape))
+    )
+    told = _Told(grid.size, progress)
+    with _cluster(client, workers, processes) as cluster:
+        _say_where(cluster, say)
+        seen = False
+        for region, computed in _finished(cluster, stores.finish, regions):
+            if not (seen or stores.is_finished(region)):
+                raise ValueError(
+                    f"a worker wrote to {path}, but here it is not to be seen: "
+                    "the store must be a folder that this and all workers share"
+                )
+            seen = True
+            told.add(region.part.size, kept=not computed)
+    return open_results(path)
+
+
+def open_results(store: str | os.PathLike[str]) -> xarray.Dataset:
+    """The Dataset of a store, finished or not: status 0 (`not_computed`) marks what is missing."""
+    needs_extra()
+    import xarray
+
+    return xarray.open_zarr(stores.local_path(store))
+
+
+def _in_memory(
+    grid: Grid,
+    region_shape: tuple[int, ...],
+    client: Client | str | None,
+    workers: int | None,
+    processes: bool,
+    progress: Progress | None,
+    say: Callable[[str], object] | None,
+) -> xarray.Dataset:
+    import xarray
+
+    per_scene = 1 + 8 * sum(np.prod(grid.shape_of(name, (1,))) for name in grid.outputs)
+    if grid.size * per_scene > MOST_BYTES:
+        raise checks.refuse(
+            "size of the results",
+            f"{grid.size * per_scene / 1e9:.1f} GB",
+            f"at most {MOST_BYTES / 1e9:g} GB in memory; give a store for more",
+        )
+    status = np.zeros(grid.shape, dtype=np.int8)
+    numbers = {name: np.full(grid.shape_of(name), np.nan) for name in grid.outputs}
+    places = (
+        grid.region(region_shape, index) for index in np.ndindex(*grid.region_counts(region_shape))
+    )
+    parts = ((place, grid.part(place)) for place in places)
+    told = _Told(grid.size, progress)
+    with _cluster(client, workers, processes) as cluster:
+        _say_where(cluster, say)
+        for (place, part), (codes, found) in _finished(cluster, _compute, parts):
+            status[place] = codes
+            for name, values in found.items():
+                numbers[name][place] = values
+            told.add(part.size)
+    units = stores.coordinate_attributes(grid)
+    variables = {
+        name: (grid.dims_of(name), values, stores.variable_attributes(name))
+        for name, values in numbers.items()
+    }
+    name = stores.STATUS
+    return xarray.Dataset(
+        {**variables, name: (grid.dims, status, stores.variable_attributes(name))},
+        coords={
+            name: (name, values, units.get(name, {}))
+            for name, values in stores.coordinates(grid).items()
+        },
+        attrs=stores.attributes(grid),
+    )
+
+
+def _compute(task: tuple[Any, Grid]) -> Any:
+    return task[1].compute()
+
+
+class _Told:
+    """How far a sweep is, told to whoever wants to know."""
+
+    def __init__(self, size: int, progress: Progress | None) -> None:
+        self._size = size
+        self._progress = progress
+        self._done = self._kept = 0
+
+    def add(self, scenes: int, kept: bool = False) -> None:
+        self._done += scenes
+        self._kept += scenes if kept else 0
+        if self._progress is not None:
+            words = f"{self._done:,} of {self._size:,} scenes"
+            if self._kept:
+                words += f", {self._kept:,} of them from before"
+            self._progress(self._done / self._size, words)
+
+
+def _say_where(client: Client, say: Callable[[str], object] | None) -> None:
+    if say is not None:
+        say(f"What each worker does: {client.dashboard_link}")
+
+
+@contextmanager
+def _cluster(client: Client | str | None, workers: int | None, processes: bool) -> Iterator[Client]:
+    """The client to compute with; what is started here is stopped here."""
+    from distributed import Client, LocalCluster
+
+    if client is not None and not isinstance(client, str):
+        yield client
+        return
+    if isinstance(client, str):
+        try:
+            connected = Client(client, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise ConnectionError(f"no scheduler answers at {client}: {error}") from None
+        with connected:
+            yield connected
+        return
+    count = workers or os.cpu_count() or 1
+    shape = (
+        {"n_workers": count, "threads_per_worker": 1}
+        if processes
+        # threads share the memory of their host, whose use says nothing of theirs: no limit
+        else {"n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
+    )
+    here = "localhost:0"  # nobody else is to reach the pages of Dask, and any free port will do
+    with (
+        LocalCluster(
+            processes=processes, dashboard_address=here, worker_dashboard_address=here, **shape
+        ) as cluster,
+        Client(cluster, set_as_default=False) as local,
+    ):
+        yield local
+
+
+def _finished(
+    client: Client, work: Callable[[Any], Any], tasks: Iterable[Any]
+) -> Iterator[tuple[Any, Any]]:
+    """Each task with what `work` makes of it on the cluster, in the order of their ends."""
+    from distributed import as_completed
+    from distributed.client import FutureCancelledError
+
+    waiting = iter(tasks)
+    going: dict[Any, Any] = {}
+    done = as_completed([], loop=client.loop)
+    version = program_version()
+    threads, looked = 0, -LOOK_AGAIN
+    lost = "the scheduler or the connection to it is lost; what is finished is kept in the store"
+    try:
+        while True:
+            if time.monotonic() - looked > LOOK_AGAIN:
+                threads = max(sum(client.nthreads().values()), 1)
+                looked = time.monotonic()
+            for task in islice(waiting, max(AHEAD * threads - len(going), 0)):
+                future = client.submit(_same_version, version, work, task, pure=False)
+                going[future] = task
+                done.add(future)
+            if not going:
+                return
+            future = next(done)
+            try:
+                result = future.result()
+            except FutureCancelledError as error:
+                raise ConnectionError(lost) from error
+            yield going.pop(future), result
+    except OSError as error:
+        # what the client's own calls raise when nobody is at the other end
+        if client.status != "running" or not isinstance(error, FileNotFoundError):
+            raise ConnectionError(f"{lost} ({error})") from error
+        raise
+    finally:
+        if going and client.status == "running":
+            client.cancel(list(going), force=True)
+
+
+def _same_version(version: str, work: Callable[[Any], Any], task: Any) -> Any:
+    """On a worker: do the work, if both ends are the same program."""
+    here = program_version()
+    if here != version:
+        raise ValueError(
+            f"a worker has version {here} of this program, the sweep was started by {version}: "
+            "install the same on all"
+        )
+    return work(task)

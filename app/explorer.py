@@ -199,7 +199,12 @@ class Explorer:
         task.add_done_callback(self._tasks.discard)
 
     def _tell(self, **news: Any) -> None:
-        """Tell all panels of controls; each shows what is its own."""
+        """Tell all panels of controls; each shows what is its own.
+
+        The mark lets them pass over what a hand has moved on from meanwhile.
+        """
+        if "state" in news:
+            news["state"] = {**news["state"], "mark": self._mark}
         for panel in self._panels:
             panel.tell(**news)
 

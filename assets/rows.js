@@ -52,6 +52,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     send({ set })
   }
   const push = (name, value) => {
+    rows[name].asked = asked() + 1
     pending = { ...pending, [name]: value }
     if (!waiting) pump()
   }
@@ -111,7 +112,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     const root = element("div", { class: `control control-${name}`, "data-name": name },
       head, line, refusal, words)
     refusal.hidden = true
-    rows[name] = { root, slider, number, refusal, extra, unit, line, about, label, symbol }
+    rows[name] = { asked: 0, root, slider, number, refusal, extra, unit, line, about, label, symbol }
 
     slider.addEventListener("input", () => move(name, Number(slider.value)))
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
@@ -172,6 +173,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     }
     for (const [name, value] of Object.entries(state.values ?? {})) {
       if (!rows[name] || !limits[name]) continue
+      if (rows[name].asked > state.mark) continue  // moved since the server said this
       refuse(name, "")
       put(name, value)
       rows[name].number.value = format(value, limits[name].step)

@@ -172,6 +172,12 @@ def test_a_view_that_fails_says_so_and_keeps_its_picture(
         {"choose": {"preset": "../../etc/passwd"}},
         {"typed": {"extent_deg": "9" * 100000}},
         {"reset": "yes"},
+        {"floor": "1 2"},
+        {"floor": {"name": 5, "text": "1 2\n3 4"}},
+        {"floor": {"name": "x", "text": ["1 2"]}},
+        {"floor": {}},
+        {"choose": {"defect": ["add"], "dofs": {"x": 1}, "race": 7, "numbers": "none"}},
+        {"set": {"n_balls": -5, "ball_diameter_mm": {}, "stiffness_x": "", "seed": "1e99"}},
     ],
 )
 def test_strangers_messages_change_nothing(told: list[dict], message: object) -> None:
@@ -184,3 +190,38 @@ def test_strangers_messages_change_nothing(told: list[dict], message: object) ->
 @pytest.mark.parametrize("message", [None, {}, {"show": "nowhere"}, {"show": ["one"]}, 5])
 def test_strangers_tabs_do_not_exist(told: list[dict], message: object) -> None:
     assert session(lambda e: e._tab_asked(message))._shown == "one"
+
+
+def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(told: list[dict]) -> None:
+    text = "250 0\n265 60\n280 0\n"
+
+    async def live(text: str) -> Explorer:
+        explorer = Explorer(SECTIONS)
+        explorer._asked({"mark": 2, "floor": {"name": "wear.txt", "text": text}})
+        while explorer._tasks or not explorer._worker.idle:
+            await asyncio.sleep(0.002)
+        return explorer
+
+    explorer = run(live(text))
+    assert explorer.scene.defect.floor is not None
+    assert explorer.values["extent_deg"] == pytest.approx(30.0)
+    assert told[-1]["state"]["floor"]["words"] == "wear.txt: 3 points"
+    assert drawn(explorer, "one")[-1] == pytest.approx(60e-6)
+    explorer = run(live("nothing"))
+    assert explorer.scene == presets["fan-rig"]
+    assert told[-1]["state"]["floor"]["bad"]
+
+
+def test_what_is_told_names_the_change_it_answers(told: list[dict]) -> None:
+    """The browser passes over it where a hand has moved on meanwhile."""
+    session(lambda e: e._asked({"mark": 7, "typed": {"extent_deg": "20"}}))
+    assert told[-1]["state"]["mark"] == 7
+
+
+def test_limits_are_looked_at_in_every_drawing(told: list[dict]) -> None:
+    calm = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}}))
+    assert {row["state"] for row in calm.limits.rows} == {"kept"}
+    heavy = session(
+        lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}, "typed": {"fy_n": "-20000"}})
+    )
+    assert heavy.limits.rows[0]["state"] == "crossed"

@@ -185,7 +185,7 @@ def test_a_load_nothing_can_carry_is_said_in_words(
 ) -> None:
     page, _ = watch
     open_page(page, explorer, "stiffness")
-    status = page.locator("footer [role=status]")
+    status = page.locator("footer .status [role=status]")
     expect(status).to_contain_text("Converged")
     expect(status).to_contain_text("2 degrees of freedom: x y")
     expect(status).to_contain_text(re.compile(r"residual at most .*10⁻.* ms"))

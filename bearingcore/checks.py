@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from typing import SupportsFloat
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
 def refuse(field: str, value: object, allowed: str) -> ValueError:
@@ -63,7 +67,22 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
     allowed = f"a whole number from {at_least} to {at_most}"
     if isinstance(value, bool):
         raise refuse(field, value, allowed)
-    x = number(field, value, at_least=at_least, at_most=at_most)  # type: ignore[arg-type]
-    if x != round(x):
+    try:
+        x = float(value)  # type: ignore[arg-type]  # what it cannot take is refused
+    except (TypeError, ValueError):
+        raise refuse(field, value, allowed) from None
+    if not at_least <= x <= at_most or x != round(x):
         raise refuse(field, x, allowed)
     return round(x)
+
+
+def finite(field: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
+    """`values` as a row of finite floats (n,), a copy; else ValueError."""
+    allowed = f"finite numbers [{unit}]"
+    try:
+        row = np.array(values, dtype=float).reshape(-1)
+    except (TypeError, ValueError):
+        raise refuse(field, values, allowed) from None
+    if not np.all(np.isfinite(row)):
+        raise refuse(field, reprlib.repr(values), allowed)
+    return row

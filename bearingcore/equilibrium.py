@@ -163,9 +163,7 @@ def equilibrium(
     if cage_angles is None:
         angles = default_cage_angles(scene)
     else:
-        angles = np.ascontiguousarray(cage_angles, dtype=float).reshape(-1)
-        if not np.all(np.isfinite(angles)):
-            raise checks.refuse("cage_angles", cage_angles, "finite numbers [rad]")
+        angles = checks.finite("cage_angles", cage_angles, "rad")
     free = scene.active_dofs if dofs is None else check_dofs(dofs)
     active = np.array([DOF_NAMES.index(name) for name in free])
     bearing = scene.bearing
@@ -228,11 +226,7 @@ def _explain(
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif (
-            status[k] == kernels.NOT_CONVERGED
-            and load.any()
-            and runs_away(scene, angles[k], active, load)
-        ):
+        elif status[k] == kernels.NOT_CONVERGED and runs_away(scene, angles[k], active, load):
             status[k] = kernels.NOT_CARRIED
 
 
@@ -250,6 +244,8 @@ def runs_away(
         linprog,
     )  # imported late: it would double the time to import this package
 
+    if not load.any():
+        return False
     bearing = scene.bearing
     phi = cage_angle + bearing.ball_spacing * np.arange(bearing.n_balls)
     zero, one = np.zeros_like(phi), np.ones_like(phi)

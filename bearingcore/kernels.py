@@ -789,9 +789,10 @@ def static_maps(
                 if delta > 0.0:
                     count += 1
                     most = max(most, delta)
-            loaded[e, k] = 0 if gone else count
-            greatest[e, k] = math.nan if gone else K * most * math.sqrt(most)
-            nowhere = gone or status[e, k] == NOTHING_TOUCHES
+            loose = status[e, k] == NOTHING_TOUCHES
+            nowhere = gone or loose
+            loaded[e, k] = 0 if nowhere else count
+            greatest[e, k] = math.nan if gone else 0.0 if loose else K * most * math.sqrt(most)
             term = 0
             for a in range(5):
                 for b in range(a, 5):

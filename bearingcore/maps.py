@@ -128,15 +128,13 @@ def stiffness_maps(
     if extents is None:
         sizes = np.linspace(0.0, GREATEST_EXTENT, 91)
     else:
-        sizes = np.array(extents, dtype=float).reshape(-1)
+        sizes = checks.finite("extents", extents, "rad")
         if not np.all((sizes >= 0.0) & (sizes <= TWO_PI)):
             raise checks.refuse("extents", extents, "0 to 2π [rad]")
     if cage_angles is None:
         angles = default_cage_angles(scene)
     else:
-        angles = np.array(cage_angles, dtype=float).reshape(-1)
-        if not np.all(np.isfinite(angles)):
-            raise checks.refuse("cage_angles", cage_angles, "finite numbers [rad]")
+        angles = checks.finite("cage_angles", cage_angles, "rad")
     free = scene.active_dofs if dofs is None else check_dofs(dofs)
     active = np.array([DOF_NAMES.index(name) for name in free])
     bearing = scene.bearing

@@ -159,13 +159,15 @@ class Scene:
         if self.dofs is not None:
             keep("dofs", check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
-            keep("defect", tuple(self.defect))
+            several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
+            for defect in several:
+                if not isinstance(defect, Defect):
+                    raise checks.refuse("defect", defect, "a Defect or a tuple of them")
+            keep("defect", several)
         for name, kind in (("bearing", Bearing), ("load", Load), ("support", Support)):
             if not isinstance(getattr(self, name), kind):
                 raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
         for defect in self.defects:
-            if not isinstance(defect, Defect):
-                raise checks.refuse("defect", defect, "a Defect or a tuple of them")
             defect.check_depth(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
@@ -272,7 +274,11 @@ _PART_OF_FIELD = {
 
 def check_dofs(dofs: Iterable[str]) -> tuple[str, ...]:
     """`dofs` in the order of `DOF_NAMES`; ValueError for unknown, repeated or no names."""
+    allowed = "different names out of " + ", ".join(DOF_NAMES)
+    if not isinstance(dofs, Iterable):
+        raise checks.refuse("dofs", dofs, allowed)
     names = (dofs,) if isinstance(dofs, str) else tuple(dofs)
-    if not names or len(set(names)) != len(names) or not set(names) <= set(DOF_NAMES):
-        raise checks.refuse("dofs", names, "different names out of " + ", ".join(DOF_NAMES))
+    known = all(name in DOF_NAMES for name in names)
+    if not names or not known or len(set(names)) != len(names):
+        raise checks.refuse("dofs", names, allowed)
     return tuple(name for name in DOF_NAMES if name in names)

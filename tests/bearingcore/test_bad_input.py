@@ -1,0 +1,364 @@
+"""Bad input is refused in a sentence: the field, its value and what is allowed. What has no answer
+is no bad input: it comes back as a status, never as an exception and never as a number.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bearingcore import (
+    DOF_NAMES,
+    Bearing,
+    Defect,
+    Load,
+    Scene,
+    Support,
+    contact_damping,
+    equilibrium,
+    kernels,
+    modes,
+    presets,
+    simulate,
+    spectrum,
+)
+from tests.independent import Balls, verdict
+
+LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
+NAN, INF = math.nan, math.inf
+
+
+def refused(field: str, shown: str, act: Callable[[], object]) -> str:
+    """What is said to be allowed, after checking that field and value are named."""
+    with pytest.raises(ValueError, match=r"; allowed: .") as error:
+        act()
+    said = str(error.value)
+    assert said.startswith(f"{field} is {shown}"), said
+    return said.split("; allowed: ")[1]
+
+
+def bearing_with(**changes: Any) -> Callable[[], object]:
+    """Make the Liew-Lim bearing with some fields changed."""
+    return lambda: LIEW_LIM.replace(**changes)
+
+
+# --- constructors --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "shown", "allowed"),
+    [
+        ("radial_clearance", -1e-9, "-1e-09", "at least 0"),
+        ("radial_clearance", NAN, "nan", "finite"),
+        ("radial_clearance", INF, "inf", "finite"),
+        ("n_balls", 0, "0", "from 1"),
+        ("n_balls", -3, "-3", "from 1"),
+        ("n_balls", 7.5, "7.5", "whole number"),
+        ("n_balls", NAN, "nan", "whole number"),
+        ("n_balls", True, "True", "whole number"),
+        ("n_balls", 10**9, "1e+09", "500"),
+        ("n_balls", 60, "60", "do not overlap"),
+        ("contact_angle", math.radians(90.0), "1.5708", "80 degrees"),
+        ("contact_angle", math.pi, "3.14159", "80 degrees"),
+        ("contact_angle", -0.1, "-0.1", "at least 0"),
+        ("contact_angle", NAN, "nan", "80 degrees"),
+        ("ball_diameter", 0.0, "0", "above 0"),
+        ("ball_diameter", -6e-3, "-0.006", "above 0"),
+        ("ball_diameter", 0.04, "0.04", "pitch_diameter"),
+        ("ball_diameter", "thick", "'thick'", "finite number"),
+        ("ball_diameter", None, "None", "finite number"),
+        ("pitch_diameter", 0.0, "0", "above 0"),
+        ("groove_center_radius", 0.0, "0", "above 0"),
+        ("groove_center_distance", -5e-5, "-5e-05", "above 0"),
+        ("load_deflection_factor", 0.0, "0", "above 0"),
+        ("load_deflection_factor", INF, "inf", "finite"),
+        ("outer_raceway_radius", NAN, "nan", "finite"),
+        ("inner_raceway_radius", 0.0227, "0.0227", "outer_raceway_radius"),
+        # the defect
+        ("extent", -0.1, "-0.1", "at least 0"),
+        ("extent", 6.3, "6.3", "at most 6.28319"),
+        ("extent", NAN, "nan", "finite"),
+        ("depth", -1e-6, "-1e-06", "at least 0"),
+        ("depth", 3.1e-3, "0.0031", "ball radius of 0.003 m"),
+        ("center", INF, "inf", "finite"),
+        ("race", "middle", "'middle'", "outer, inner"),
+        ("race", None, "None", "outer, inner"),
+        ("edge", "round", "'round'", "published, chord, exact"),
+        ("edge", 3, "3", "published, chord, exact"),
+        # the load
+        ("fx", NAN, "nan", "finite"),
+        ("fy", "heavy", "'heavy'", "finite number"),
+        ("fz", INF, "inf", "finite"),
+        ("mx", None, "None", "finite number"),
+        ("my", -INF, "-inf", "finite"),
+        # the support
+        ("inner_mass", 0.0, "0", "above 0"),
+        ("outer_mass", -2.0, "-2", "above 0"),
+        ("outer_mass", None, "None", "above 0"),
+        ("stiffness_x", 0.0, "0", "above 0"),
+        ("stiffness_z", -1.0, "-1", "above 0"),
+        ("damping_y", -1.0, "-1", "at least 0"),
+        ("damping_rx", NAN, "nan", "at least 0"),
+        ("inner_inertia", 0.0, "0", "above 0"),
+        # the scene
+        ("shaft_speed", -1.0, "-1", "at least 0"),
+        ("shaft_speed", NAN, "nan", "at least 0"),
+        ("contact_damping", -1.0, "-1", "at least 0"),
+        ("contact_damping", "some", "'some'", "at least 0"),
+        ("contact_law", "sticky", "'sticky'", "published, no tension"),
+        ("dofs", ("x", "y", "rz"), "('x', 'y', 'rz')", "x, y, z, rx, ry"),
+        ("dofs", (), "()", "x, y, z, rx, ry"),
+        ("dofs", ("x", "x"), "('x', 'x')", "different names"),
+        ("dofs", "theta", "('theta',)", "x, y, z, rx, ry"),
+        ("dofs", 2, "2", "x, y, z, rx, ry"),
+        ("bearing", None, "None", "Bearing"),
+        ("load", 5.0, "5", "Load"),
+        ("support", "rubber", "'rubber'", "Support"),
+        ("defect", 3, "3", "Defect"),
+        ("defect", None, "None", "Defect"),
+        ("defect", ("spall",), "'spall'", "Defect"),
+        ("defect", "spall", "'s'", "Defect"),
+    ],
+)
+def test_a_field_that_cannot_be(field: str, value: object, shown: str, allowed: str) -> None:
+    assert allowed in refused(field, shown, lambda: LIEW_LIM.replace(**{field: value}))
+
+
+@pytest.mark.parametrize("name", ["radius", "Fx", "", "_own", "displacement", "extent_deg"])
+def test_a_field_that_does_not_exist(name: str) -> None:
+    allowed = refused("name of a field", repr(name), lambda: LIEW_LIM.replace(**{name: 1.0}))
+    for known in ("extent", "fy", "n_balls", "stiffness_x", "dofs"):
+        assert known in allowed
+
+
+def test_parts_refuse_on_their_own_too() -> None:
+    refused("extent", "-1", lambda: Defect(-1.0, 0.0, 0.0))
+    refused("edge", "'soft'", lambda: Defect(1.0, 1e-5, 0.0, edge="soft"))
+    refused("fx", "nan", lambda: Load(fx=NAN))
+    refused("damping_x", "-1", lambda: Support(1.0, 1.0, 1e8, 1e8, -1.0, 0.0))
+    numbers = (9, 8e-3, 39e-3, 0.0, 19e-3, 5e-5, -1e-6, 1e10, 23e-3, 15e-3)
+    refused("radial_clearance", "-1e-06", lambda: Bearing(*numbers))
+    deep = Defect(1.0, 5e-3, 0.0)
+    refused("depth", "0.005", lambda: deep.path(0.0, LIEW_LIM.bearing))
+
+
+def test_a_bad_number_does_not_hide_behind_a_good_one() -> None:
+    """Of several defects each is checked."""
+    good, deep = LIEW_LIM.defect, Defect(0.1, 4e-3, 0.0)
+    refused("depth", "0.004", lambda: LIEW_LIM.replace(defect=(good, deep)))
+
+
+def test_numbers_that_only_look_bad() -> None:
+    """What a caller may well mean: whole floats, NumPy numbers, integers, 360° as a decimal."""
+    assert LIEW_LIM.replace(n_balls=12.0) == LIEW_LIM
+    assert LIEW_LIM.replace(n_balls=np.int32(12), fy=np.float32(-2000.0)) == LIEW_LIM
+    assert LIEW_LIM.replace(fy=-2000) == LIEW_LIM
+    assert LIEW_LIM.replace(extent=6.2831853072).defect.extent == 2.0 * math.pi
+    assert LIEW_LIM.replace(dofs=["ry", "x"]).dofs == ("x", "ry")
+    assert LIEW_LIM.replace(depth=3e-3).defect.depth == 3e-3
+    assert hash(LIEW_LIM.replace(defect=[LIEW_LIM.defect])) is not None
+
+
+# --- functions -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("function", [equilibrium, modes])
+@pytest.mark.parametrize(
+    "angles", [[0.0, NAN], [INF], NAN, "all", [[0.0], [1.0, 2.0]], [1j], object()]
+)
+def test_cage_angles_that_are_not_angles(function: Callable[..., object], angles: Any) -> None:
+    with pytest.raises(ValueError, match=r"^cage_angles is .*; allowed: finite numbers"):
+        function(LIEW_LIM, angles)
+
+
+@pytest.mark.parametrize("dofs", [("x", "spin"), (), ("z", "z"), "all", 5])
+def test_directions_that_are_not_directions(dofs: Any) -> None:
+    with pytest.raises(ValueError, match=r"^dofs is .*; allowed: .*x, y, z, rx, ry"):
+        equilibrium(LIEW_LIM, [0.0], dofs)
+
+
+def test_a_stiffness_term_that_does_not_exist() -> None:
+    answer = equilibrium(LIEW_LIM, [0.0])
+    assert "k_xy" in refused("stiffness term", "'k_yx'", lambda: answer.term("k_yx"))
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "shown", "allowed"),
+    [
+        ("duration", 0.0, "0", "above 0"),
+        ("duration", -1.0, "-1", "above 0"),
+        ("duration", NAN, "nan", "above 0"),
+        ("duration", INF, "inf", "finite"),
+        ("duration", 1e6, "1e+06", "steps a second"),
+        ("sample_rate", 0.0, "0", "above 0"),
+        ("sample_rate", NAN, "nan", "above 0"),
+        ("sample_rate", 1000.0, "1000", "twice the highest natural frequency"),
+        ("step_rate", 0.0, "0", "above 0"),
+        ("step_rate", NAN, "nan", "above 0"),
+        ("step_rate", 65536.0 * 1.5, "98304", "multiple or a whole fraction"),
+        ("step_rate", 65536.0 / 2.5, "26214.4", "multiple or a whole fraction"),
+        ("step_rate", 65537.0, "65537", "multiple or a whole fraction"),
+    ],
+)
+def test_motion_refuses(field: str, value: float, shown: str, allowed: str) -> None:
+    arguments = {"duration": 0.01, "sample_rate": 65536.0, field: value}
+    assert allowed in refused(field, shown, lambda: simulate(FAN_RIG, **arguments))
+
+
+def test_the_least_sample_rate_is_twice_the_highest_natural_frequency() -> None:
+    """The refusal names the rate that is enough, and just that one is."""
+    allowed = refused("sample_rate", "1000", lambda: simulate(FAN_RIG, 0.01, 1000.0))
+    enough = float(allowed.split()[2])
+    highest = float(np.nanmax(modes(FAN_RIG).undamped_frequency))
+    assert enough == pytest.approx(2.0 * highest, rel=2e-3)
+    assert simulate(FAN_RIG, 0.01, enough + 1.0).completed
+    refused("sample_rate", f"{enough - 1.0:g}", lambda: simulate(FAN_RIG, 0.01, enough - 1.0))
+
+
+def test_a_shaft_that_stands_still_makes_no_motion() -> None:
+    still = FAN_RIG.replace(shaft_speed=0.0)
+    assert "above 0" in refused("shaft_speed", "0", lambda: simulate(still, 0.01))
+    assert equilibrium(still).converged.all()
+
+
+@pytest.mark.parametrize("function", [lambda scene: simulate(scene, 0.01), modes])
+@pytest.mark.parametrize("missing", ["stiffness_z", "damping_rx", "inner_inertia"])
+def test_a_support_that_is_not_known_where_it_is_needed(
+    function: Callable[[Scene], object], missing: str
+) -> None:
+    unknown = LIEW_LIM.replace(**{missing: None})
+    assert "free directions" in refused(missing, "None", lambda: function(unknown))
+    assert equilibrium(unknown).converged.all()
+    function(unknown.replace(dofs=("x", "y")))
+
+
+@pytest.mark.parametrize(
+    ("signal", "rate", "resolution", "field"),
+    [
+        (np.zeros(100), 65536.0, 32.0, "signal"),
+        (np.full(4096, NAN), 65536.0, 32.0, "signal"),
+        (np.zeros((2, 2, 4096)), 65536.0, 32.0, "signal"),
+        (np.zeros(4096), 0.0, 32.0, "sample_rate"),
+        (np.zeros(4096), NAN, 32.0, "sample_rate"),
+        (np.zeros(4096), 65536.0, 0.0, "resolution"),
+        (np.zeros(4096), 65536.0, 40e3, "resolution"),
+        (np.zeros(4096), 65536.0, NAN, "resolution"),
+    ],
+)
+def test_spectrum_refuses(signal: np.ndarray, rate: float, resolution: float, field: str) -> None:
+    with pytest.raises(ValueError, match=rf"^{field} is .*; allowed: "):
+        spectrum(signal, rate, resolution)
+
+
+# --- no bad input, but no answer -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        FAN_RIG.replace(fy=0.0),
+        LIEW_LIM.replace(fy=0.0, fz=0.0),
+        LIEW_LIM.replace(dofs=("x", "rx")),
+        FAN_RIG.replace(fy=0.0, radial_clearance=0.0),
+    ],
+    ids=["no load", "no load, five directions", "load only where it is held", "no clearance"],
+)
+def test_without_a_load_nothing_touches(scene: Scene) -> None:
+    answer = equilibrium(scene)
+    assert np.all(answer.status == kernels.NOTHING_TOUCHES)
+    assert not answer.converged.any()
+    assert answer.reason(0).startswith("nothing touches")
+    assert np.isnan(answer.displacement).all()
+    assert np.isnan(answer.stiffness).all()
+    assert np.isnan(answer.contact_angle).all()
+    assert np.all(answer.ball_load == 0.0)
+    assert np.all(answer.loaded_balls == 0)
+    assert verdict(answer, 0) == ""
+    assert np.isnan(modes(scene).frequency).all()
+    assert contact_damping(scene) == 0.0
+    motion = simulate(scene, 0.001)
+    assert not motion.completed
+    assert motion.status.startswith("no static state to start from: nothing touches")
+    assert np.isnan(motion.outer_acceleration).all()
+
+
+def balls_scene(n_balls: int, fx: float, fy: float) -> Scene:
+    """The fan rig with few balls and a load, in x and y."""
+    return FAN_RIG.sound().replace(n_balls=n_balls, fx=fx, fy=fy)
+
+
+@pytest.mark.parametrize(
+    ("n_balls", "fx", "fy", "cage_angle"),
+    [
+        (1, 0.0, -100.0, 0.0),
+        (1, 0.0, -100.0, 0.5 * math.pi),
+        (1, 1.0, -100.0, 1.5 * math.pi),
+        (2, 0.0, -100.0, 0.0),
+        (2, 0.0, -100.0, 1.0),
+        (2, 1e-3, -100.0, 1.5 * math.pi),
+    ],
+)
+def test_a_load_that_nothing_can_carry(
+    n_balls: int, fx: float, fy: float, cage_angle: float
+) -> None:
+    """One ball carries along its radius, two along theirs; what is across moves the ring away."""
+    scene = balls_scene(n_balls, fx, fy)
+    answer = equilibrium(scene, [cage_angle])
+    assert answer.status[0] == kernels.NOT_CARRIED
+    assert "no contact can carry this load" in answer.reason(0)
+    assert np.isnan(answer.displacement).all()
+    assert np.isnan(answer.stiffness).all()
+    assert np.isnan(answer.ball_load).all()
+    assert answer.loaded_balls[0] == 0
+    # along a tangent of the ball, or away from it, the load works and no ball is ever pressed
+    balls = Balls(scene, cage_angle)
+    force = np.array([fx, fy])
+    ray = np.array([math.cos(cage_angle), math.sin(cage_angle)])
+    along = force @ ray
+    way = force - (along if n_balls == 2 else max(along, 0.0)) * ray
+    q = np.zeros(5)
+    q[:2] = way / np.linalg.norm(way)
+    levels = [float(balls.energy(far * q)) for far in (1e-3, 1.0, 1e3)]
+    assert levels[0] > levels[1] > levels[2]
+    assert levels[2] == pytest.approx(-1e3 * np.linalg.norm(way), rel=1e-6)
+
+
+def test_a_load_that_is_carried_at_some_angles_only() -> None:
+    """Two balls: the status changes with the cage angle, and no angle spoils its neighbours."""
+    scene = balls_scene(2, 0.0, -100.0)
+    angles = np.linspace(0.0, 2.0 * math.pi, 9)
+    answer = equilibrium(scene, angles)
+    on_the_load = np.isclose(np.abs(np.sin(angles)), 1.0)
+    assert np.all(answer.status[~on_the_load] == kernels.NOT_CARRIED)
+    assert np.all(answer.status[on_the_load] == kernels.FREE_DIRECTION)
+    assert answer.ball_load[on_the_load].max(axis=1) == pytest.approx(100.0)
+
+
+def test_a_ball_right_under_the_load_leaves_the_ring_free_to_roll() -> None:
+    """With clearance its neighbours hang loose: y is told, x has no answer and is named."""
+    scene = FAN_RIG.sound().replace(radial_clearance=100e-6, fy=-1.0)
+    answer = equilibrium(scene, [1.5 * math.pi])
+    assert answer.status[0] == kernels.FREE_DIRECTION
+    assert answer.reason(0) == "the ring can move without resistance along x"
+    assert math.isnan(answer.displacement[0, 0])
+    sunk = 100e-6 + (1.0 / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
+    assert answer.displacement[0, 1] == pytest.approx(-sunk, rel=1e-9)
+    assert answer.ball_load[0] == pytest.approx([1.0] + [0.0] * 13)
+    assert answer.loaded_balls[0] == 1
+    assert verdict(answer, 0) == ""
+    beside = equilibrium(scene, [1.5 * math.pi + 0.01])
+    assert beside.converged[0]
+    assert beside.loaded_balls[0] == 2
+
+
+def test_free_directions_are_named_all_and_only() -> None:
+    """Two loaded balls in five directions leave one motion free, of z and a tilt together."""
+    scene = FAN_RIG.sound().replace(radial_clearance=100e-6, fy=-1.0, dofs=DOF_NAMES)
+    answer = equilibrium(scene, [1.5 * math.pi + 0.5 * scene.bearing.ball_spacing])
+    assert answer.loaded_balls[0] == 2
+    assert answer.reason(0) == "the ring can move without resistance along z, rx"
+    assert np.array_equal(np.isnan(answer.displacement[0]), [False, False, True, True, False])

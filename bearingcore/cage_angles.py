@@ -26,7 +26,7 @@ CURVES = ("load", "stiffness", "modes")
 """What is to be drawn over the cage angle: ball loads with displacements, the 15 stiffness terms,
 undamped natural frequencies."""
 
-FIRST_NODES = 12
+FIRST_NODES = 20
 """Intervals in a ball spacing to begin with, beside those that events make."""
 
 MOST_NODES = 4000
@@ -222,13 +222,18 @@ class _Nodes:
         fresh = np.ones(self.angles.size - 1, dtype=bool)
         left_over = 0.0
         while fresh.any() and self.angles.size < MOST_NODES:
-            at = np.flatnonzero(fresh)
+            interval = np.flatnonzero(fresh)
+            left = self.touch[interval] & ~self.touch[interval + 1]
+            right = self.touch[interval + 1] & ~self.touch[interval]
+            # beside a touch a curve is a root and a smooth one: a test for each
+            at = np.concatenate([interval, interval[left], interval[right]])
+            part = np.full(at.size, OFF_MIDDLE)
+            part[interval.size :] = ROOT_SPLIT
+            part[interval.size + int(left.sum()) :] = 1.0 - ROOT_SPLIT
+            order = np.lexsort((part, at))
+            at, part = at[order], part[order]
             a, b = self.angles[at], self.angles[at + 1]
-            root_a, root_b = self.touch[at], self.touch[at + 1]
-            part = np.where(root_a & ~root_b, ROOT_SPLIT, OFF_MIDDLE)
-            part[root_b & ~root_a] = 1.0 - ROOT_SPLIT
-            middle = a + part * (b - a)
-            angles, values, gaps = self.solve(middle)
+            angles, values, gaps = self.solve(a + part * (b - a))
             line = self.values[at] + part[:, None] * (self.values[at + 1] - self.values[at])
             scale = swings(np.concatenate([self.values, values]))
             with np.errstate(invalid="ignore"):
@@ -240,9 +245,9 @@ class _Nodes:
             wide = b - a > least
             divide = (error > budget) & wide
             divide |= border & (b - a > 1e4 * least)
-            self.jumps.append(middle[(error > budget) & ~wide])
-            done = error[~divide & wide]
-            left_over = max(left_over, float(done.max(initial=0.0)))
+            self.jumps.append(angles[(error > budget) & ~wide])
+            divide = np.isin(at, at[divide])  # an interval as a whole
+            left_over = max(left_over, float(error[~divide & wide].max(initial=0.0)))
             # the new nodes' intervals, in the order of all nodes
             marks = np.zeros(self.angles.size + angles.size, dtype=bool)
             where = np.searchsorted(self.angles, angles) + np.arange(angles.size)

@@ -324,7 +324,8 @@ def _motion(
     if view == SETTLED:
         drop = settling_time(scene)
         if not march:
-            found, orbital, note = _stable_orbit(scene, pilot, step_rate)
+            limit = way.cost * (drop + duration) if way.error <= budget else math.inf
+            found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit)
     length = drop + duration
     seconds, calls = way.cost * length, way.calls * length
     if found is not None and orbital is not None:
@@ -379,16 +380,21 @@ def _better(one: _Way, other: _Way, budget: float) -> _Way:
 
 
 def _stable_orbit(
-    scene: Scene, pilot: _Pilot, asked: float | None
+    scene: Scene, pilot: _Pilot, asked: float | None, limit: float
 ) -> tuple[Orbit | None, _Way | None, str]:
     """The orbit where it is proven stable and within the budget, its way, or why there is none.
 
     Its spectrum is held against that of the same orbit in half the steps: where its acceleration
-    jumps, an orbit is off by what lies between two steps.
+    jumps, an orbit is off by what lies between two steps. None either where a march takes no
+    longer: `limit` [s].
     """
     rate = asked or default_step_rate(scene, pilot.sample_rate, pilot.highest)
     time_ = np.arange(round(PILOT * pilot.sample_rate)) / pilot.sample_rate
+    start = time.perf_counter()
     found = orbit(scene, step_rate=rate)
+    taken = time.perf_counter() - start
+    if taken > limit:
+        return None, None, f"marched, as an orbit takes longer: {_duration(taken)}"
     for _ in range(1 if asked else ORBIT_DOUBLINGS):
         if not found.stable:
             through = f", through {found.through}" if found.through else ""
@@ -407,7 +413,7 @@ def _stable_orbit(
 ORBIT_SAFETY = 1.5
 """The same for orbits: what is compared is all there is, and half the steps leave at most half."""
 
-ORBIT_DOUBLINGS = 4
+ORBIT_DOUBLINGS = 3
 """How often the steps of an orbit are halved before it is given up for a march."""
 
 

@@ -110,8 +110,23 @@ def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int)
     return core.stiffness_maps(scene, np.linspace(0.0, reach, m), np.linspace(first, last, n))
 
 
+MOST_STEPS = 400_000
+"""Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
+shorter, or somebody's drag would fill the memory of everybody's server."""
+SHORTEST = 0.1
+"""[s] Shorter motions say nothing at the resolution of the spectra."""
+
+
 def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
-    return core.simulate(scene, duration, sample_rate)
+    rate = step_rates(scene, sample_rate)
+    if rate is not None and duration * rate > MOST_STEPS:
+        if SHORTEST * rate > MOST_STEPS:
+            raise ValueError(
+                f"the defect is passed so fast that a motion takes {rate:.2g} steps a second; "
+                f"allowed here: {MOST_STEPS / SHORTEST:.2g}"
+            )
+        duration = MOST_STEPS / rate
+    return core.simulate(scene, duration, sample_rate, step_rate=rate)
 
 
 def _excerpt(scene: Scene, duration: float, sample_rate: float) -> Excerpt:

@@ -126,6 +126,11 @@ class Defect:
                 "the edge",
             )
 
+    def check_floor(self, bearing: Bearing) -> None:
+        """Raise ValueError where the floor is finer than can be computed on a race of `bearing`."""
+        if isinstance(self.floor, RoughFloor):
+            self.floor.check_length(self.extent * self.raceway_radius(bearing))
+
     def edge_row(self, bearing: Bearing) -> NDArray[np.float64]:
         """How a ball follows the edges, in the order of `kernels.PATH_COLUMNS`."""
         self.check_depth(bearing)

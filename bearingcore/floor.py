@@ -24,6 +24,9 @@ SAMPLES_A_LENGTH = 10
 
 MOST_ROWS = 100_000
 
+MOST_SAMPLES = 2_000_000
+"""Samples of a rough floor; more would not fit a table of its path."""
+
 
 @dataclass(frozen=True)
 class RoughFloor:
@@ -50,6 +53,16 @@ class RoughFloor:
         object.__setattr__(self, "rms_height", height)
         object.__setattr__(self, "correlation_length", length)
         object.__setattr__(self, "seed", seed)
+
+    def check_length(self, length: float) -> None:
+        """Raise ValueError where a floor of `length` [m] along the race takes too many samples."""
+        least = SAMPLES_A_LENGTH * length / MOST_SAMPLES
+        if self.correlation_length < least:
+            raise checks.refuse(
+                "correlation_length",
+                self.correlation_length,
+                f"at least {least:.3g} m on a defect that is {length:.3g} m long",
+            )
 
     def surface(
         self, angle: NDArray[np.float64], extent: float, depth: float, radius: float

@@ -169,6 +169,7 @@ class Scene:
                 raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
         for defect in self.defects:
             defect.check_depth(self.bearing)
+            defect.check_floor(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
 

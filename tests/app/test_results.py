@@ -1,12 +1,13 @@
 """Each answer is computed once, whoever asks."""
 
+import math
 import threading
 import time
 
 import numpy as np
 import pytest
 
-from app.results import ComputedOnce, Results, Settings
+from app.results import MOST_STEPS, SHORTEST, ComputedOnce, Results, Settings
 from bearingcore import presets
 
 
@@ -63,3 +64,14 @@ def test_settings_say_how_fine() -> None:
     results = Results(presets["fan-rig"], 0.1, Settings(n_cage_angles=31))
     assert results.equilibrium.cage_angles.size == 31
     np.testing.assert_allclose(results.now.cage_angles, [0.1])
+
+
+def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
+    fast = presets["fan-rig"].replace(race="inner", extent=math.radians(0.2), shaft_speed=600.0)
+    motion = Results(fast).motion
+    assert motion.time.size * motion.step_rate / motion.sample_rate <= 1.001 * MOST_STEPS
+    assert SHORTEST <= motion.time[-1] < 1.4
+    with pytest.raises(ValueError, match="steps a second"):
+        _ = Results(fast.replace(extent=1e-5)).motion
+    usual = Results(presets["fan-rig"]).motion
+    assert usual.time[-1] == pytest.approx(1.4, rel=1e-3)

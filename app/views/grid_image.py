@@ -103,6 +103,7 @@ class GridImage:
             )
             for layer, mapper in zip(layers, mappers, strict=True)
         ]  # fmt: skip
+        plot.toolbar_inner = False  # it would lie on the picture
         known = [side.for_browser() for side in self._sides]
         shared = {"quantities": known, "head": _HEAD}
         axes = {"x_axis": plot.xaxis[0], "y_axis": plot.yaxis[0]}

@@ -76,13 +76,14 @@ class SteadyOrbit(View):
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
         self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
-        plots = pn.Row(
+        # a row that wraps: Panel's own asks for the width of all its parts together
+        plots = pn.Column(
             self._multipliers(wire),
             self._path(wire),
             self._spectrum(wire),
             sizing_mode="stretch_width",
             margin=0,
-            stylesheets=[":host { flex-wrap: wrap; gap: 8px 16px; }"],
+            stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
         )
         return pn.Column(self.status, plots, sizing_mode="stretch_width", margin=0)
 
@@ -304,6 +305,6 @@ def _square(
 ) -> figure:
     plot = figures.house_figure(x, y, x_range, y_range, height=HEIGHT + 40)
     plot.sizing_mode = "fixed"
-    plot.width = HEIGHT + 70
+    plot.width = plot.min_width = HEIGHT + 70
     plot.min_border_right = 8
     return plot

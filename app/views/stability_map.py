@@ -13,7 +13,7 @@ from bokeh.models import ColorBar, FixedTicker, LinearColorMapper
 from bokeh.palettes import Blues256
 from numpy.typing import NDArray
 
-from app.jobs import Work
+from app.jobs import LONGEST, Work
 from app.quantities import refusal
 from app.scene_editor import SceneEditor
 from app.sweep import SWEEPABLE, Sweep, alike_but_for, focused, sweep, usual_range, value_of
@@ -89,8 +89,8 @@ class OrbitStability(JobView[Found]):
     needs = frozenset()
     start = "Compute the map"
     bounds = (
-        f"At most {GRIDS[-1]} × {GRIDS[-1]} points, which may take minutes; the coarse picture "
-        "comes first."
+        f"At most {GRIDS[-1]} × {GRIDS[-1]} points and {LONGEST / 60.0:.0f} minutes; coarse "
+        "pictures come first."
     )
 
     def build(self, wire: Wire) -> Any:

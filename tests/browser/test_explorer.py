@@ -23,6 +23,7 @@ VIEWS = {
     "modes": "modes",
     "vibration-time": "vibration",
     "vibration-spectrum": "vibration",
+    "orbit": "orbits",
 }
 
 

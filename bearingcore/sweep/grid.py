@@ -45,6 +45,8 @@ TASK_SECONDS = 2.0
 beside what a killed worker may lose."""
 TASKS_AT_LEAST = 16
 """So many tasks even where scenes are few, so that all workers have something to do."""
+TRIED = 64
+"""Scenes that are looked at before a sweep is begun."""
 LONGEST_ROW = 128
 """Extents that are solved together at the most."""
 
@@ -316,15 +318,18 @@ class Grid:
                     f"the sweep goes over {of_defect[0]}, but the scenes have no defect: "
                     "its extent or depth is zero"
                 )
-        # nothing can come out where the first, a middle and the last scene are refused
-        refusals = []
-        for part in (0.0, 0.5, 1.0):
+        # where none of many scenes, spread over the grid, can be, it is not the scenes' doing
+        spread = np.random.default_rng(0).integers(self.size, size=TRIED)
+        refusal: ValueError | None = None
+        for place in {0, self.size - 1, *spread.tolist()}:
             try:
-                self._try([round(part * (n - 1)) for n in self.shape])
+                self._try([int(i) for i in np.unravel_index(place, self.shape)])
             except ValueError as error:
-                refusals.append(str(error))
-        if len(refusals) == 3:
-            raise ValueError(refusals[0])
+                refusal = refusal or error
+            else:
+                return
+        if refusal is not None:
+            raise refusal
 
     def _try(self, index: Sequence[int]) -> None:
         """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""

@@ -33,6 +33,8 @@ the scheduler to carry, however many there are in all."""
 LOOK_AGAIN = 5.0
 """[s] after which the size of the cluster is asked for again."""
 
+LOST = "the scheduler or the connection to it is lost; what is finished is kept in the store"
+
 
 def needs_extra() -> None:
     """ImportError with what to do about it, where what sweeps need is not installed."""
@@ -277,7 +279,7 @@ def _finished(
     client: Client, work: Callable[[Any], Any], tasks: Iterable[Any]
 ) -> Iterator[tuple[Any, Any]]:
     """Each task with what `work` makes of it on the cluster, in the order of their ends."""
-    from distributed import as_completed
+    from distributed import KilledWorker, as_completed
     from distributed.client import FutureCancelledError
 
     waiting = iter(tasks)
@@ -285,29 +287,35 @@ def _finished(
     done = as_completed([], loop=client.loop)
     version = program_version()
     threads, looked = 0, -LOOK_AGAIN
-    lost = "the scheduler or the connection to it is lost; what is finished is kept in the store"
     try:
         while True:
-            if time.monotonic() - looked > LOOK_AGAIN:
-                threads = max(sum(client.nthreads().values()), 1)
-                looked = time.monotonic()
-            for task in islice(waiting, max(AHEAD * threads - len(going), 0)):
-                future = client.submit(_same_version, version, work, task, pure=False)
-                going[future] = task
-                done.add(future)
+            try:
+                if time.monotonic() - looked > LOOK_AGAIN:
+                    threads = max(sum(client.nthreads().values()), 1)
+                    looked = time.monotonic()
+                for task in islice(waiting, max(AHEAD * threads - len(going), 0)):
+                    future = client.submit(_same_version, version, work, task, pure=False)
+                    going[future] = task
+                    done.add(future)
+            except OSError as error:
+                raise ConnectionError(LOST) from error
             if not going:
                 return
             future = next(done)
             try:
                 result = future.result()
             except FutureCancelledError as error:
-                raise ConnectionError(lost) from error
+                raise ConnectionError(LOST) from error
+            except OSError as error:
+                if future.status == "error":  # the task's own: a full disk, a folder not allowed
+                    raise
+                raise ConnectionError(LOST) from error
+            except KilledWorker as error:
+                raise RuntimeError(
+                    "workers died again and again at the same task; is there enough memory? "
+                    f"What is finished is kept in the store. ({error})"
+                ) from error
             yield going.pop(future), result
-    except OSError as error:
-        # what the client's own calls raise when nobody is at the other end
-        if client.status != "running" or not isinstance(error, FileNotFoundError):
-            raise ConnectionError(f"{lost} ({error})") from error
-        raise
     finally:
         if going and client.status == "running":
             client.cancel(list(going), force=True)

@@ -1,0 +1,758 @@
+"""Sweeps: the numbers of single scenes, and nothing lost or done twice whatever is killed."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from hypothesis import given
+from hypothesis import settings as hypothesis_settings
+from hypothesis import strategies as st
+
+from bearingcore import (
+    Bearing,
+    Defect,
+    Load,
+    Scene,
+    Support,
+    equilibrium,
+    modes,
+    orbit,
+    presets,
+    simulate,
+)
+from bearingcore.sweep import OUTPUTS, STATUSES, sweep
+from bearingcore.sweep import store as stores
+from bearingcore.sweep.command import ASK_ABOVE, main
+from bearingcore.sweep.file import grid_from_toml
+from bearingcore.sweep.grid import UNITS, Grid
+from bearingcore.sweep.outputs import Settings
+
+RIG = presets["fan-rig"]
+ANGULAR = presets["liew-lim"]
+COARSE = Settings(cage_angles=13, duration=0.05)
+STATIC = ("k_*", "loaded_balls_*", "ball_load_greatest", "converged_share")
+
+LOADS = np.linspace(-200.0, -50.0, 60)
+OVER = {"extent": np.linspace(0.0, 1.5, 20), "fy": LOADS}
+FEW = ("k_yy_*", "loaded_balls_mean")
+TASK = 20
+"""Scenes in a task of OVER: 60 regions."""
+
+
+def code(name: str) -> int:
+    return STATUSES.index(name)
+
+
+# ------------------------------------------------------------------------------ numbers
+
+
+def test_static_outputs_are_those_of_single_scenes() -> None:
+    over = {"fz": [60.0, 200.0], "extent": [0.0, 0.2, 0.5], "edge": ["published", "exact"]}
+    found = sweep(ANGULAR, over, STATIC)
+    assert found["k_yy_mean"].dims == ("fz", "extent", "edge")
+    for fz in over["fz"]:
+        for extent in over["extent"]:
+            for edge in over["edge"]:
+                at = found.sel(fz=fz, extent=extent, edge=edge)
+                state = equilibrium(ANGULAR.replace(fz=fz, extent=extent, edge=edge))
+                assert state.converged.all()
+                for term in ("k_xx", "k_yz", "k_zrx", "k_ryry"):
+                    values = state.term(term)
+                    mean = np.trapezoid(values) / (len(values) - 1)
+                    scale = np.abs(state.term(term)).max() + 1.0
+                    assert at[f"{term}_mean"] == pytest.approx(mean, abs=1e-8 * scale)
+                    assert at[f"{term}_least"] == pytest.approx(values.min(), abs=1e-8 * scale)
+                    assert at[f"{term}_greatest"] == pytest.approx(values.max(), abs=1e-8 * scale)
+                balls = state.loaded_balls
+                assert at["loaded_balls_mean"] == pytest.approx(np.trapezoid(balls) / 120)
+                assert at["loaded_balls_least"] == balls.min()
+                assert at["loaded_balls_greatest"] == balls.max()
+                assert at["ball_load_greatest"] == pytest.approx(state.ball_load.max(), rel=1e-9)
+                assert at["converged_share"] == 1.0
+    assert (found["status"] == code("complete")).all()
+
+
+@pytest.mark.parametrize(
+    ("scene", "over"),
+    [
+        (RIG, {"extent": [0.3, 0.0, 9.0, 0.8], "fy": [-100.0, 0.0, 50.0]}),
+        (RIG.replace(race="inner"), {"fy": [-50.0, -100.0], "extent": [0.0, 0.2]}),
+        (RIG.replace(fz=30.0), {"depth": [0.0, 5e-5], "extent": [0.0, 0.2]}),
+        (ANGULAR.replace(fx=0.0, fy=0.0), {"fz": [-300.0, 0.0, 300.0], "extent": [0.1, 0.2]}),
+    ],
+    ids=["some refused", "inner race", "not carried", "thrust"],
+)
+def test_rows_of_extents_say_the_same_as_scene_after_scene(
+    scene: Scene, over: dict[str, list[float]]
+) -> None:
+    together = Grid.of(scene, over, STATIC, COARSE)
+    one_by_one = Grid.of(scene, over, (*STATIC, "band_least"), COARSE)
+    assert together.in_rows
+    assert not one_by_one.in_rows
+    status, numbers = together.compute()
+    other_status, other_numbers = one_by_one.compute()
+    np.testing.assert_array_equal(status, other_status)
+    for name, values in numbers.items():
+        scale = max(
+            np.nanmax(np.abs(other_numbers[alike]), initial=0.0)
+            for alike in numbers
+            if OUTPUTS[alike].unit == OUTPUTS[name].unit
+        )
+        np.testing.assert_allclose(
+            values, other_numbers[name], rtol=1e-8, atol=1e-11 * scale, err_msg=name
+        )
+
+
+def test_bands_motions_and_orbits_are_those_of_single_scenes() -> None:
+    over = {"extent": [0.2, 0.4], "shaft_speed": [40.0, 60.0]}
+    outputs = ("band_*", "acceleration_*_y", "floquet_*")
+    found = sweep(RIG, over, outputs, settings=Settings(duration=0.1))
+    for extent in over["extent"]:
+        for speed in over["shaft_speed"]:
+            scene = RIG.replace(extent=extent, shaft_speed=speed)
+            at = found.sel(extent=extent, shaft_speed=speed)
+            for label, (least, greatest) in modes(scene).bands().items():
+                assert at["band_least"].sel(mode=label) == least
+                assert at["band_greatest"].sel(mode=label) == greatest
+            late = simulate(scene, 0.1).outer_acceleration[3277:, 1]
+            rms = at["acceleration_rms_y"]
+            assert rms == pytest.approx(np.sqrt(np.mean(late**2)), rel=1e-12)
+            assert at["acceleration_greatest_y"] == np.abs(late).max()
+            multiplier = orbit(scene).largest_multiplier
+            assert at["floquet_multiplier_greatest"] == pytest.approx(multiplier, rel=1e-9)
+    assert (found["status"] == code("complete")).all()
+
+
+def test_failures_are_data() -> None:
+    over = {"shaft_speed": [0.0, 50.0], "extent": [0.2, 7.0], "fy": [-100.0, 0.0]}
+    found = sweep(RIG, over, ["k_yy_mean", "acceleration_rms_y"], settings=COARSE)
+    status = found["status"].sel(extent=0.2, fy=-100.0)
+    assert status.values.tolist() == [code("computation_refused"), code("complete")]
+    stands = found.sel(shaft_speed=0.0, extent=0.2, fy=-100.0)
+    assert np.isfinite(stands["k_yy_mean"])
+    assert np.isnan(stands["acceleration_rms_y"])
+    assert (found["status"].sel(extent=7.0) == code("scene_refused")).all()
+    assert np.isnan(found["k_yy_mean"].sel(extent=7.0)).all()
+    floats = found.sel(shaft_speed=50.0, extent=0.2, fy=0.0)
+    assert floats["status"] == code("nothing_touches")
+    assert np.isnan(floats["k_yy_mean"])
+
+
+def test_directions_appear_where_some_scene_needs_them() -> None:
+    found = sweep(RIG, {"fz": [0.0, 40.0]}, ["band_least"], settings=COARSE)
+    flat, pushed = found["band_least"].sel(fz=0.0), found["band_least"].sel(fz=40.0)
+    assert found["mode"].values.tolist()[:2] == ["x1", "x2"]
+    assert found.sizes["mode"] == 10
+    known = [str(label) for label in flat["mode"].values[np.isfinite(flat)]]
+    assert sorted(known) == sorted(modes(RIG).label)
+    assert np.isfinite(pushed).sum() > 4
+
+
+# ------------------------------------------------------------------------------ the Dataset
+
+
+def test_the_dataset_says_what_it_is() -> None:
+    found = sweep(RIG, {"extent": [0.1, 0.2], "n_balls": [10, 14]}, STATIC)
+    assert Scene.from_toml(found.attrs["scene"]) == RIG
+    assert re.fullmatch(r"[\w.+]+", found.attrs["program_version"])
+    assert found["extent"].attrs["units"] == "rad"
+    assert found["n_balls"].dtype.kind == "i"
+    units = {name: found[name].attrs["units"] for name in found.data_vars}
+    assert units["k_xy_mean"] == "N/m"
+    assert units["k_xrx_least"] == "N/rad"
+    assert units["k_rxry_greatest"] == "N·m/rad"
+    assert units["ball_load_greatest"] == "N"
+    assert found["status"].attrs["flag_meanings"].split() == list(STATUSES)
+
+
+def test_every_number_and_word_of_a_scene_can_be_swept() -> None:
+    kinds = {"int", "float", "float | None", "str"}
+    names = {
+        field.name: field.type
+        for part in (Bearing, Defect, Load, Support, Scene)
+        for field in dataclasses.fields(part)
+        if field.type in kinds
+    }
+    assert set(names) == set(UNITS)
+    assert {name for name, kind in names.items() if kind == "str"} == {
+        name for name, unit in UNITS.items() if not unit
+    }
+
+
+@given(
+    sizes=st.lists(st.integers(1, 40), min_size=1, max_size=4),
+    scenes=st.one_of(st.none(), st.integers(1, 2000)),
+    row=st.integers(0, 3),
+)
+@hypothesis_settings(max_examples=60, deadline=None)
+def test_regions_cover_a_grid_once(sizes: list[int], scenes: int | None, row: int) -> None:
+    names = ["fx", "fy", "fz", "mx"]
+    if row < len(sizes):
+        names[row] = "extent"
+    over = {name: np.arange(1, n + 1) * 1e-3 for name, n in zip(names, sizes, strict=False)}
+    grid = Grid.of(RIG, over, ["k_yy_mean"])
+    shape = grid.region_shape(scenes)
+    seen = np.zeros(grid.shape, dtype=int)
+    for index in np.ndindex(*grid.region_counts(shape)):
+        place = grid.region(shape, index)
+        seen[place] += 1
+        assert grid.part(place).size == seen[place].size
+    assert (seen == 1).all()
+    if scenes is not None:
+        assert np.prod(shape) <= scenes
+
+
+# ------------------------------------------------------------------------------ refusals
+
+
+@pytest.mark.parametrize(
+    ("over", "outputs", "words"),
+    [
+        ({}, FEW, "over is"),
+        ({"extend": [0.1]}, FEW, "extend"),
+        ({"floor": [0.1]}, FEW, "floor"),
+        ({"extent": []}, FEW, "number of values of extent"),
+        ({"extent": [0.1, 0.1]}, FEW, "different"),
+        ({"extent": ["0.1"]}, FEW, "values of extent"),
+        ({"extent": [True]}, FEW, "values of extent"),
+        ({"extent": [float("nan")]}, FEW, "extent"),
+        ({"edge": [1.0]}, FEW, "values of edge"),
+        ({"edge": ["round"]}, FEW, "edge is 'round'; allowed"),
+        ({"n_balls": [3.5]}, FEW, "n_balls"),
+        ({"extent": [0.1]}, [], "outputs"),
+        ({"extent": [0.1]}, ["k_yy"], "k_yy_mean"),
+        ({"extent": [0.1]}, ["acceleration_rms_z"], "directions"),
+        ({"shaft_speed": [0.0]}, ["acceleration_rms_y"], "shaft_speed"),
+        ({"depth": [0.0]}, FEW, "no defect"),
+        ({"extent": np.arange(200_000), "fy": np.arange(200_000)}, FEW, "number of scenes"),
+    ],
+)
+def test_impossible_sweeps_are_refused(over: Any, outputs: Any, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        sweep(RIG, over, outputs)
+
+
+def test_too_much_for_memory_needs_a_store() -> None:
+    over = {"fx": np.arange(9000.0), "fy": np.arange(9000.0)}
+    with pytest.raises(ValueError, match="give a store"):
+        sweep(RIG, over, ["*_mean"])
+
+
+# ------------------------------------------------------------------------------ the store
+
+
+def files_of(store: Path) -> dict[Path, tuple[int, int]]:
+    """The chunks of all finished regions, with what changes when they are written again."""
+    found = {}
+    for mark in marks_of(store):
+        index = mark.relative_to(store / "regions/finished/c")
+        for chunk in store.glob("*/c"):
+            file = chunk / index
+            if file.is_file():
+                found[file] = (file.stat().st_mtime_ns, file.stat().st_ino)
+    return found
+
+
+def marks_of(store: Path) -> list[Path]:
+    folder = store / "regions/finished/c"
+    return [file for file in folder.glob("*/*") if file.is_file() and "." not in file.name]
+
+
+def until(is_so: Callable[[], bool], seconds: float = 90.0) -> None:
+    end = time.monotonic() + seconds
+    while not is_so():
+        assert time.monotonic() < end, "it took too long"
+        time.sleep(0.01)
+
+
+@pytest.fixture(scope="module")
+def reference() -> xarray.Dataset:
+    return sweep(RIG, OVER, FEW, settings=COARSE, scenes_per_task=TASK)
+
+
+@pytest.fixture(scope="module")
+def finished_store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("sweep") / "finished.zarr"
+    sweep(RIG, {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}, FEW, store=path, scenes_per_task=3)
+    return path
+
+
+def again(path: Path) -> xarray.Dataset:
+    return sweep(RIG, {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}, FEW, store=path)
+
+
+@pytest.fixture
+def copied(finished_store: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(finished_store, tmp_path / "copy.zarr"))
+
+
+def test_a_store_holds_what_memory_would(reference: xarray.Dataset, tmp_path: Path) -> None:
+    path = tmp_path / "results.zarr"
+    told: list[tuple[float, str]] = []
+    found = sweep(
+        RIG,
+        OVER,
+        FEW,
+        store=path,
+        settings=COARSE,
+        scenes_per_task=TASK,
+        progress=lambda part, words: told.append((part, words)),
+    )
+    xarray.testing.assert_equal(found.load(), reference)
+    assert found.attrs == reference.attrs
+    for name in reference.variables:
+        assert found[name].attrs == reference[name].attrs
+    assert [part for part, _ in told] == sorted(part for part, _ in told)
+    assert told[-1] == (1.0, "1,200 of 1,200 scenes")
+    assert len(told) == 60
+    xarray.testing.assert_equal(xarray.open_zarr(path).load(), reference)
+
+
+def test_words_and_modes_go_to_a_store_and_back(tmp_path: Path) -> None:
+    over = {"edge": ["published", "exact"], "extent": [0.1, 0.2]}
+    found = sweep(RIG, over, ["band_*"], store=tmp_path / "words.zarr", settings=COARSE)
+    assert found["edge"].values.tolist() == ["published", "exact"]
+    assert sorted(found["mode"].values.tolist()) == sorted(modes(RIG).label)
+    xarray.testing.assert_allclose(found.load(), sweep(RIG, over, ["band_*"], settings=COARSE))
+
+
+def test_nothing_finished_is_computed_again(copied: Path) -> None:
+    before = files_of(copied)
+    assert len(before) == 4 * 5  # regions times outputs and status
+    told: list[str] = []
+    over = {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}
+    sweep(RIG, over, FEW, store=copied, progress=lambda _, words: told.append(words))
+    assert files_of(copied) == before
+    assert told[-1] == "12 of 12 scenes, 12 of them from before"
+
+
+def _cut(file: Path) -> None:
+    file.write_bytes(file.read_bytes()[:-5])
+
+
+def _empty(file: Path) -> None:
+    file.write_bytes(b"")
+
+
+def _remove(file: Path) -> None:
+    file.unlink()
+
+
+def _other(file: Path) -> None:
+    """Numbers that can be read but are another region's."""
+    shutil.copyfile(file.parent / "1", file)
+
+
+@pytest.mark.parametrize("harm", [_cut, _empty, _remove, _other])
+@pytest.mark.parametrize("where", ["k_yy_mean/c", "regions/finished/c"])
+def test_a_half_written_region_is_computed_again_and_no_other(
+    copied: Path, harm: Callable[[Path], None], where: str
+) -> None:
+    whole = xarray.open_zarr(copied).load()
+    before = files_of(copied)
+    harmed = copied / where / "0/2"
+    harm(harmed)
+    healed = again(copied).load()
+    xarray.testing.assert_identical(healed, whole)
+    after = files_of(copied)
+    assert after.keys() == before.keys()
+    changed = {
+        file.relative_to(copied).as_posix() for file in before if after[file] != before[file]
+    }
+    assert changed == {f"{name}/c/0/2" for name in whole.data_vars}
+
+
+def test_a_mark_comes_after_all_numbers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever is written last when a process dies, there is no mark before all the rest."""
+    grid = Grid.of(RIG, {"extent": [0.1, 0.2], "fy": [-100.0]}, FEW, COARSE)
+    path = tmp_path / "dies.zarr"
+    shape = stores.prepare(path, grid, (1, 1))
+    region = stores.region(path, grid, shape, (0, 0))
+
+    def dies(*_: object) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(stores, "_checksum", dies)
+    with pytest.raises(KeyboardInterrupt):
+        stores.finish(region)
+    monkeypatch.undo()
+    assert len(list(path.glob("*/c/0/0"))) == 5
+    assert marks_of(path) == []
+    assert not stores.is_finished(region)
+    assert stores.finish(region)
+    assert stores.is_finished(region)
+
+
+@pytest.mark.parametrize(
+    ("scene", "over", "outputs", "settings", "words"),
+    [
+        (RIG.replace(depth=1e-4), {}, FEW, Settings(), "another scene"),
+        (RIG, {}, FEW, COARSE, "settings"),
+        (RIG, {}, ["k_yy_mean"], Settings(), "other outputs"),
+        (RIG, {"fy": LOADS[1:5]}, FEW, Settings(), "other values of fy"),
+        (RIG, {"fy": LOADS[:5]}, FEW, Settings(), "other values of fy"),
+        (RIG, {"fx": [0.0]}, FEW, Settings(), "other fields"),
+    ],
+)
+def test_results_of_another_sweep_are_refused(
+    finished_store: Path, scene: Scene, over: Any, outputs: Any, settings: Settings, words: str
+) -> None:
+    before = files_of(finished_store)
+    with pytest.raises(ValueError, match=words):
+        sweep(
+            scene,
+            {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4], **over},
+            outputs,
+            store=finished_store,
+            settings=settings,
+        )
+    assert files_of(finished_store) == before
+
+
+def test_results_of_another_version_are_refused(
+    finished_store: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stores, "program_version", lambda: "9.9")
+    with pytest.raises(ValueError, match="results of version"):
+        again(finished_store)
+
+
+def test_other_folders_are_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "thesis.tex").write_text("years of work")
+    with pytest.raises(ValueError, match="does not hold results of a sweep"):
+        again(tmp_path)
+    with pytest.raises(ValueError, match="does not hold results of a sweep"):
+        again(tmp_path / "thesis.tex")
+    assert [file.name for file in tmp_path.iterdir()] == ["thesis.tex"]
+    with pytest.raises(ValueError, match="folder"):
+        sweep(RIG, {"extent": [0.1]}, FEW, store="s3://bucket/results.zarr")
+
+
+# ------------------------------------------------------------------------------ killed
+
+
+def dask_process(*arguments: str) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]]]:
+    """A scheduler and two workers, each a process of its own."""
+    scheduler = dask_process(
+        *("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"),
+        *("--dashboard-address", "127.0.0.1:0"),
+    )
+    running = [scheduler]
+    try:
+        assert scheduler.stderr is not None
+        address = ""
+        for line in scheduler.stderr:
+            if found := re.search(r"Scheduler at:\s+(tcp://\S+)", line):
+                address = found[1]
+                break
+        assert address
+        # what they say is read, or they would wait for room to say it
+        threading.Thread(target=scheduler.stderr.read, daemon=True).start()
+        workers = []
+        for _ in range(2):
+            worker = dask_process(
+                *("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny"),
+                *("--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"),
+            )
+            assert worker.stderr is not None
+            threading.Thread(target=worker.stderr.read, daemon=True).start()
+            workers.append(worker)
+        running += workers
+        yield address, scheduler, workers
+    finally:
+        for process in running:
+            process.kill()
+            process.wait()
+
+
+class InBackground(threading.Thread):
+    """A sweep that runs while the test kills what it runs on."""
+
+    def __init__(self, store: Path, address: str) -> None:
+        super().__init__(daemon=True)
+        self.store, self.address = store, address
+        self.error: BaseException | None = None
+        self.start()
+
+    def run(self) -> None:
+        try:
+            sweep(
+                RIG,
+                OVER,
+                FEW,
+                client=self.address,
+                store=self.store,
+                settings=COARSE,
+                scenes_per_task=TASK,
+            )
+        except BaseException as error:
+            self.error = error
+
+
+def test_killed_workers_and_schedulers_lose_nothing(
+    cluster: Any, reference: xarray.Dataset, tmp_path: Path
+) -> None:
+    address, scheduler, workers = cluster
+    from distributed import Client
+
+    with Client(address, set_as_default=False) as client:
+        client.wait_for_workers(2, timeout=60)
+
+    # a worker dies: the sweep comes to its end all the same
+    first = tmp_path / "worker.zarr"
+    running = InBackground(first, address)
+    until(lambda: len(marks_of(first)) >= 5)
+    workers[0].kill()
+    done = files_of(first)
+    assert 5 * 5 <= len(done) < 60 * 5
+    running.join(60)
+    assert running.error is None
+    after = files_of(first)
+    assert {file: after[file] for file in done} == done
+    xarray.testing.assert_equal(xarray.open_zarr(first).load(), reference)
+
+    # the scheduler dies: the sweep says so, and goes on elsewhere
+    second = tmp_path / "scheduler.zarr"
+    running = InBackground(second, address)
+    until(lambda: len(marks_of(second)) >= 5)
+    scheduler.kill()
+    running.join(60)
+    assert isinstance(running.error, ConnectionError)
+    assert "is lost" in str(running.error)
+    workers[1].kill()
+    workers[1].wait()
+    done = files_of(second)
+    assert 5 * 5 <= len(done) < 60 * 5
+    found = sweep(RIG, OVER, FEW, store=second, settings=COARSE)
+    after = files_of(second)
+    assert {file: after[file] for file in done} == done
+    xarray.testing.assert_equal(found.load(), reference)
+
+
+FILE = (
+    RIG.to_toml()
+    + """
+[sweep]
+outputs = ["k_yy_*", "loaded_balls_mean"]
+cage_angles = 13
+duration = 0.05
+
+[sweep.over]
+extent = {start = 0.0, stop = 1.5, num = 20}
+fy = {start = -200.0, stop = -50.0, num = 60}
+"""
+)
+
+
+def test_a_killed_program_goes_on_where_it_was(reference: xarray.Dataset, tmp_path: Path) -> None:
+    file, out = tmp_path / "sweep.toml", tmp_path / "results.zarr"
+    file.write_text(FILE)
+    command = [sys.executable, "-m", "bearingcore.sweep.command", str(file), "--out", str(out)]
+    command += ["--workers", "2", "--scenes-per-task", str(TASK)]
+    running = subprocess.Popen(command, start_new_session=True, stderr=subprocess.DEVNULL)
+    try:
+        until(lambda: len(marks_of(out)) >= 5)
+    finally:
+        os.killpg(running.pid, signal.SIGKILL)  # itself and its workers, as when the power fails
+        running.wait()
+    done = files_of(out)
+    assert 5 * 5 <= len(done) < 60 * 5
+    partial = xarray.open_zarr(out)["status"]
+    assert (partial == code("not_computed")).any()
+    second = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert second.returncode == 0, second.stderr
+    assert "1,200 scenes (20 extent × 60 fy), 4 numbers of each" in second.stdout
+    assert "1,200 complete" in second.stdout
+    assert "1.20k/1.20k" in second.stderr
+    after = files_of(out)
+    assert {name: after[name] for name in done} == done
+    xarray.testing.assert_equal(xarray.open_zarr(out).load(), reference)
+
+
+def test_a_scheduler_that_is_not_there_is_told() -> None:
+    import dask
+
+    with (
+        dask.config.set({"distributed.comm.timeouts.connect": "500ms"}),
+        pytest.raises(ConnectionError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"),
+    ):
+        sweep(RIG, {"extent": [0.1]}, FEW, client="tcp://127.0.0.1:9")
+
+
+def test_a_worker_of_another_version_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    versions = iter(["0.1.0"])
+    monkeypatch.setattr(
+        "bearingcore.sweep.run.program_version", lambda: next(versions, "another version")
+    )
+    with pytest.raises(ValueError, match="a worker has version another version"):
+        sweep(RIG, {"extent": [0.1]}, FEW)
+
+
+# ------------------------------------------------------------------------------ file and command
+
+
+def test_a_file_is_read() -> None:
+    grid = grid_from_toml(FILE)
+    assert grid.scene == RIG
+    assert grid.outputs == ("k_yy_mean", "k_yy_least", "k_yy_greatest", "loaded_balls_mean")
+    assert grid.settings == COARSE
+    assert grid.dims == ("extent", "fy")
+    np.testing.assert_array_equal(grid.axes[0].values, OVER["extent"])
+    np.testing.assert_array_equal(grid.axes[1].values, OVER["fy"])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("[sweep]", "[sweap]", "sweap"),
+        ("[sweep.over]", "[sweep.ower]", "ower"),
+        ('outputs = ["k_yy_*", "loaded_balls_mean"]', "", "outputs of sweep"),
+        ('"loaded_balls_mean"', "7", "outputs of sweep"),
+        ('"loaded_balls_mean"', '"loaded"', "name in outputs"),
+        ("cage_angles = 13", "cage_angles = 1", "cage_angles"),
+        ("cage_angles = 13", 'cage_angles = "13"', "cage_angles"),
+        ("duration = 0.05", "duration = true", "duration"),
+        ("num = 20", "num = 2000000000", "num of extent"),
+        ("num = 20", "num = 2.5", "num of extent"),
+        ("num = 20", "step = 20", "start, stop, num"),
+        ("stop = 1.5", "stop = inf", "stop of extent"),
+        ("stop = 1.5", 'stop = "1.5"', "stop of extent"),
+        ("start = 0.0, stop = 1.5", "start = -1e308, stop = 1.7e308", "stop of extent"),
+        ("fy = {start", "extent_deg = {start", "extent_deg"),
+        ("shaft_speed", "shaft_sped", "shaft_sped"),
+        ("version = 1", "version = 2", "version"),
+        ("[sweep]", "[sweep", "not TOML"),
+    ],
+)
+def test_a_wrong_file_is_refused_by_name(old: str, new: str, words: str) -> None:
+    assert old in FILE
+    with pytest.raises(ValueError, match=re.escape(words)):
+        grid_from_toml(FILE.replace(old, new, 1))
+
+
+_VALUES = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(max_size=8)
+    | st.sampled_from(["extent", "fy", "start", "stop", "num", *OUTPUTS]),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(
+            st.sampled_from(["extent", "fy", "start", "stop", "num", "outputs", "over", "edge"]),
+            inner,
+            max_size=4,
+        )
+    ),
+    max_leaves=12,
+)
+
+
+@given(data=st.dictionaries(st.sampled_from(["outputs", "over", "duration"]), _VALUES))
+@hypothesis_settings(max_examples=300, deadline=None)
+def test_any_table_gives_a_grid_or_a_sentence(data: dict[str, Any]) -> None:
+    import tomli_w
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {k: plain(v) for k, v in value.items() if v is not None}
+        return [plain(v) for v in value if v is not None] if isinstance(value, list) else value
+
+    text = RIG.to_toml() + tomli_w.dumps({"sweep": plain(data)})
+    with contextlib.suppress(ValueError):  # and nothing else
+        assert grid_from_toml(text).size >= 1
+
+
+@given(st.text(max_size=200), st.integers(0, len(FILE)), st.integers(0, 40))
+@hypothesis_settings(max_examples=300, deadline=None)
+def test_any_text_gives_a_grid_or_a_sentence(text: str, at: int, gone: int) -> None:
+    for candidate in (text, FILE[:at] + text[:5] + FILE[at + gone :]):
+        with contextlib.suppress(ValueError):
+            assert grid_from_toml(candidate).size >= 1
+
+
+def test_the_command_asks_before_a_very_large_sweep(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, out = tmp_path / "large.toml", tmp_path / "large.zarr"
+    file.write_text(FILE.replace("num = 20", "num = 4000").replace("num = 60", "num = 4000"))
+    assert main([str(file), "--out", str(out)]) == 2
+    told = capsys.readouterr()
+    assert "16,000,000 scenes" in told.out
+    assert f"More than {ASK_ABOVE:,} scenes: add --yes" in told.err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [(None, "No such file"), (b"\xff\xfe", "not a text in UTF-8"), (b"a = 1", "sweep is")],
+)
+def test_the_command_says_what_is_wrong(
+    content: bytes | None, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "wrong.toml"
+    if content is not None:
+        file.write_bytes(content)
+    assert main([str(file), "--out", str(tmp_path / "out.zarr")]) == 1
+    told = capsys.readouterr().err
+    assert told.startswith("bearing-sweep: ")
+    assert words in told
+    assert "Traceback" not in told
+
+
+# ------------------------------------------------------------------------------ the extra
+
+_WITHOUT = """
+import sys
+for name in ("xarray", "dask", "distributed", "zarr", "tqdm"):
+    sys.modules[name] = None
+from bearingcore import presets, equilibrium
+assert equilibrium(presets["fan-rig"], [0.0]).converged.all()
+from bearingcore.sweep import sweep
+try:
+    sweep(presets["fan-rig"], {"extent": [0.1]}, ["k_yy_mean"])
+except ImportError as error:
+    print(error)
+"""
+
+
+def test_without_the_extra_the_rest_works_and_sweeps_name_it() -> None:
+    told = subprocess.run([sys.executable, "-c", _WITHOUT], capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
+    assert 'pip install "bearing-explorer[scale]"' in told.stdout
+
+
+def test_importing_the_core_does_not_import_what_sweeps_need() -> None:
+    script = (
+        "import sys, bearingcore, bearingcore.sweep\n"
+        "heavy = {'xarray', 'dask', 'distributed', 'zarr', 'pandas'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert told.stdout.strip() == "[]"

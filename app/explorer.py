@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import logging
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import panel as pn
@@ -18,8 +19,9 @@ from app.jobs import Jobs
 from app.live import LatestWins, in_thread, one_message, send_at_once
 from app.quantities import Values
 from app.quantity_list import CAGE_ANGLE
-from app.results import Results
+from app.results import Results, Settings
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
+from app.views.accuracy import Accuracy
 from app.views.base import Ranges, Sources, View
 from app.views.control_view import ControlView
 from app.views.job_view import JobView
@@ -51,13 +53,15 @@ class Section:
 class Inputs:
     """What is to be drawn; `mark` is the number of the newest change it holds.
 
-    `focus` is the one of the scene's defects that the sliders move.
+    `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
+    computed.
     """
 
     scene: Scene
     cage_angle: float
     mark: int
     focus: int = 0
+    settings: Settings = field(default_factory=Settings)
 
 
 @dataclass(frozen=True)
@@ -88,6 +92,7 @@ class Explorer:
         self._containers: dict[str, pn.Column] = {}
         self._mark = 0
         self._drawn_mark = 0
+        self._settings = Settings()
         self._slow_cost = 0.0
         self._slow_at = -math.inf
         self._doc = pn.state.curdoc
@@ -113,7 +118,7 @@ class Explorer:
     def inputs(self) -> Inputs:
         """What is to be drawn now."""
         angle = math.radians(self.values[CAGE_ANGLE])
-        return Inputs(self.scene, angle, self._mark, self.editor.focus)
+        return Inputs(self.scene, angle, self._mark, self.editor.focus, self._settings)
 
     @property
     def scene(self) -> Scene:
@@ -198,6 +203,11 @@ class Explorer:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
+    def _take_steps(self, step_rate: float | None) -> None:
+        """March motions with steps [Hz] set by hand, or None: with the program's own."""
+        self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
+        self.draw()
+
     def _tell(self, **news: Any) -> None:
         """Tell all panels of controls; each shows what is its own.
 
@@ -229,6 +239,8 @@ class Explorer:
                     self._panels.append(view.rows)
                 if isinstance(view, JobView):
                     view.employ(self.jobs, self.editor, self.draw)
+                if isinstance(view, Accuracy):
+                    view.take_steps = self._take_steps
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],
@@ -245,7 +257,7 @@ class Explorer:
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
-        results = Results(inputs.scene, inputs.cage_angle, focus=inputs.focus)
+        results = Results(inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus)
         if self.tabs.active != self._shown:
             await one_message(self._doc, lambda: self._bring(self._shown))
         views = self._views[self._shown]

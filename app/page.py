@@ -10,6 +10,7 @@ import panel as pn
 import bearingcore
 from app.assets import asset_text
 from app.explorer import Explorer, Section
+from app.views.accuracy import Accuracy
 from app.views.bearing import BearingDrawing
 from app.views.bearing_editor import BearingEditor
 from app.views.depth_profile import DepthProfile
@@ -35,6 +36,7 @@ SECTIONS = (
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
+    Section("accuracy", "Accuracy", (Accuracy,)),
     Section("bearing", "Bearing", (BearingEditor,)),
     Section("model", "Model", (ModelEditor, DofDifferences)),
 )

@@ -85,13 +85,19 @@ class Settings:
     """How finely a session wants its results.
 
     `n_cage_angles` to a ball spacing and across maps, `n_extents` of maps; `duration` [s] and
-    `sample_rate` [Hz] of motions.
+    `sample_rate` [Hz] of motions, and `step_rate` [Hz] where somebody set the steps by hand.
     """
 
     n_cage_angles: int = 121
     n_extents: int = 91
     duration: float = 1.4
     sample_rate: float = 65536.0
+    step_rate: float | None = None
+
+    @property
+    def marching(self) -> tuple[float, float, float | None]:
+        """What of this a motion depends on."""
+        return self.duration, self.sample_rate, self.step_rate
 
 
 def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
@@ -117,8 +123,8 @@ SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
 
-def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
-    rate = step_rates(scene, sample_rate)
+def _motion(scene: Scene, duration: float, sample_rate: float, by_hand: float | None) -> Motion:
+    rate = step_rates(scene, sample_rate) if by_hand is None else by_hand
     if rate is not None and duration * rate > MOST_STEPS:
         if SHORTEST * rate > MOST_STEPS:
             raise ValueError(
@@ -129,8 +135,8 @@ def _motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
     return core.simulate(scene, duration, sample_rate, step_rate=rate)
 
 
-def _excerpt(scene: Scene, duration: float, sample_rate: float) -> Excerpt:
-    return excerpt(scene, motions(scene, duration, sample_rate))
+def _excerpt(scene: Scene, *marching: float | None) -> Excerpt:
+    return excerpt(scene, motions(scene, *marching))
 
 
 def _step_rate(scene: Scene, sample_rate: float) -> float | None:
@@ -140,16 +146,20 @@ def _step_rate(scene: Scene, sample_rate: float) -> float | None:
     return default_step_rate(scene, sample_rate, highest)
 
 
-def _spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spectrum]:
-    motion = motions(scene, duration, sample_rate)
+def _spectra(
+    scene: Scene, duration: float, sample_rate: float, step_rate: float | None
+) -> dict[str, Spectrum]:
+    motion = motions(scene, duration, sample_rate, step_rate)
     return {
         dof: core.spectrum(motion.outer_acceleration[:, index], sample_rate)
         for index, dof in enumerate(motion.dofs)
     }
 
 
-def _late_spectra(scene: Scene, duration: float, sample_rate: float) -> dict[str, Spectrum]:
-    motion = motions(scene, duration, sample_rate)
+def _late_spectra(
+    scene: Scene, duration: float, sample_rate: float, step_rate: float | None
+) -> dict[str, Spectrum]:
+    motion = motions(scene, duration, sample_rate, step_rate)
     late = motion.outer_acceleration[motion.time.size // 2 :]
     if not np.isfinite(late).all():
         return {}
@@ -315,27 +325,27 @@ class Results:
     @cached_property
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
-        return motions(self.scene, self.settings.duration, self.settings.sample_rate)
+        return motions(self.scene, *self.settings.marching)
 
     @cached_property
     def sound_motion(self) -> Motion:
         """The same without the defect."""
-        return motions(self.scene.sound(), self.settings.duration, self.settings.sample_rate)
+        return motions(self.scene.sound(), *self.settings.marching)
 
     @cached_property
     def excerpt(self) -> Excerpt:
         """The last ball passes of the motion, with static loads beside the moving ones."""
-        return excerpts(self.scene, self.settings.duration, self.settings.sample_rate)
+        return excerpts(self.scene, *self.settings.marching)
 
     @cached_property
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
-        return spectra(self.scene, self.settings.duration, self.settings.sample_rate)
+        return spectra(self.scene, *self.settings.marching)
 
     @cached_property
     def late_spectra(self) -> dict[str, Spectrum]:
         """The same of the second half of the motion; empty where it did not stay finite."""
-        return late_spectra(self.scene, self.settings.duration, self.settings.sample_rate)
+        return late_spectra(self.scene, *self.settings.marching)
 
     @property
     def ball_passes(self) -> int | None:
@@ -361,7 +371,7 @@ class Results:
     @cached_property
     def sound_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect."""
-        return spectra(self.scene.sound(), self.settings.duration, self.settings.sample_rate)
+        return spectra(self.scene.sound(), *self.settings.marching)
 
     @cached_property
     def contact_damping(self) -> float:
@@ -371,10 +381,12 @@ class Results:
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """What the model leaves out of the scene, also of a simulated motion where it moves."""
-        try:
-            step_rate = step_rates(self.scene, self.settings.sample_rate)
-        except ValueError:
-            step_rate = None  # no motion, no steps
+        step_rate = self.settings.step_rate
+        if step_rate is None:
+            try:
+                step_rate = step_rates(self.scene, self.settings.sample_rate)
+            except ValueError:
+                step_rate = None  # no motion, no steps
         return core.limits(self.scene, self.equilibrium, step_rate=step_rate)
 
     @cached_property

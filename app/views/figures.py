@@ -218,6 +218,22 @@ return minus(String(Number((turned/10**e).toPrecision(6))))
     )
 
 
+def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
+    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten."""
+    return CustomJSTickFormatter(
+        args={"unit": unit},
+        code=_JS_PREFIX
+        + """
+if (unit) return si(tick, unit)
+if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
+const e = Math.floor(Math.log10(tick*1.0000001))
+const raised = [...String(e)].map(c => c == '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]).join('')
+const m = Number((tick/10**e).toPrecision(2))
+return (m == 1 ? '' : m + '·') + '10' + raised
+""",
+    )
+
+
 def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
     """Put the numbers of an axis at `ticks` whatever its range."""
     axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])

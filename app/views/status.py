@@ -60,8 +60,15 @@ def status_of(results: Results, seconds: float) -> dict[str, Any]:
     plural = "" if len(found.dofs) == 1 else "s"
     details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")
     details.append(f"{n_angles} cage angles")
+    if results.settings.step_rate is not None:
+        details.append(steps_by_hand(results.settings.step_rate))
     details.append(f"{1e3 * seconds:.1f} ms")
     return {"mood": mood, "words": words, "details": details}
+
+
+def steps_by_hand(step_rate: float) -> str:
+    """That the steps [Hz] of motions are not the program's own choice."""
+    return f"steps set by hand: {step_rate:.0f} Hz"
 
 
 def scientific(value: float) -> str:

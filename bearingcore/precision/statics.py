@@ -455,6 +455,10 @@ def _measured(
 # --- number and placing of cage angles ------------------------------------------------------------
 
 
+PLACINGS = ("equally spaced", "equally spaced and edges", "placed at events")
+"""Ways to choose cage angles."""
+
+
 def angles_experiment(
     scene: Scene,
     curves: str = "stiffness",
@@ -494,10 +498,9 @@ def angles_experiment(
         return nodes.angles, nodes.solved
 
     counts = tuple(float(2**k + 1) for k in range(4, 12))
+    budgets = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
     choices: tuple[tuple[str, Callable[[float], tuple[Array, int]], tuple[float, ...]], ...] = (
-        ("equally spaced", equal, counts),
-        ("equally spaced and edges", with_edges, counts),
-        ("placed at events", placed, (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)),
+        tuple(zip(PLACINGS, (equal, with_edges, placed), (counts, counts, budgets), strict=True))
     )
     tasks = [(name, choose, value) for name, choose, values in choices for value in values]
     points = []

@@ -36,7 +36,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument(
         "--workers", type=int, help="processes on this machine (one a core); not with --scheduler"
     )
-    parser.add_argument("--scenes-per-task", type=int, help="(about two seconds of work)")
+    parser.add_argument("--scenes-per-task", type=int, help="(about four seconds of work)")
     parser.add_argument(
         "--yes", action="store_true", help=f"go on even with more than {ASK_ABOVE:,} scenes"
     )

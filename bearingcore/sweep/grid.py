@@ -40,7 +40,7 @@ MOST_VALUES = 1_000_000
 """Values of one axis at the most."""
 MOST_SCENES = 10_000_000_000
 
-TASK_SECONDS = 2.0
+TASK_SECONDS = 4.0
 """[s] that a task should take about: long beside what handing it out and writing it costs, short
 beside what a killed worker may lose."""
 TASKS_AT_LEAST = 16

@@ -85,7 +85,7 @@ def sweep(
         rather than threads. Processes share nothing and are faster, but take a second or two to
         start; a script that asks for them must do so under ``if __name__ == "__main__":``.
     scenes_per_task
-        None takes about two seconds of work. A store that is taken up keeps its own.
+        None takes about four seconds of work. A store that is taken up keeps its own.
     progress
         called with the part done, 0 to 1, and a sentence.
 

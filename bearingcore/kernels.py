@@ -456,6 +456,7 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
     for i in active:
         carried += F[i] * F[i]
     size = math.sqrt(carried)
+    nothing = 0.0
     if size == 0.0:
         # only a clearance so large that the ring, held axially, is wedged presses balls
         for i in range(5):
@@ -463,6 +464,7 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
         size = math.sqrt(size)
         if size == 0.0 or 2 in active:
             return 0, NOTHING_TOUCHES, math.nan, 0, 1
+        nothing = max(RESIDUAL_AIM * size, K * (ROUNDING * (A0 + rL)) ** 1.5)
     k_typical = 1.5 * (K * K * size) ** (1.0 / 3.0)  # of one ball under all of the load
     shift_part = 1e-3
     residual = math.inf
@@ -481,7 +483,7 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
             norm += g[i] * g[i]
             stiffest = max(stiffest, H[now, i, i])
         whole = math.sqrt(carried + max(taken, 0.0))
-        if whole <= RESIDUAL_AIM * size:
+        if whole <= nothing:
             return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
         before = residual
         residual = math.sqrt(norm) / whole
@@ -519,9 +521,12 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
             slope1 = 0.0
             for i in active:
                 slope1 += G[1 - now, i] * p[i]
-            # V must fall; where its fall drowns in rounding its slope must
-            if V + 1e-4 * step * slope >= V1 or (
-                abs(slope1) <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V
+            # V is convex: while it slopes down it has fallen, whatever rounding says. Beyond, it must
+            # have fallen; where its fall drowns in rounding its slope must.
+            if (
+                slope1 <= 0.0
+                or V + 1e-4 * step * slope >= V1
+                or (slope1 <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V)
             ):
                 if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
                     found = True
@@ -567,7 +572,10 @@ def descend_with_soft_balls(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p
     iterations = 0
     evaluations = 0
     if size == 0.0:
-        return 0, NOT_CONVERGED, math.nan, 0, 0
+        # a wedged ring without a load: nothing tells how soft to begin
+        return descend(
+            q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, MOST_PATIENT_ITERATIONS
+        )
     soft = A0  # compression of one ball under all of the load, for the softness now
     hard = (size / K) ** (2.0 / 3.0)
     start = np.zeros(5)

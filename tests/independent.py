@@ -197,7 +197,11 @@ class Balls:
             pressing = still @ along.T
             pressing[np.abs(pressing) < 1e-13] = 0.0
             working = still @ F / np.linalg.norm(F)
-            w[active] = beyond_cone(pressing, working) @ still
+            left = beyond_cone(pressing, working)
+            share = float(np.linalg.norm(left))
+            if share > 1e-12:  # once more, as what is small against F has lost digits
+                left = share * beyond_cone(pressing, left / share)
+            w[active] = left @ still
         return w, float(np.linalg.norm(w))
 
 
@@ -236,16 +240,20 @@ def rounding_of_residual(balls: Balls, q: Array) -> float:
     A digit lost of q changes a compression by ε|q|, and the load by the contact's stiffness times
     that; a digit lost of a ball's angle counts where a loaded ball stands on a defect's edge.
     """
-    eps = np.finfo(float).eps
+    factor = Long(balls.scene.bearing.load_deflection_factor)
+    steepest = 1.5 * np.sum(np.cbrt(factor**2 * balls.ball_load(q)))
+    return float(4.0 * np.finfo(float).eps * reach_of(balls, q) * steepest)
+
+
+def reach_of(balls: Balls, q: Array) -> float:
+    """The greatest of the lengths [m] whose last digits a compression inherits."""
     bearing = balls.scene.bearing
-    size = np.abs(q).max() + bearing.groove_center_distance + bearing.radial_clearance
+    size = float(np.abs(q).max()) + bearing.groove_center_distance + bearing.radial_clearance
     deepest = max((defect.depth for defect in balls.scene.defects), default=0.0)
     on_edge = (balls.drop > 0.0) & (balls.drop < deepest) & (balls.ball_load(q) > 0.0)
     if np.any(on_edge):
         size += 10.0 * bearing.outer_raceway_radius
-    factor = Long(bearing.load_deflection_factor)
-    steepest = 1.5 * np.sum(np.cbrt(factor**2 * balls.ball_load(q)))
-    return float(4.0 * eps * size * steepest)
+    return size
 
 
 REACHES = (1e-3, 1e-5, 1e-7)
@@ -347,9 +355,11 @@ def _judge_equilibrium(
     factor = balls.scene.bearing.load_deflection_factor
     spoilt += 1e-12 * size
     touched = loads[loads > 0.0]
+    close = np.abs(balls.compression(q)) <= 8.0 * np.finfo(float).eps * reach_of(balls, q)
     push = 1.5 * np.cbrt(factor**2 * touched)
     grace = np.minimum(push * spoilt / touched, 1.5 * np.cbrt(factor**2 * spoilt))
-    allowed = 1e-11 * values[-1] + 4.0 * float(np.sum(grace))
+    nearly = np.count_nonzero(close) * 1.5 * np.cbrt(factor**2 * spoilt)
+    allowed = 1e-11 * values[-1] + 4.0 * float(np.sum(grace) + nearly)
     for below, above in ((least, K), (K, most)):
         off = -np.linalg.eigvalsh(above - below)[0]
         if not off <= allowed:

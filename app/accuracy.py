@@ -34,7 +34,7 @@ class Trial:
 
 TRIALS = {
     "motion": Trial(
-        "Ways to march the motion",
+        "Motion: methods",
         lambda scene, job: motion_experiment(
             scene,
             duration=0.1,
@@ -44,25 +44,25 @@ TRIALS = {
         ),
     ),
     "stability": Trial(
-        "Where steps get too long",
+        "Motion: stability",
         lambda scene, job: stability_chart(
             scene, duration=0.1, progress=job.progress, cancelled=job.cancelled
         ),
     ),
     "models": Trial(
-        "What models leave out",
+        "Models",
         lambda scene, job: models_experiment(
             scene, duration=0.2, progress=job.progress, cancelled=job.cancelled
         ),
     ),
     "statics": Trial(
-        "Ways to solve the statics",
+        "Statics: solvers",
         lambda scene, job: statics_experiment(
             scene, n_angles=31, progress=job.progress, cancelled=job.cancelled
         ),
     ),
     "angles": Trial(
-        "Number and place of cage angles",
+        "Cage angles",
         lambda scene, job: angles_experiment(scene, progress=job.progress, cancelled=job.cancelled),
     ),
 }

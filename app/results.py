@@ -127,8 +127,9 @@ def _motion(scene: Scene, duration: float, sample_rate: float, by_hand: float | 
     rate = step_rates(scene, sample_rate) if by_hand is None else by_hand
     if rate is not None and duration * rate > MOST_STEPS:
         if SHORTEST * rate > MOST_STEPS:
+            why = "the defect is passed so fast that" if by_hand is None else "set by hand,"
             raise ValueError(
-                f"the defect is passed so fast that a motion takes {rate:.2g} steps a second; "
+                f"{why} a motion takes {rate:.2g} steps a second; "
                 f"allowed here: {MOST_STEPS / SHORTEST:.2g}"
             )
         duration = MOST_STEPS / rate

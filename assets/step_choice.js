@@ -14,7 +14,7 @@ export function render({ model }) {
   field.append(label, select)
   const row = document.createElement("div")
   row.className = "fields"
-  row.style.paddingBottom = "6px"
+  Object.assign(row.style, { fontFamily: "var(--font)", paddingBottom: "6px" })
   const words = document.createElement("p")
   words.className = "words"
   words.setAttribute("role", "status")

@@ -138,12 +138,18 @@ class Accuracy(JobView[Found]):
             x_axis_type="log",
             y_axis_type="log",
         )
-        plot.stylesheets = [":host { cursor: crosshair; }"]
+        plot.stylesheets = [
+            ":host { cursor: crosshair; }"
+            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+        ]
         plot.visible = timed
         plot.xaxis.axis_label = "Time" if timed else "Evaluations"
         plot.yaxis.axis_label = "Error"
         plot.xaxis.formatter = figures.logarithmic_ticks("s" if timed else "")
         plot.yaxis.formatter = figures.logarithmic_ticks()
+        plot.xaxis.ticker = FixedTicker(
+            ticks=[m * 10.0**e for e in range(-9, 13) for m in (1, 3)], minor_ticks=[]
+        )
         points = []
         for slot, source in enumerate(self._sources):
             color, marker = look(slot)
@@ -172,16 +178,24 @@ class Accuracy(JobView[Found]):
             text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
             text_color=figures.INK, text_baseline="middle",
         )  # fmt: skip
-        named = CustomJSHover(code=f"return {known}[value]")
+        readers = {
+            "@method": CustomJSHover(code=f"return {known}[value]"),
+            "@error": CustomJSHover(code="return Number(value).toPrecision(2).replace('-', '−')"),
+            "@seconds": CustomJSHover(code="return `${Number((1e3*value).toPrecision(3))} ms`"),
+        }
         plot.add_tools(
             HoverTool(
                 renderers=points,
-                visible=False,
-                tooltips=[("", "@method{custom}"), ("error", "@error{0.0e+0}"),
-                          ("time", "@seconds{0.0e+0} s"), ("evaluations", "@evaluations{0}")],
-                formatters={"@method": named},
+                visible=False,  # no button: it is always on
+                tooltips=[
+                    ("method", "@method{custom}"),
+                    ("error", "@error{custom}"),
+                    ("time", "@seconds{custom}"),
+                    ("evaluations", "@evaluations{0}"),
+                ],
+                formatters=readers,
             )
-        )  # fmt: skip
+        )
         plot.on_event(Tap, lambda event: self._tapped(cost, event.x, event.y))
         return plot
 
@@ -229,6 +243,10 @@ class Accuracy(JobView[Found]):
         if name not in TRIALS:
             raise ValueError("There is no such experiment.")
         return lambda job: compute(job, scene, name)
+
+    def _take(self, found: Found) -> None:
+        self._note = ""
+        super()._take(found)
 
     # Steps taken over. What comes from the browser is not to be trusted.
 
@@ -475,6 +493,11 @@ def _agreement(result: Experiment | StabilityChart) -> str:
     return f"{words} {worst.note}." if worst.note else words
 
 
+def _short(error: float) -> str:
+    """An error for a sentence: in powers of ten where it is small."""
+    return figures.number(error, 2) if 0.01 <= error < 1000.0 else scientific(error)
+
+
 def _work_words(result: Experiment) -> str:
     words = f"{result.title}. "
     if frontier := result.frontier():
@@ -482,7 +505,7 @@ def _work_words(result: Experiment) -> str:
         unit = " dB" if _drawn(result) in UNITS else ""
         words += ", ".join(
             f"{kind}: {p.method} with {p.setting} "
-            f"({figures.with_prefix(p.seconds, 's')}, error {scientific(drawn_error(result, p))}"
+            f"({figures.with_prefix(p.seconds, 's')}, error {_short(drawn_error(result, p))}"
             f"{unit})"
             for kind, p in (("Cheapest", first), ("most exact of the best", last))
         )

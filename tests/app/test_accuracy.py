@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -106,7 +107,8 @@ def test_only_offered_steps_are_taken_from_the_browser() -> None:
     view = measured()
     taken: list[float | None] = []
     view.take_steps = taken.append
-    for strange in (None, 5, {"use": 65536}, {"use": "1"}, {"use": ["65536"]}, {"use": "1e9"}, []):
+    strangers: list[Any] = [None, 5, {"use": 65536}, {"use": "1"}, {"use": ["65536"]}, []]
+    for strange in strangers:
         view._steps_asked(strange)
     assert taken == []
     view._steps_asked({"use": "65536"})
@@ -126,6 +128,11 @@ def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:
     view.say(by_hand, "words")
     assert view._steps.chosen == "131072"
     assert "131072 Hz" in view._steps.words
+
+
+def test_more_steps_than_the_server_holds_are_refused() -> None:
+    with pytest.raises(ValueError, match="set by hand"):
+        _ = Results(RIG, settings=Settings(step_rate=65536.0 * 128)).motion
 
 
 def test_the_stability_chart_holds_every_trial() -> None:

@@ -521,8 +521,8 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
             slope1 = 0.0
             for i in active:
                 slope1 += G[1 - now, i] * p[i]
-            # V is convex: while it slopes down it has fallen, whatever rounding says. Beyond, it must
-            # have fallen; where its fall drowns in rounding its slope must.
+            # V is convex: while it slopes down it has fallen, whatever rounding says. Beyond, it
+            # must have fallen; where its fall drowns in rounding its slope must.
             if (
                 slope1 <= 0.0
                 or V + 1e-4 * step * slope >= V1

@@ -46,6 +46,10 @@ looked for, and below the second as no sign of another."""
 OFF_MIDDLE = 0.4
 """Where other intervals are divided. In the very middle an S-shaped curve crosses its own line."""
 
+GRAZE = 0.25
+"""A gap whose extremum comes nearer to zero than this part (squared) of what it varies by nearby is
+looked at once more."""
+
 LEAST_SWING = 0.01
 """Errors are taken over a curve's swing, but not over less than this part of its size."""
 
@@ -186,6 +190,28 @@ class _Nodes:
         self.gaps = np.concatenate([self.gaps, gaps])[order]
         self.touch = np.concatenate([self.touch, np.full(angles.size, touch)])[order]
 
+    def look_for_grazes(self) -> None:
+        """Put a node where a ball may touch, or let go, for less than an interval.
+
+        There its gap has an extremum near zero; the parabola through three nodes tells where.
+        """
+        a, g = self.angles, self.gaps
+        left, right = np.diff(a)[:-1, None], np.diff(a)[1:, None]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            before, after = np.diff(g, axis=0)[:-1] / left, np.diff(g, axis=0)[1:] / right
+            bend = (after - before) / (left + right)
+            slope = (before * right + after * left) / (left + right)
+            away = -0.5 * slope / bend  # of the extremum from the middle node
+            top = g[1:-1] - 0.25 * slope**2 / bend
+            inside = (away > -left) & (away < right) & (before * after < 0.0)
+            # a corner in between makes the parabola err by as much as the gap itself varies
+            near = top * g[1:-1] < GRAZE * np.ptp(np.stack([g[:-2], g[1:-1], g[2:]]), axis=0) ** 2
+            same = (g[:-2] * g[1:-1] > 0.0) & (g[2:] * g[1:-1] > 0.0)
+            row, ball = np.nonzero(inside & near & same)
+        found = np.unique(a[row + 1] + away[row, ball])
+        if found.size:
+            self.insert(np.setdiff1d(found, a), touch=False)
+
     def find_touches(self) -> bool:
         """Find where a ball touches or lets go between two nodes and put nodes there."""
         seen = TOUCH_SEEN * self.compression
@@ -325,10 +351,12 @@ def place(
     angles = np.unique(np.concatenate([start[keep], kinks]))
     nodes = _Nodes(scene, curves, scene.active_dofs if dofs is None else dofs, angles, kinks)
     error = math.inf
+    nodes.look_for_grazes()
     nodes.find_touches()
     for _ in range(4):
         nodes.jumps.clear()
         error = nodes.bend(AIM * budget, LEAST_INTERVAL * spacing)
+        nodes.look_for_grazes()
         if not nodes.find_touches():
             break
     return CageAngles(

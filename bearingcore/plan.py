@@ -44,7 +44,7 @@ FULL_ANGLES, FULL_RATE = 361, 65536.0
 PILOT = 0.25
 """[s] of motion that are marched to see what a step costs in accuracy."""
 
-SAFETY = 2.5
+SAFETY = 3.0
 """Predicted errors of motions: the pilot's times this, as it is shorter than what it speaks for."""
 
 BAND = 1.25
@@ -410,7 +410,7 @@ def _stable_orbit(
     return None, None, "marched, as the steps of an orbit would have to be very short"
 
 
-ORBIT_SAFETY = 1.5
+ORBIT_SAFETY = 2.5
 """The same for orbits: what is compared is all there is, and half the steps leave at most half."""
 
 ORBIT_DOUBLINGS = 3

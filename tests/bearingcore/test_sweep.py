@@ -92,7 +92,7 @@ def test_static_outputs_are_those_of_single_scenes() -> None:
     [
         (RIG, {"extent": [0.3, 0.0, 9.0, 0.8], "fy": [-100.0, 0.0, 50.0]}),
         (RIG.replace(race="inner"), {"fy": [-50.0, -100.0], "extent": [0.0, 0.2]}),
-        (RIG.replace(fz=30.0), {"depth": [0.0, 5e-5], "extent": [0.0, 0.2]}),
+        (RIG.replace(n_balls=2), {"depth": [0.0, 5e-5], "extent": [0.0, 0.2]}),
         (ANGULAR.replace(fx=0.0, fy=0.0), {"fz": [-300.0, 0.0, 300.0], "extent": [0.1, 0.2]}),
     ],
     ids=["some refused", "inner race", "not carried", "thrust"],
@@ -151,6 +151,17 @@ def test_failures_are_data() -> None:
     floats = found.sel(shaft_speed=50.0, extent=0.2, fy=0.0)
     assert floats["status"] == code("nothing_touches")
     assert np.isnan(floats["k_yy_mean"])
+
+
+@pytest.mark.parametrize("over", [{"extent": [0.1, 0.2]}, {"fx": [0.0]}], ids=["row", "single"])
+def test_what_nothing_carries_has_no_numbers(over: dict[str, list[float]]) -> None:
+    two_balls = RIG.replace(n_balls=2)  # the ring slips off sideways
+    found = sweep(two_balls, over, STATIC, settings=COARSE)
+    assert (found["status"] == code("load_not_carried")).all()
+    assert (found["converged_share"] == 0.0).all()
+    for name in found.data_vars:
+        if name not in ("status", "converged_share"):
+            assert np.isnan(found[name]).all(), name
 
 
 def test_directions_appear_where_some_scene_needs_them() -> None:

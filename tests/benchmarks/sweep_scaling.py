@@ -63,14 +63,14 @@ RANGES = {
 
 
 def grid_over(kind: Kind, scenes: int) -> dict[str, np.ndarray[Any, Any]]:
-    """Axes of about as many scenes as asked for, much the same number of values on each."""
+    """Axes of at least as many scenes as asked for, hardly more, much the same number of values on each."""
     over = {}
     left, fields = scenes, list(kind.fields)
     while fields:
         name = fields.pop()
-        size = max(round(left ** (1.0 / (len(fields) + 1))), 1)
+        size = max(math.ceil(left ** (1.0 / (len(fields) + 1)) - 1e-9), 1)
         over[name] = np.linspace(*RANGES[name], size)
-        left = max(left // size, 1)
+        left = max(math.ceil(left / size), 1)
     return {name: over[name] for name in kind.fields}
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import checks, kernels
+from bearingcore.carrying import runs_away
 from bearingcore.defect import path_tables
 from bearingcore.scene import DOF_NAMES, Scene, check_dofs
 
@@ -228,38 +229,3 @@ def _explain(
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
         elif status[k] == kernels.NOT_CONVERGED and runs_away(scene, angles[k], active, load):
             status[k] = kernels.NOT_CARRIED
-
-
-def runs_away(
-    scene: Scene, cage_angle: float, active: NDArray[np.int64], load: NDArray[np.float64]
-) -> bool:
-    """True where some direction of motion does work on the load and never presses a ball.
-
-    The energy then falls without end. Along a direction w, the ball at φ_j stays free for ever just
-    when it moves straight back along its unloaded line of contact, so this is a linear programme:
-    the most work F·w over |w_i| ≤ 1 with (motion across the line)_j = 0 and
-    (motion along the line)_j ≤ 0.
-    """
-    from scipy.optimize import (
-        linprog,
-    )  # imported late: it would double the time to import this package
-
-    if not load.any():
-        return False
-    bearing = scene.bearing
-    phi = cage_angle + bearing.ball_spacing * np.arange(bearing.n_balls)
-    zero, one = np.zeros_like(phi), np.ones_like(phi)
-    radial = np.stack([np.cos(phi), np.sin(phi), zero, zero, zero], axis=1)[:, active]
-    axial = np.stack([zero, zero, one, np.sin(phi), -np.cos(phi)], axis=1)[:, active]
-    ca, sa = math.cos(bearing.contact_angle), math.sin(bearing.contact_angle)
-    direction = load / np.linalg.norm(load)
-    answer = linprog(
-        -direction,
-        A_ub=radial * ca + axial * sa,
-        b_ub=zero,
-        A_eq=axial * ca - radial * sa,
-        b_eq=zero,
-        bounds=(-1.0, 1.0),
-        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
-    )
-    return bool(answer.status == 0 and answer.fun is not None and answer.fun < -1e-9)

@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import checks, kernels
 from bearingcore.bearing import Bearing
+from bearingcore.carrying import runs_away
 from bearingcore.defect import TWO_PI, Defect, path_tables
-from bearingcore.equilibrium import REASONS, STIFFNESS_TERMS, default_cage_angles, runs_away
+from bearingcore.equilibrium import REASONS, STIFFNESS_TERMS, default_cage_angles
 from bearingcore.scene import DOF_NAMES, Scene, check_dofs
 
 Array = NDArray[np.float64]

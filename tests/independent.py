@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from bearingcore import DOF_NAMES, Equilibrium, Scene, kernels
+from bearingcore.carrying import way_out
 
 Long = np.longdouble
 Array = NDArray[np.floating]
@@ -176,62 +177,6 @@ class Balls:
         whole = self.contact_force(q).copy()
         whole[active] = self.load[active]
         return float(np.linalg.norm(whole.astype(float)))
-
-    def way_out(self, active: list[int]) -> tuple[NDArray[np.float64], float]:
-        """Direction w (5,) in which the load works and no ball is ever pressed, and that share.
-
-        A ball stays free for ever just when it moves straight back along its unloaded line. All
-        such w form the cone {along·w ≤ 0, across·w = 0}. What is left of F after the nearest
-        combination of contact forces is taken off, F − Σ a along − Σ b across with a ≥ 0, is the
-        projection of F on that cone. Its share of F is 0 where contacts can carry all.
-        """
-        along, across = (
-            np.where(np.abs(rows) < 1e-13, 0.0, rows)[:, active].astype(float)
-            for rows in self.along_across
-        )
-        F = self.load[active].astype(float)
-        _, sizes, vectors = np.linalg.svd(np.vstack([across, np.zeros((5, len(active)))]))
-        still = vectors[sizes[: len(active)] <= 1e-10]
-        w = np.zeros(5)
-        if len(still):
-            pressing = still @ along.T
-            pressing[np.abs(pressing) < 1e-13] = 0.0
-            working = still @ F / np.linalg.norm(F)
-            left = beyond_cone(pressing, working)
-            share = float(np.linalg.norm(left))
-            if share > 1e-12:  # once more, as what is small against F has lost digits
-                left = share * beyond_cone(pressing, left / share)
-            w[active] = left @ still
-        return w, float(np.linalg.norm(w))
-
-
-def beyond_cone(rays: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What is left of `point` (m,) after its nearest in the cone of rays (m, k) is taken off.
-
-    Lawson and Hanson's active sets, with a tolerance: rays here often come in opposite pairs.
-    """
-    inside: list[int] = []
-    amounts = np.zeros(rays.shape[1])
-    for _ in range(10 * rays.shape[1]):
-        gain = (point - rays @ amounts) @ rays
-        gain[inside] = -np.inf
-        if gain.max() <= 1e-11:
-            break
-        inside.append(int(gain.argmax()))
-        while True:
-            wanted = np.linalg.lstsq(rays[:, inside], point, rcond=1e-11)[0]
-            if np.all(wanted > 0.0):
-                break
-            now = amounts[inside]
-            blocking = wanted <= 0.0
-            step = np.min(now[blocking] / (now[blocking] - wanted[blocking]), initial=1.0)
-            amounts[inside] = np.maximum(now + step * (wanted - now), 0.0)
-            inside = [j for j in inside if amounts[j] > 1e-13]
-            amounts[[j for j in range(len(amounts)) if j not in inside]] = 0.0
-            if not inside:
-                return point
-        amounts[inside] = wanted
-    return point - rays @ amounts
 
 
 def rounding_of_residual(balls: Balls, q: Array) -> float:
@@ -452,12 +397,21 @@ def _judge_not_carried(answer: Equilibrium, i: int, balls: Balls, active: list[i
     """There is a direction in which the energy falls without end."""
     if np.any(np.isfinite(answer.displacement[i])) or np.any(np.isfinite(answer.stiffness[i])):
         return "a state that is not has a number"
-    w, share = balls.way_out(active)
+    w, share = way_out(
+        balls.scene, balls.cage_angle, np.array(active), balls.load[active].astype(float)
+    )
     if share < 0.5 * RESIDUAL:
         return f"called not carried, though contacts can carry all but {share:.1e} of the load"
-    way = w.astype(Long) / np.linalg.norm(w)
-    way[np.abs(way) < 1e-7] = 0.0
-    fall = float(balls.load[active] @ way[active])
+    # that way out is where to look, and what is looked for is the fall of the energy
+    way = np.zeros(5, dtype=Long)
+    way[active] = w / np.linalg.norm(w)
+    along, across = balls.along_across
+    pressed = max(float((along @ way).max()), float(np.abs(across @ way).max()))
+    if pressed > 1e-7:
+        return f"the way out presses a ball by {pressed:.1e} of it"
+    fall = share * float(np.linalg.norm(balls.load[active].astype(float)))
+    if abs(float(balls.load @ way) - fall) > 1e-3 * fall + 1e-14 * float(np.abs(balls.load).max()):
+        return "the load does not work along the way out as it should"
     clearance = balls.scene.bearing.radial_clearance
     # far enough out that every ball which moves back has lost touch
     far = 1e3 * float(balls.scene.bearing.groove_center_distance + balls.drop.max() + clearance)

@@ -17,6 +17,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from bearingcore import DOF_NAMES, EDGES, RACES, equilibrium, kernels
+from bearingcore.carrying import way_out
 from tests.box import (
     DOF_SETS,
     FACTORS,
@@ -300,3 +301,29 @@ def test_the_judges_energy_has_its_force_and_stiffness_as_derivatives() -> None:
         column = (balls.contact_force(q + e) - balls.contact_force(q - e)) / (2 * step)
         expected = balls.stiffness(q)[:, k].astype(float)
         assert column.astype(float) == pytest.approx(expected, rel=1e-6, abs=1e-2)
+
+
+def test_a_way_out_lies_in_the_cone_of_motions_that_press_no_ball() -> None:
+    """Of every scene with a load: the way presses no ball, works, and what contacts carry does not.
+
+    So F = (what contacts carry) + way with the two at right angles, which makes it the nearest.
+    """
+    columns = draw(np.random.default_rng([5, 0]), 500)
+    shares = []
+    for k in range(500):
+        point = columns.point(k)
+        scene = scene_at(point)
+        balls = Balls(scene, point.cage_angle)
+        active = np.array([DOF_NAMES.index(name) for name in scene.active_dofs])
+        F = balls.load[active].astype(float)
+        if not F.any():
+            continue
+        F /= np.linalg.norm(F)
+        way, share = way_out(scene, point.cage_angle, active, F)
+        along, across = (rows[:, active].astype(float) for rows in balls.along_across)
+        assert np.max(along @ way, initial=0.0) <= 1e-10
+        assert np.max(np.abs(across @ way), initial=0.0) <= 1e-10
+        assert F @ way == pytest.approx(share**2, abs=1e-10)
+        shares.append(share)
+    assert min(shares) == pytest.approx(0.0, abs=1e-12)
+    assert max(shares) > 0.9

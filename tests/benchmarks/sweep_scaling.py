@@ -63,7 +63,7 @@ RANGES = {
 
 
 def grid_over(kind: Kind, scenes: int) -> dict[str, np.ndarray[Any, Any]]:
-    """Axes of at least as many scenes as asked for, hardly more, much the same number of values on each."""
+    """Axes of at least as many scenes as asked for, with much the same number of values each."""
     over = {}
     left, fields = scenes, list(kind.fields)
     while fields:

@@ -47,7 +47,7 @@ def number(
         allowed += f" [{unit}]"
     try:
         x = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise refuse(field, value, allowed) from None
     inside = at_least <= x <= at_most and above < x < below
     if not (math.isfinite(x) and inside):
@@ -69,7 +69,7 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
         raise refuse(field, value, allowed)
     try:
         x = float(value)  # type: ignore[arg-type]  # what it cannot take is refused
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise refuse(field, value, allowed) from None
     if not at_least <= x <= at_most or x != round(x):
         raise refuse(field, x, allowed)
@@ -81,7 +81,7 @@ def finite(field: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
     allowed = f"finite numbers [{unit}]"
     try:
         row = np.array(values, dtype=float).reshape(-1)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise refuse(field, values, allowed) from None
     if not np.all(np.isfinite(row)):
         raise refuse(field, reprlib.repr(values), allowed)

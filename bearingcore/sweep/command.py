@@ -61,6 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(chosen: argparse.Namespace) -> int:
     needs_extra()
+    import dask.array
     from tqdm import tqdm
 
     grid = grid_from_toml(_text(chosen.file))
@@ -83,10 +84,11 @@ def _run(chosen: argparse.Namespace) -> int:
             progress=progress,
             say=bar.write,
         )
-    counts = np.bincount(results["status"].values.ravel(), minlength=len(STATUSES))
-    for code, count in enumerate(counts):
+    edges = np.arange(len(STATUSES) + 1) - 0.5
+    counts, _ = dask.array.histogram(results["status"].data, bins=edges)
+    for code, count in enumerate(counts.compute()):
         if count:
-            print(f"{count:12,} {STATUSES[code].replace('_', ' ')}")
+            print(f"{int(count):12,} {STATUSES[code].replace('_', ' ')}")
     print(f'Results: xarray.open_zarr("{chosen.out}")')
     return 0
 

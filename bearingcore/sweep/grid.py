@@ -6,7 +6,7 @@ import dataclasses
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from importlib import metadata
 from typing import Any
@@ -101,12 +101,12 @@ _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
 Region = tuple[slice, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Axis:
     """One field of the scenes and the values that it takes, in SI units."""
 
     name: str
-    values: NDArray[Any] = field(compare=False)
+    values: NDArray[Any]
 
     @property
     def unit(self) -> str:
@@ -114,7 +114,7 @@ class Axis:
         return UNITS[self.name]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Grid:
     """All combinations of some values of some fields of a scene, and the outputs asked for."""
 

@@ -248,6 +248,8 @@ def _consolidate(path: Path) -> None:
 
 def _flush(path: Path) -> None:
     """Make sure that a file or folder is on disk, not just on its way."""
+    if os.name == "nt":  # knows no such thing for folders, nor for files opened to be read
+        return
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)

@@ -655,6 +655,8 @@ def test_a_file_is_read() -> None:
         ("stop = 1.5", 'stop = "1.5"', "stop of extent"),
         ("start = 0.0, stop = 1.5", "start = -1e308, stop = 1.7e308", "stop of extent"),
         ("fy = {start", "extent_deg = {start", "extent_deg"),
+        ("fy = {", f"fy = [-{10**400}]\nfz = {{", "value of fy"),
+        ("num = 20", f"num = {10**400}", "num of extent"),
         ("shaft_speed", "shaft_sped", "shaft_sped"),
         ("version = 1", "version = 2", "version"),
         ("[sweep]", "[sweep", "not TOML"),

@@ -107,7 +107,7 @@ def _in_words(grid: Grid) -> str:
     size = grid.size * (8 * numbers + 1)
     return (
         f"{grid.size:,} scenes ({axes}), {numbers} numbers of each: "
-        f"at most {size / 1e6:,.1f} MB before compression"
+        f"at most {size / 1e6:,.2f} MB before compression"
     )
 
 

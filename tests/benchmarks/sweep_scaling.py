@@ -177,7 +177,7 @@ def estimate(kind: Kind, cost: float, scenes: int, rate: float) -> None:
     longer = max(1, math.ceil(asked / (0.5 * rate)), math.ceil(files / FILES))
     if longer > 1:
         print(
-            f"    That is more than to count on (half of the tasks that are handed out here, and "
+            f"    That is more than to count on (half of the tasks that are handed out here, and"
             f"\n    {FILES:,} files): take --scenes-per-task {longer * in_task:,}."
         )
     compute = grid.size * cost / CORES
@@ -239,7 +239,11 @@ def main() -> int:
         f"the {len(Grid.of(RIG, grid_over(ROWS, 9), STATICS).outputs)} static outputs of a region"
     )
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} as this ends")
-    print(f"\nEstimate for {CORES} cores, from the processor time; not measured:")
+    print(
+        f"\nEstimate for {CORES} cores, from the processor time; not measured. It takes them to be "
+        f"as fast as these,\nnone of them shared, the scheduler on one of its own, and a folder "
+        f"that takes {FILES:,} new files a second:"
+    )
     estimate(ROWS, whole[ROWS].processor, 1_000_000_000, rate)
     estimate(MOVING, whole[MOVING].processor, 10_000_000, rate)
     return 0

@@ -23,8 +23,9 @@ Array = NDArray[np.float64]
 ROUNDING = 1e-13
 """A gradient below this is that of a ball which stands across the direction to a digit."""
 
-LEAST_GAIN = 1e-11
-"""The part of a load of size 1 that another ball must take for it to be asked."""
+LEAST_GAIN, ALIKE = 1e-14, 1e-11
+"""The part of a load of size 1 that another ball must be able to take for it to be asked, and how
+much two rays must differ to be two."""
 
 
 def way_out(
@@ -80,7 +81,7 @@ def beyond_cone(rays: Array, point: Array) -> Array:
             break
         inside.append(int(gain.argmax()))
         while inside:
-            wanted = np.linalg.lstsq(rays[:, inside], point, rcond=LEAST_GAIN)[0]
+            wanted = np.linalg.lstsq(rays[:, inside], point, rcond=ALIKE)[0]
             if np.all(wanted > 0.0):
                 amounts[inside] = wanted
                 break
@@ -96,5 +97,5 @@ def beyond_cone(rays: Array, point: Array) -> Array:
     left = point - rays @ amounts
     if inside:  # once more: what is left is small against the point and has lost digits
         taken = rays[:, inside]
-        left = left - taken @ np.linalg.lstsq(taken, left, rcond=LEAST_GAIN)[0]
+        left = left - taken @ np.linalg.lstsq(taken, left, rcond=ALIKE)[0]
     return left

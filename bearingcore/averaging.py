@@ -81,7 +81,7 @@ class BallPasses:
     @property
     def harmonic_frequency(self) -> NDArray[np.float64]:
         """(N,) [Hz]"""
-        return self.frequency * np.arange(1, len(self.harmonics) + 1)
+        return np.asarray(self.frequency * np.arange(1, len(self.harmonics) + 1), dtype=float)
 
 
 def coefficients(passes: NDArray[np.float64], count: int) -> NDArray[np.complex128]:

@@ -311,10 +311,11 @@ def _status(
             "not be those of this machine."
         )
     if abs(best.level) > math.log(10.0):
-        decibels = 10.0 / math.log(10.0) * -best.level
+        decibels = 10.0 / math.log(10.0) * abs(best.level)
+        than = "weaker" if best.level > 0.0 else "stronger"
         return False, (
-            f"Most like {size}, but the signal is {decibels:+.0f} dB off what such a defect gives: "
-            "look at its unit."
+            f"Most like {size}, but the signal is {decibels:.0f} dB {than} than such a defect "
+            "gives: it may be in another unit, or have another cause."
         )
     if best.probability < CLEAR:
         likely = [c for c in candidates if c.probability >= 0.05]

@@ -292,7 +292,7 @@ def train(answers: list[Answer]) -> None:
     print(
         f"uncertainties as they are (factor {method.SPREAD_FACTOR:g}): within one "
         f"{share(strays <= 1.0)} %, within two {share(strays <= 2.0)} %; quantiles of error over "
-        f"uncertainty, 68 %: {np.quantile(strays, 0.683):.2f}, 95 %: {np.quantile(strays, 0.954):.2f}"
+        f"uncertainty: {np.quantile(strays, 0.683):.2f}, {np.quantile(strays, 0.954):.2f}"
     )
 
 

@@ -169,7 +169,7 @@ class Search:
         slope = np.array([self.residuals(other, guess) - here for other in tried]) / sizes[:, None]
         curvature = slope @ slope.T + 1e-9 * np.eye(len(sizes))
         furthest = np.array([3.0 * EXTENT_STEP] + [1.0] * len(guess.offsets))
-        for damping in (0.02, 0.5):
+        for damping in (0.02, 0.5, 10.0):
             damped = curvature + damping * np.diag(np.diag(curvature))
             move = -np.linalg.solve(damped, slope @ here)
             move *= min(1.0, float(np.min(furthest / np.maximum(np.abs(move), 1e-12))))

@@ -36,10 +36,10 @@ from bearingcore.scene import Scene
 from bearingcore.synthesis import Band, Target, comparison_band
 from bearingcore.variants import Tolerances
 
-TEMPERATURE = 4.0
+TEMPERATURE = 3.0
 """By which scores are divided before they become probabilities."""
 
-SPREAD_FACTOR = 2.0
+SPREAD_FACTOR = 1.0
 SPREAD_FLOOR = math.radians(0.05)
 """What makes a standard deviation [rad] of the extent out of that of the fit."""
 

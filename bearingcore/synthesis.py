@@ -44,6 +44,10 @@ SPECTRUM_FLOOR = 0.05
 
 GREATEST_MISFIT = 2.0
 
+DYNAMIC_RANGE = 1e-4
+"""Spectra this far below a direction's strongest band are not compared (40 dB): there the end of a
+filter, a neighbour's leakage or the last of a transient speaks."""
+
 PHASES = 2048
 """Places in time at which a simulated pass is laid over the measured one, before refinement."""
 
@@ -143,7 +147,9 @@ class Target:
         self.energy = np.maximum((np.abs(self.harmonics) ** 2).sum(axis=0), 1e-300)
         self.noise_share = np.minimum(measured.scatter[self.kept].sum(axis=0) / self.energy, 1.0)
         self.window = _smoothing(frequency[self.kept], band)
-        self.log_power = np.log(self.window @ measured.power[self.kept] + 1e-300)
+        power = self.window @ measured.power[self.kept]
+        self.floor = DYNAMIC_RANGE * power.max(axis=0) + 1e-300
+        self.log_power = np.log(power + self.floor)
 
     def match(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d)."""
@@ -173,7 +179,7 @@ class Target:
         )
         misfit = (np.abs(residual) ** 2).sum(axis=1)
         clean = np.where(bad[:, None, None], 1.0, power[:, self.kept]) + self.measured.noise_power
-        log_power = np.log(np.einsum("bn,mnd->mbd", self.window, clean) + 1e-300)
+        log_power = np.log(np.einsum("bn,mnd->mbd", self.window, clean) + self.floor)
         difference = log_power - self.log_power
         level = np.log(clean.sum(axis=(1, 2)) / self.measured.power[self.kept].sum())
         misfit[bad] = GREATEST_MISFIT

@@ -20,6 +20,8 @@ from bearingcore.scene import Scene
 
 Array = NDArray[np.float64]
 
+EPSILON = float(np.finfo(float).eps)
+
 ROUNDING = 1e-13
 """A gradient below this is that of a ball which stands across the direction to a digit."""
 
@@ -50,11 +52,14 @@ def way_out(
     across = axial * ca - radial * sa
     across[np.abs(across) < ROUNDING] = 0.0
     _, sizes, vectors = np.linalg.svd(across)
-    still = vectors[np.count_nonzero(sizes > 1e-10) :]
+    held = np.count_nonzero(sizes > 1e-10)
+    still = vectors[held:]
     if not len(still):
         return nothing
     pressing = still @ (radial * ca + axial * sa).T
-    pressing[np.abs(pressing) < ROUNDING] = 0.0
+    # what is left free is known to a digit times how unevenly the rest is held
+    unevenness = sizes[0] / sizes[held - 1] if held else 1.0
+    pressing[np.abs(pressing) < max(ROUNDING, 10.0 * EPSILON * unevenness)] = 0.0
     left = beyond_cone(pressing, still @ load / np.linalg.norm(load))
     return left @ still, float(np.linalg.norm(left))
 

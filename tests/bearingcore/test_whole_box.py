@@ -210,6 +210,16 @@ CORNERS = {
         PLAIN._replace(n_balls=2, cage_angle=0.75 * TURN, loads=(1e-4, -1e3, 0.0, 0.0, 0.0)),
         kernels.NOT_CARRIED,
     ),
+    "two balls opposite each other, whose line of contact is hardly tilted": (
+        PLAIN._replace(
+            n_balls=2,
+            contact_angle=7.34e-4,
+            dofs=("x", "y", "z"),
+            cage_angle=2.39843034577279,
+            loads=(0.0, -5e4, 0.0, 0.0, 0.0),
+        ),
+        kernels.NOT_CARRIED,
+    ),
     "an inner race smaller than its balls, which never reach the floor": (
         PLAIN._replace(
             n_balls=2, ball_size=1.0, race="inner", edge="exact", extent=TURN / 2, depth=1.0

@@ -204,6 +204,16 @@ def read(name: str, given: object, limits: Mapping[str, Limits]) -> float:
     return value
 
 
+def check_values(values: Mapping[str, float], limits: Mapping[str, Limits]) -> None:
+    """ValueError with a sentence where a number is one that could not be typed on the page.
+
+    NaN stands for what a scene does not have.
+    """
+    for name, value in values.items():
+        if not math.isnan(value):
+            read(name, repr(value), limits)
+
+
 def refusal(error: ValueError) -> str:
     """What the core refuses, as a sentence for the page: fields by the names they have there."""
     text = re.sub(

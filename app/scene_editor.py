@@ -18,6 +18,7 @@ from app.quantities import (
     QUANTITIES,
     Limits,
     Values,
+    check_values,
     defects_of,
     groove_limits,
     in_si,
@@ -83,6 +84,20 @@ class FloorChoice:
         return {"rough": self.rough, "measured": self.measured}.get(self.kind)
 
 
+@dataclass(frozen=True)
+class Snapshot:
+    """All that a `SceneEditor` holds at one time. Two are equal where a person sees no change."""
+
+    scene: Scene
+    preset: str
+    cage_angle: float
+    kinds: tuple[str, ...]
+    selected: int = field(compare=False)
+    values: Values = field(compare=False)
+    limits: dict[str, Limits] = field(compare=False)
+    floors: tuple[FloorChoice, ...] = field(compare=False)
+
+
 @dataclass
 class SceneEditor:
     """The state of the controls, and the scene that they stand for."""
@@ -106,6 +121,51 @@ class SceneEditor:
         self.limits = limits_of(self.scene)
         self.values = {}
         self._write_values(cage_angle=0.0)
+
+    def take_scene(
+        self, scene: Scene, preset: str = "", selected: int = 0, cage_angle: float = 0.0
+    ) -> None:
+        """Show a scene that comes from a link or a file, at a cage angle in degrees.
+
+        Without a `preset` it counts as a change of the one that has its bearing, or of the one
+        chosen now. ValueError, and nothing changed, where the page could not hold the scene.
+        """
+        if preset not in presets:
+            alike = [name for name in presets if presets[name].bearing == scene.bearing]
+            preset = self.preset if self.preset in alike or not alike else alike[0]
+        defects = [_turned(defect) for defect in defects_of(scene)]
+        if len(defects) > MOST_DEFECTS:
+            raise ValueError(f"defects are {len(defects)}; allowed here: at most {MOST_DEFECTS}")
+        if not 0 <= selected < len(defects):
+            raise ValueError(f"selected is defect {selected + 1} of {len(defects)}")
+        scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
+        limits = limits_of(presets[preset]) | groove_limits(scene)
+        for number in range(len(defects)):
+            check_values({**values_of(scene, number), CAGE_ANGLE: cage_angle}, limits)
+        self.preset, self.scene, self.selected = preset, scene, selected
+        self.floors = [_choice_of(defect) for defect in defects]
+        self.limits = limits
+        self.values = {}
+        self._write_values(cage_angle)
+
+    def snapshot(self) -> Snapshot:
+        """What `restore` brings back."""
+        return Snapshot(
+            scene=self.scene,
+            preset=self.preset,
+            cage_angle=self.values[CAGE_ANGLE],
+            kinds=tuple(floor.kind for floor in self.floors),
+            selected=self.selected,
+            values=dict(self.values),
+            limits=dict(self.limits),
+            floors=tuple(dataclasses.replace(floor) for floor in self.floors),
+        )
+
+    def restore(self, kept: Snapshot) -> None:
+        """All as it was when the snapshot was taken."""
+        self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
+        self.values, self.limits = dict(kept.values), dict(kept.limits)
+        self.floors = [dataclasses.replace(floor) for floor in kept.floors]
 
     @property
     def defects(self) -> tuple[Defect, ...]:
@@ -408,6 +468,13 @@ def _choice_of(defect: Defect) -> FloorChoice:
         points = f"{len(defect.floor.places)} points"
         return FloorChoice("measured", measured=defect.floor, words=points)
     return FloorChoice()
+
+
+def _turned(defect: Defect) -> Defect:
+    """The same defect with its centre within one turn, as the page shows it."""
+    if 0.0 <= defect.center <= 2.0 * math.pi:
+        return defect
+    return dataclasses.replace(defect, center=defect.center % (2.0 * math.pi))
 
 
 def _gap_to(defects: Iterable[Defect], angle: float) -> float:

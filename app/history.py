@@ -1,0 +1,88 @@
+"""Steps that can be undone and done again.
+
+A drag is one step however many positions it passed: while a hand moves, `moved` only follows, and
+`settle` ends the step. What ends where it began is no step.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Generic, TypeVar
+
+MOST_STEPS = 100
+
+State = TypeVar("State")
+
+
+class History(Generic[State]):
+    """States of something, one of them now. Equal states count as no change."""
+
+    def __init__(self, now: State, most: int = MOST_STEPS) -> None:
+        self._now = now
+        self._past: deque[State] = deque(maxlen=most)
+        self._future: list[State] = []
+        self._moving = ""
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a step to undo."""
+        return bool(self._past) and not (len(self._past) == 1 and self._idle_move)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether a step was undone that can be done again."""
+        return bool(self._future)
+
+    @property
+    def moving(self) -> bool:
+        """Whether a step has begun and not ended."""
+        return bool(self._moving)
+
+    def moved(self, now: State, what: str) -> None:
+        """Go on with the step that moves `what`, or begin it."""
+        if self._moving != what:
+            self.settle()
+        if now == self._now and not self._moving:
+            self._now = now
+            return
+        if not self._moving:
+            self._past.append(self._now)
+            self._future.clear()
+            self._moving = what
+        self._now = now
+
+    def settle(self) -> None:
+        """The step that was being made is made."""
+        if self._idle_move:
+            self._past.pop()
+        self._moving = ""
+
+    def step(self, now: State) -> None:
+        """Make a step that needs no moving."""
+        self.settle()
+        self.moved(now, "step")
+        self.settle()
+
+    def undo(self) -> State | None:
+        """The state before the last step; None where there is none."""
+        self.settle()
+        return self._go(self._past, self._future)
+
+    def redo(self) -> State | None:
+        """The state after the step that was undone last; None where there is none."""
+        self.settle()
+        return self._go(self._future, self._past)
+
+    @property
+    def _idle_move(self) -> bool:
+        """Whether a hand moves something that is where it was."""
+        return bool(self._moving) and self._past[-1] == self._now
+
+    def _go(
+        self, source: deque[State] | list[State], target: deque[State] | list[State]
+    ) -> State | None:
+        if not source:
+            return None
+        target.append(self._now)
+        self._now = source.pop()
+        return self._now

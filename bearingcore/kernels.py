@@ -38,9 +38,11 @@ from numba import njit
 # "contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
 # statics a quarter faster. NaN, signs and the order of sums are as written.
 compiled = njit(cache=True, nogil=True, fastmath={"contract"})
-# a call with many arrays costs more than a small kernel's work: such functions become part of their
-# callers, which made marching 2.4 times as fast
-inlined = njit(cache=True, nogil=True, fastmath={"contract"}, inline="always")
+# A call with many arrays costs more than a small kernel's work: such functions become part of their
+# callers, which made marching 2.4 times as fast. LLVM does it: numba's own inlining types and
+# translates the body again at each call. Every caller is a little slower to compile for it, and a
+# kernel is compiled together with all that it calls, so large functions are called at one place.
+inlined = njit(cache=True, nogil=True, fastmath={"contract"}, forceinline=True)
 
 # Columns of the rows that describe defects to `ball_path` (see defect.path_tables):
 PATH_COLUMNS = (
@@ -155,11 +157,24 @@ def fall(angle, cage_angle, rows, tables):
 
 
 @compiled
+def ball_circle(n_balls):
+    """Cosine and sine (n_balls,) of the angle from the first ball to each."""
+    c = np.empty(n_balls)
+    s = np.empty(n_balls)
+    for j in range(n_balls):
+        angle = 2.0 * math.pi / n_balls * j
+        c[j] = math.cos(angle)
+        s[j] = math.sin(angle)
+    return c, s
+
+
+@compiled
 def lay_out_drops(cage, rows, tables, d):
     """Drop [m] of every ball into d (n_balls,): only balls at a defect are asked for it."""
     n_balls = d.size
     spacing = 2.0 * math.pi / n_balls
-    d[:] = 0.0
+    for j in range(n_balls):
+        d[j] = 0.0
     for k in range(rows.shape[0]):
         begin = (rows[k, 0] + rows[k, 1] * cage - rows[k, 2] - cage) / spacing
         ball = math.ceil(begin - 1e-9)
@@ -338,7 +353,7 @@ def energy_gradient_hessian(q, F, c, s, d, ca, sa, A0, rL, K, g, H):
 # ------------------------------------------------------------------------------------ statics
 
 
-@inlined
+@compiled
 def newton_direction(H, g, active, shift, L, p):
     """P = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
 
@@ -414,12 +429,12 @@ def least_pivot(H, active):
 
 
 @compiled
-def without_faint(q, F, noise, c, s, d, active, ca, sa, A0, rL, K, G, H, now):
+def without_faint(q, F, noise, c, s, d, active, ca, sa, A0, rL, K, g, H):
     """Whether the balls that carry more than `noise` [N] hold the ring on their own.
 
     The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
-    they held the ring there. Returns the least pivot without them, and which of H has it: the other
-    one where the ring is not held.
+    they held the ring there. Returns the least pivot without them, whose gradient and Hessian are
+    put into g and H.
     """
     firm = 0
     c2 = np.empty(c.size)
@@ -435,89 +450,94 @@ def without_faint(q, F, noise, c, s, d, active, ca, sa, A0, rL, K, G, H, now):
             d2[firm] = d[j]
             firm += 1
     energy_gradient_hessian(
-        q, F, c2[:firm], s2[:firm], d2[:firm], ca, sa, A0, rL, K, G[1 - now], H[1 - now]
+        q, F, c2[:firm], s2[:firm], d2[:firm], ca, sa, A0, rL, K, g, H
     )
-    least = least_pivot(H[1 - now], active)
-    return least, now if least > NO_PIVOT else 1 - now
+    return least_pivot(H, active)
 
 
 @compiled
-def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
-    """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
+def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, patient):
+    """Move q downhill to the minimum of V by Newton's method with a line search.
 
-    Other arguments and what is returned are those of `minimise_energy`.
+    `patient` says in how many steps at most. Other arguments and what is returned are those of
+    `minimise_energy`.
     """
-    now = 0
-    V, scale, faintest = energy_gradient_hessian(
-        q, F, c, s, d, ca, sa, A0, rL, K, G[0], H[0]
-    )
-    evaluations = 1
+    most = MOST_PATIENT_ITERATIONS if patient else MOST_ITERATIONS
     carried = 0.0
+    axial = False
     for i in active:
         carried += F[i] * F[i]
+        axial = axial or i == 2
     size = math.sqrt(carried)
     nothing = 0.0
-    if size == 0.0:
-        # only a clearance so large that the ring, held axially, is wedged presses balls
-        for i in range(5):
-            size += (G[0, i] + F[i]) ** 2
-        size = math.sqrt(size)
-        if size == 0.0 or 2 in active:
-            return 0, NOTHING_TOUCHES, math.nan, 0, 1
-        nothing = max(RESIDUAL_AIM * size, K * (ROUNDING * (A0 + rL)) ** 1.5)
-    k_typical = 1.5 * (K * K * size) ** (1.0 / 3.0)  # of one ball under all of the load
+    k_typical = 0.0
     shift_part = 1e-3
     residual = math.inf
+    limit = RESIDUAL_LIMIT
     stuck = False
-    for iteration in range(most):
+    slope = 0.0
+    V = 0.0
+    scale = 0.0
+    faintest = 0.0
+    now = 1
+    evaluations = 0
+    # The first time round only evaluates the energy where q stands: written so, its code stands
+    # here once, which halves the time to compile it.
+    for iteration in range(-1, most):
         g = G[now]
-        norm = 0.0
-        taken = 0.0  # by what holds the directions that are not active
-        reach = 0.0
-        for i in range(5):
-            taken += (g[i] + F[i]) ** 2
-            reach = max(reach, abs(q[i]))
-        stiffest = 0.0
-        for i in active:
-            taken -= (g[i] + F[i]) ** 2
-            norm += g[i] * g[i]
-            stiffest = max(stiffest, H[now, i, i])
-        whole = math.sqrt(carried + max(taken, 0.0))
-        if whole <= nothing:
-            return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
-        before = residual
-        residual = math.sqrt(norm) / whole
-        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
-        least = newton_direction(H[now], g, active, 0.0, L, p)
-        settled = residual <= limit and residual >= 0.5 * before
-        if residual <= RESIDUAL_AIM or settled or stuck:
-            noise = FAINT * max(residual, RESIDUAL_AIM) * whole
-            if faintest < noise:
-                least, now = without_faint(
-                    q, F, noise, c, s, d, active, ca, sa, A0, rL, K, G, H, now
-                )
-            if least < DOUBTFUL_PIVOT:
-                least = least_pivot(H[now], active)
-            status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
-            return now, status, residual, iteration, evaluations
-        if not least > LEAST_PIVOT:
-            # too few balls touch: a small spring to ground stands in for the missing stiffness
-            newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
-            shift_part = max(0.1 * shift_part, 1e-10)
-        slope = 0.0
-        for i in active:
-            slope += g[i] * p[i]
+        if iteration >= 0:
+            norm = 0.0
+            taken = 0.0  # by what holds the directions that are not active
+            reach = 0.0
+            for i in range(5):
+                taken += (g[i] + F[i]) ** 2
+                reach = max(reach, abs(q[i]))
+            stiffest = 0.0
+            for i in active:
+                taken -= (g[i] + F[i]) ** 2
+                norm += g[i] * g[i]
+                stiffest = max(stiffest, H[now, i, i])
+            whole = math.sqrt(carried + max(taken, 0.0))
+            if whole <= nothing:
+                return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
+            before = residual
+            residual = math.sqrt(norm) / whole
+            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+            least = newton_direction(H[now], g, active, 0.0, L, p)
+            settled = residual <= limit and residual >= 0.5 * before
+            if residual <= RESIDUAL_AIM or settled or stuck:
+                noise = FAINT * max(residual, RESIDUAL_AIM) * whole
+                if faintest < noise:
+                    least = without_faint(
+                        q, F, noise, c, s, d, active, ca, sa, A0, rL, K, G[1 - now], H[1 - now]
+                    )
+                    if not least > NO_PIVOT:
+                        now = 1 - now
+                if least < DOUBTFUL_PIVOT:
+                    least = least_pivot(H[now], active)
+                status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
+                return now, status, residual, iteration, evaluations
+            if not least > LEAST_PIVOT:
+                # too few balls touch: a small spring to ground stands in for the missing stiffness
+                newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
+                shift_part = max(0.1 * shift_part, 1e-10)
+            slope = 0.0
+            for i in active:
+                slope += g[i] * p[i]
         step = 1.0
         short = 0.0
         long = math.inf
         found = False
         for _ in range(60):
             for i in active:
-                trial[i] = q[i] + step * p[i]
+                trial[i] = q[i] + step * p[i] if iteration >= 0 else q[i]
             V1, scale1, faintest1 = energy_gradient_hessian(
                 trial, F, c, s, d, ca, sa, A0, rL, K, G[1 - now], H[1 - now]
             )
             evaluations += 1
+            if iteration < 0:
+                found = True
+                break
             slope1 = 0.0
             for i in active:
                 slope1 += G[1 - now, i] * p[i]
@@ -552,50 +572,62 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
         scale = scale1
         faintest = faintest1
         now = 1 - now
+        if iteration < 0:
+            if size == 0.0:
+                # only a clearance so large that the ring, held axially, is wedged presses balls
+                for i in range(5):
+                    size += (G[now, i] + F[i]) ** 2
+                size = math.sqrt(size)
+                if size == 0.0 or axial:
+                    return now, NOTHING_TOUCHES, math.nan, 0, 1
+                nothing = max(RESIDUAL_AIM * size, K * (ROUNDING * (A0 + rL)) ** 1.5)
+            k_typical = 1.5 * (K * K * size) ** (1.0 / 3.0)  # of one ball under all of the load
     return now, NOT_CONVERGED, residual, most, evaluations
 
 
 @compiled
-def descend_with_soft_balls(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial):
-    """Move q to the minimum of V where `descend` has not come to its end.
+def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial):
+    """Move q to the minimum of V over the active directions.
+
+    G (2, 5) and H (2, 5, 5) are work space. Returns (which, status, residual, iterations,
+    evaluations): G[which] and H[which] belong to the final q.
 
     A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
-    as wide as a compression; Newton's straight steps in it are short. It is reached with soft balls
-    first, whose valley is wide, and from there with harder ones: how far their answers lie apart is
-    about what the softer balls are compressed. Arguments and what is returned are those of
-    `minimise_energy`.
+    as wide as a compression; Newton's straight steps in it are short. Where they do not come to
+    their end it is reached with soft balls first, whose valley is wide, and from there with harder
+    ones: how far their answers lie apart is about what the softer balls are compressed.
     """
+    now, status, residual, iterations, evaluations = descend(
+        q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, False
+    )
+    if status != NOT_CONVERGED:
+        return now, status, residual, iterations, evaluations
     size = 0.0
     for i in active:
         size += F[i] * F[i]
     size = math.sqrt(size)
-    iterations = 0
-    evaluations = 0
-    if size == 0.0:
-        # a wedged ring without a load: nothing tells how soft to begin
-        return descend(
-            q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, MOST_PATIENT_ITERATIONS
-        )
     soft = A0  # compression of one ball under all of the load, for the softness now
     hard = (size / K) ** (2.0 / 3.0)
     start = np.zeros(5)
     for i in active:
-        start[i] = (rL / ca + soft) * F[i] / size
+        # of a wedged ring without a load nothing tells how soft to begin
+        start[i] = (rL / ca + soft) * F[i] / size if size > 0.0 else q[i]
     ratio = 1.0
     for _ in range(40):
         target = max(soft * ratio, hard)
-        Ks = K if target == hard else size / (target * math.sqrt(target))
+        Ks = K if target == hard or size == 0.0 else size / (target * math.sqrt(target))
         for i in active:
             q[i] = start[i]
-        now, status, residual, more, evals = descend(
-            q, F, c, s, d, active, ca, sa, A0, rL, Ks, G, H, L, p, trial,
-            MOST_PATIENT_ITERATIONS,
+        now, status, residual, more, calls = descend(
+            q, F, c, s, d, active, ca, sa, A0, rL, Ks, G, H, L, p, trial, True
         )
         iterations += more
-        evaluations += evals
+        evaluations += calls
+        if size == 0.0:
+            break
         if status != NOT_CONVERGED:
             if Ks == K:
-                return now, status, residual, iterations, evaluations
+                break
             for i in active:
                 start[i] = q[i]
             soft = target
@@ -604,25 +636,8 @@ def descend_with_soft_balls(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p
             break
         else:
             ratio = math.sqrt(ratio)
-    return now, NOT_CONVERGED, residual, iterations, evaluations
-
-
-@inlined
-def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial):
-    """Move q to the minimum of V over the active directions.
-
-    G (2, 5) and H (2, 5, 5) are work space. Returns (which, status, residual, iterations,
-    evaluations): G[which] and H[which] belong to the final q.
-    """
-    now, status, residual, iterations, evaluations = descend(
-        q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, MOST_ITERATIONS
-    )
-    if status == NOT_CONVERGED:
-        now, status, residual, more, calls = descend_with_soft_balls(
-            q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial
-        )
-        iterations += more
-        evaluations += calls
+    else:
+        status = NOT_CONVERGED
     return now, status, residual, iterations, evaluations
 
 
@@ -663,8 +678,7 @@ def static_states(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0, rL,
     c = np.empty(n_balls)
     s = np.empty(n_balls)
     d = np.zeros(n_balls)
-    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
-    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     G = np.zeros((2, 5))
     H = np.zeros((2, 5, 5))
     L = np.zeros((5, 5))
@@ -786,7 +800,8 @@ def static_maps(
             )
             solved += 1
             evaluations += calls
-            q[k] = state
+            for i in range(5):
+                q[k, i] = state[i]
             gone = status[e, k] >= NOT_CARRIED
             count = 0
             most = 0.0
@@ -813,7 +828,7 @@ def static_maps(
 @compiled
 def contact_angles(cage_angles, rows, tables, q, n_balls, ca, sa, A0, rL):
     """Loaded contact angle α_j (n, n_balls) [rad] (Eq. 14) at states q; NaN at gaps."""
-    angles = np.full((cage_angles.size, n_balls), math.nan)
+    angles = np.empty((cage_angles.size, n_balls))
     for k in range(cage_angles.size):
         for j in range(n_balls):
             phi = cage_angles[k] + 2.0 * math.pi / n_balls * j
@@ -823,6 +838,7 @@ def contact_angles(cage_angles, rows, tables, q, n_balls, ca, sa, A0, rL):
             r = q[k, 0] * c + q[k, 1] * s - rL
             z = q[k, 2] + q[k, 3] * s - q[k, 4] * c
             delta, eu, ew, _ = compression(r * ca + z * sa - d, z * ca - r * sa, A0)
+            angles[k, j] = math.nan
             if delta > 0.0:
                 angles[k, j] = math.atan2(eu * sa + ew * ca, eu * ca - ew * sa)
     return angles
@@ -1014,8 +1030,7 @@ def march_flat(
     y (8,): x, w of the inner, x, w of the outer ring, moved to the end; history (n_steps + 1, 6, 2)
     holds velocities v, not w. Returns the number of steps after which all was still finite.
     """
-    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
-    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -1129,8 +1144,7 @@ def march(
     step. Returns the number of steps after which all was still finite.
     """
     n = active.size
-    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
-    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -1233,8 +1247,7 @@ def elastic_ball_loads(x, active, start_angle, turn, rows, tables, n_balls, ca, 
     The cage stands at start_angle + k·turn at row k.
     """
     n = x.shape[0]
-    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
-    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -1423,8 +1436,7 @@ def march_with_tangent(
 ):
     """`march`, and beside it the tangent Y (4 n, 4 n): how the end changes with the beginning."""
     n = active.size
-    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
-    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -1588,8 +1600,7 @@ def march_flat_with_tangent(
 
     In smooth variables nothing jumps as balls touch, so the tangent needs no corrections there.
     """
-    ball_c = np.cos(2.0 * math.pi / n_balls * np.arange(n_balls))
-    ball_s = np.sin(2.0 * math.pi / n_balls * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -1726,9 +1737,7 @@ def march_smooth(
     `march`; numbers and bodies: as below, where other ways to march begin.
     """
     n = active.size
-    step_angle = 2.0 * math.pi / n_balls
-    ball_c = np.cos(step_angle * np.arange(n_balls))
-    ball_s = np.sin(step_angle * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -1821,9 +1830,7 @@ def march_smooth(
 def motion_rate(t, y, start_angle, n_balls, numbers, bodies, active, rows, tables):
     """dy/dt (4 n,) at the time t [s] and state y: what general-purpose integrators ask for."""
     n = active.size
-    step = 2.0 * math.pi / n_balls
-    ball_c = np.cos(step * np.arange(n_balls))
-    ball_s = np.sin(step * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     c = np.empty((1, n_balls))
     s = np.empty((1, n_balls))
     d = np.zeros((1, n_balls))
@@ -1908,9 +1915,7 @@ def march_adaptive(
     between steps. Returns (samples filled, steps, refused steps, right-hand-side calls).
     """
     n = active.size
-    ball = 2.0 * math.pi / n_balls
-    ball_c = np.cos(ball * np.arange(n_balls))
-    ball_s = np.sin(ball * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     c = np.empty((1, n_balls))
     s = np.empty((1, n_balls))
     d = np.zeros((1, n_balls))
@@ -1997,9 +2002,7 @@ def march_verlet(
     foretells. history and what is returned: as `march`.
     """
     n = active.size
-    ball = 2.0 * math.pi / n_balls
-    ball_c = np.cos(ball * np.arange(n_balls))
-    ball_s = np.sin(ball * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
     c = np.empty(shape)
     s = np.empty(shape)
@@ -2058,9 +2061,7 @@ def march_generalised_alpha(
     """
     n = active.size
     m = 2 * n
-    ball = 2.0 * math.pi / n_balls
-    ball_c = np.cos(ball * np.arange(n_balls))
-    ball_s = np.sin(ball * np.arange(n_balls))
+    ball_c, ball_s = ball_circle(n_balls)
     c = np.empty((1, n_balls))
     s = np.empty((1, n_balls))
     d = np.zeros((1, n_balls))

@@ -63,10 +63,13 @@ class Excerpt:
     broke_off: str
 
 
-def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
-    """A late stretch of `n_passes` ball passes, beginning a quarter pass before an entry."""
+def excerpt(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
+    """A stretch of `n_passes` ball passes, beginning a quarter pass before an entry.
+
+    `since` [s] is when the motion has settled: the stretch lies after it.
+    """
     time, cage = motion.time, motion.cage_angle
-    start, length, zero = _stretch(scene, motion, n_passes)
+    start, length, zero = _stretch(scene, motion, since, n_passes)
     first = int(np.searchsorted(time, start))
     last = max(int(np.searchsorted(time, start + length, side="right")), first + 2)
     cut = slice(first, last)
@@ -95,26 +98,27 @@ def excerpt(scene: Scene, motion: Motion, n_passes: float = 1.5) -> Excerpt:
     )
 
 
-def _stretch(scene: Scene, motion: Motion, n_passes: float) -> tuple[float, float, float]:
-    """Start, length and zero of the stretch [s]: within the last half of the motion."""
+def _stretch(
+    scene: Scene, motion: Motion, since: float, n_passes: float
+) -> tuple[float, float, float]:
+    """Start, length and zero of the stretch [s], after `since`."""
     end = float(motion.time[-1])
-    half = 0.5 * (end - float(motion.time[0]))
+    settled = end - since
     speed = scene.cage_speed
     if speed == 0.0:
-        return end - half, half, end - half
+        return since, settled, since
     defects = scene.defects
     rate = abs(1.0 - defects[0].turn_ratio(scene.bearing)) if defects else 1.0
     one_pass = scene.bearing.ball_spacing / (rate * speed)
-    length = min(n_passes * one_pass, half)
+    length = min(n_passes * one_pass, settled)
     before = 0.25 * min(one_pass, length)
     latest = end - length + before
     entries = [
         found
         for found in crossings(
-            scene, float(motion.cage_angle[-1]) - half * speed, float(motion.cage_angle[-1])
+            scene, float(motion.cage_angle[-1]) - settled * speed, float(motion.cage_angle[-1])
         )
-        if found.enters
-        and end - half + before <= _time_at(scene, motion, found.cage_angle) <= latest
+        if found.enters and since + before <= _time_at(scene, motion, found.cage_angle) <= latest
     ]
     if entries:
         entry = _time_at(scene, motion, _most_telling(scene, entries).cage_angle)
@@ -123,14 +127,17 @@ def _stretch(scene: Scene, motion: Motion, n_passes: float) -> tuple[float, floa
 
 
 def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
-    """The last of the entries at which the ball would carry most without the defect.
+    """Of the entries at which the ball would carry most without the defect, that of the first ball.
 
-    A defect of the inner race meets balls all around, most of them without load.
+    A defect of the inner race meets balls all around, most of them without load. The first ball
+    rather than the last entry: which one is last hangs on how long the motion is, and a drawing
+    should not change its words because the same motion was marched for longer.
     """
     angles = np.array([entry.cage_angle for entry in entries])
     loads = np.nan_to_num(equilibrium(scene.sound(), angles).ball_load)
     load = loads[np.arange(len(entries)), [entry.ball for entry in entries]]
-    return entries[int(np.flatnonzero(load >= load.max() * (1.0 - 1e-6))[-1])]
+    most = np.flatnonzero(load >= load.max() * (1.0 - 1e-6))
+    return min((entries[int(i)] for i in most), key=lambda entry: (entry.ball, -entry.cage_angle))
 
 
 def _time_at(scene: Scene, motion: Motion, cage_angle: float) -> float:

@@ -7,7 +7,7 @@ import dataclasses
 import logging
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,15 +17,18 @@ from app.assets import asset_text
 from app.controls import Controls, Rows
 from app.jobs import Jobs
 from app.live import LatestWins, in_thread, one_message, send_at_once
+from app.planning import Rest, with_choices
 from app.quantities import Values
 from app.quantity_list import CAGE_ANGLE
-from app.results import Results, Settings
+from app.results import Results
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
+from app.settings import Settings
 from app.views.accuracy import Accuracy
 from app.views.base import Ranges, Sources, View
 from app.views.control_view import ControlView
 from app.views.job_view import JobView
 from app.views.limits import LimitsStrip, rows_of
+from app.views.plan_choice import PlanChoice
 from app.views.status import StatusLine, Tabs, status_of
 from app.wire import Wire
 from bearingcore import Scene
@@ -48,13 +51,23 @@ class Section:
     title: str
     views: tuple[type[View], ...]
 
+    @property
+    def plans(self) -> tuple[str, ...]:
+        """What is planned for its views when the hand rests."""
+        return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
+
+    @property
+    def moves(self) -> bool:
+        """Whether it shows simulated motion."""
+        return any(view.needs & Results.moving_ones for view in self.views)
+
 
 @dataclass(frozen=True)
 class Inputs:
     """What is to be drawn; `mark` is the number of the newest change it holds.
 
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
-    computed.
+    computed. When the hand has `rested` it is drawn by the plans of what is `planned`.
     """
 
     scene: Scene
@@ -62,6 +75,20 @@ class Inputs:
     mark: int
     focus: int = 0
     settings: Settings = field(default_factory=Settings)
+    rested: bool = False
+    planned: tuple[str, ...] = ()
+
+    @property
+    def results(self) -> Results:
+        """What there is to be known about them."""
+        return Results(
+            self.scene,
+            self.cage_angle,
+            self.settings,
+            self.focus,
+            moving=not self.rested,
+            planned=self.planned,
+        )
 
 
 @dataclass(frozen=True)
@@ -98,12 +125,18 @@ class Explorer:
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
+        self._rest: Rest[Inputs, tuple[str, ...]] = Rest(
+            _planned, self._draw_by_plan, lambda: not self._worker.idle
+        )
+        self._rested: Inputs | None = None
         self.jobs = Jobs(lambda change: one_message(self._doc, change))
 
         self.editor = SceneEditor(preset)
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
-        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        one_line = ["one-line"]
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
+        self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
         self._shown = next(iter(self._sections))
         self.tabs = Tabs(
@@ -138,11 +171,34 @@ class Explorer:
     def stop(self) -> None:
         """The session is over."""
         self._worker.stop()
+        self._rest.end()
         self.jobs.stop()
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
-        self._worker.submit(self.inputs)
+        """Bring what is on screen up to date: at once, and by plan when the hand rests."""
+        inputs, section = self.inputs, self._sections[self._shown]
+        rested = dataclasses.replace(inputs, rested=True, planned=section.plans)
+        self._rest.end()
+        if self._nothing_new(rested):
+            self._worker.submit(rested)
+            return
+        self._worker.submit(inputs)
+        if section.plans or section.moves:
+            self._rest.begin(rested)
+
+    def _nothing_new(self, rested: Inputs) -> bool:
+        """Whether all that these inputs would have planned is planned already."""
+        last = self._rested
+        return (
+            last is not None
+            and (last.scene, last.settings) == (rested.scene, rested.settings)
+            and set(rested.planned) <= set(last.planned)
+        )
+
+    def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
+        """Draw finer or cheaper, by what was planned while the hand rested."""
+        self._rested = dataclasses.replace(inputs, planned=planned)
+        self._worker.submit(self._rested)
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -208,6 +264,12 @@ class Explorer:
         self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
         self.draw()
 
+    def _plan_asked(self, message: Any) -> None:
+        """The program's choices overruled by hand, or given back to it."""
+        if isinstance(message, dict):
+            self._settings = with_choices(self._settings, message)
+            self.draw()
+
     def _tell(self, **news: Any) -> None:
         """Tell all panels of controls; each shows what is its own.
 
@@ -257,7 +319,7 @@ class Explorer:
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
-        results = Results(inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus)
+        results = inputs.results
         if self.tabs.active != self._shown:
             await one_message(self._doc, lambda: self._bring(self._shown))
         views = self._views[self._shown]
@@ -291,6 +353,7 @@ class Explorer:
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
             self.status.line = picture.status
+            self.plan.show(results)
             self.limits.rows = picture.limits
 
         await one_message(self._doc, change)
@@ -309,8 +372,27 @@ class Explorer:
 def _picture(results: Results, views: Sequence[View], started: float) -> Picture:
     """Compute what the views need and have them say it. Runs in a worker thread."""
     drawings = [_drawing(results, view) for view in views]
-    status = status_of(results, time.perf_counter() - started)
+    moves = any(view.needs & Results.moving_ones for view in views)
+    status = status_of(results, time.perf_counter() - started, moves)
     return Picture(drawings, status, rows_of(results.limits))
+
+
+def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
+    """Those of `inputs.planned` that could be planned; in a thread. The plans stay known."""
+    results = inputs.results
+    made = []
+    for view in inputs.planned:
+        if overtaken():
+            break
+        try:
+            results.plan_of(view)
+        except ValueError:
+            continue  # the view itself says why there is nothing to plan
+        except Exception:
+            log.exception("planning %s failed", view)
+            continue
+        made.append(view)
+    return tuple(made)
 
 
 def _drawing(results: Results, view: View) -> Drawing:

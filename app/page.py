@@ -59,6 +59,7 @@ def page() -> pn.Template:
     template.add_panel("controls", explorer.controls)
     template.add_panel("main", explorer.main)
     template.add_panel("status", explorer.status)
+    template.add_panel("plan", explorer.plan)
     template.add_panel("limits", explorer.limits)
     template.add_panel("wire", pn.pane.Bokeh(explorer.wire.anchor, margin=0))
     pn.state.onload(explorer.start)

@@ -13,9 +13,8 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from concurrent.futures import Future
-from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,17 +27,23 @@ from app.dof_comparison import (
     static_differences,
 )
 from app.excerpt import Excerpt, excerpt
+from app.planning import plan_for
 from app.profile import Profile, profile
 from app.quantities import defects_of
+from app.settings import Marching, MotionPlanning, Settings
+from bearingcore.adaptive import simulate_adaptive
 from bearingcore.defect import RACES
 from bearingcore.equilibrium import default_cage_angles
 from bearingcore.modes import highest_natural_frequency
-from bearingcore.motion import default_step_rate
+from bearingcore.motion import default_step_rate, is_flat
 from bearingcore.orbit import common_ball_passes
 from bearingcore.passes import ball_drop
+from bearingcore.plan import CURVES, SETTLED
+from bearingcore.repeated import repeated
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
+    from bearingcore.plan import Plan
 
 Answer = TypeVar("Answer")
 
@@ -79,29 +84,19 @@ class ComputedOnce(Generic[Answer]):
                 future.set_exception(error)
         return future.result()
 
-
-@dataclass(frozen=True)
-class Settings:
-    """How finely a session wants its results.
-
-    `n_cage_angles` to a ball spacing and across maps, `n_extents` of maps; `duration` [s] and
-    `sample_rate` [Hz] of motions, and `step_rate` [Hz] where somebody set the steps by hand.
-    """
-
-    n_cage_angles: int = 121
-    n_extents: int = 91
-    duration: float = 1.4
-    sample_rate: float = 65536.0
-    step_rate: float | None = None
-
-    @property
-    def marching(self) -> tuple[float, float, float | None]:
-        """What of this a motion depends on."""
-        return self.duration, self.sample_rate, self.step_rate
+    def knows(self, *key: Hashable) -> bool:
+        """Whether the answer is there already."""
+        with self._lock:
+            future = self._known.get(key)
+        return future is not None and future.done()
 
 
 def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
     return core.equilibrium(scene, np.linspace(first, last, n_cage_angles))
+
+
+def _over_nodes(scene: Scene, nodes: bytes) -> Equilibrium:
+    return core.equilibrium(scene, np.frombuffer(nodes))
 
 
 def _at(scene: Scene, cage_angle: float) -> Equilibrium:
@@ -110,6 +105,10 @@ def _at(scene: Scene, cage_angle: float) -> Equilibrium:
 
 def _modes(scene: Scene, first: float, last: float, n_cage_angles: int) -> Modes:
     return core.modes(scene, np.linspace(first, last, n_cage_angles))
+
+
+def _modes_over_nodes(scene: Scene, nodes: bytes) -> Modes:
+    return core.modes(scene, np.frombuffer(nodes))
 
 
 def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int) -> Maps:
@@ -123,21 +122,88 @@ SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
 
-def _motion(scene: Scene, duration: float, sample_rate: float, by_hand: float | None) -> Motion:
-    rate = step_rates(scene, sample_rate) if by_hand is None else by_hand
-    if rate is not None and duration * rate > MOST_STEPS:
-        if SHORTEST * rate > MOST_STEPS:
-            why = "the defect is passed so fast that" if by_hand is None else "set by hand,"
-            raise ValueError(
-                f"{why} a motion takes {rate:.2g} steps a second; "
-                f"allowed here: {MOST_STEPS / SHORTEST:.2g}"
-            )
-        duration = MOST_STEPS / rate
-    return core.simulate(scene, duration, sample_rate, step_rate=rate)
+class Moved(NamedTuple):
+    """A motion, and since when [s] it counts as settled."""
+
+    motion: Motion
+    since: float
 
 
-def _excerpt(scene: Scene, *marching: float | None) -> Excerpt:
-    return excerpt(scene, motions(scene, *marching))
+How = Marching | MotionPlanning
+"""How a motion comes about: marched from rest, or as a plan has it."""
+
+
+def _motion(scene: Scene, how: How) -> Moved:
+    return _marched(scene, how) if isinstance(how, Marching) else _planned(scene, how)
+
+
+def _marched(scene: Scene, how: Marching) -> Moved:
+    by_hand = how.step_rate
+    rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
+    if by_hand is None and how.coarse:
+        # as if the highest natural frequency were half as high: half as many steps to its period
+        rate = default_step_rate(scene, how.sample_rate, 0.5 * highest_natural_frequency(scene))
+    duration = how.duration
+    if rate is not None:
+        duration = _affordable(duration, rate, by_hand is not None)
+    motion = core.simulate(scene, duration, how.sample_rate, step_rate=rate)
+    return Moved(motion, 0.5 * duration)
+
+
+def _affordable(duration: float, rate: float, by_hand: bool) -> float:
+    """`duration` [s], or as much of it as MOST_STEPS steps make."""
+    if duration * rate <= MOST_STEPS:
+        return duration
+    if SHORTEST * rate > MOST_STEPS:
+        why = "set by hand," if by_hand else "the defect is passed so fast that"
+        raise ValueError(
+            f"{why} a motion takes {rate:.2g} steps a second; "
+            f"allowed here: {MOST_STEPS / SHORTEST:.2g}"
+        )
+    return MOST_STEPS / rate
+
+
+def _planned(scene: Scene, how: MotionPlanning) -> Moved:
+    """The motion that a plan chose, settled for as long as the second half of a marched one.
+
+    What is looked at begins a whole number of ball passes before or after where it begins in the
+    motion that was marched while the hand moved: lines of a spectrum beat with each other, and
+    seen at another beat the drawing would change though the motion is the same.
+    """
+    plan = plans(scene, SETTLED, how)
+    record = 0.5 * how.duration
+    drop = 0.0 if plan.orbit is not None else plan.drop
+    a_pass = scene.bearing.ball_spacing / scene.cage_speed
+    if a_pass <= record:
+        since = record + math.ceil((drop - record) / a_pass - 1e-9) * a_pass
+    else:
+        since = max(drop, record)
+    rate = how.sample_rate if math.isnan(plan.step_rate) else plan.step_rate
+    duration = _affordable(since + record, rate, how.step_rate is not None)
+    since = min(since, 0.5 * duration) if duration < since + record else since
+    if plan.orbit is not None:
+        return Moved(repeated(plan.orbit, duration, how.sample_rate), since)
+    if plan.method == "adaptive steps":
+        motion = simulate_adaptive(scene, duration, how.sample_rate, tolerance=plan.tolerance)
+        return Moved(motion, since)
+    return Moved(core.simulate(scene, duration, how.sample_rate, step_rate=rate), since)
+
+
+def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
+    """Whether a motion takes too long to be marched in full while a slider moves."""
+    rate = step_rates(scene, sample_rate) or 0.0
+    touched = duration * rate * scene.bearing.n_balls
+    return touched * (1.0 if is_flat(scene) else GENERAL_COST) > MOST_TOUCHED
+
+
+GENERAL_COST = 4.0
+"""What a contact costs where it is not that of a flat bearing, over what it costs there."""
+MOST_TOUCHED = 2.0e6
+"""Contacts, a step each, of a flat bearing that are marched while a slider moves: about 40 ms."""
+
+
+def _excerpt(scene: Scene, how: How) -> Excerpt:
+    return excerpt(scene, *motions(scene, how))
 
 
 def _step_rate(scene: Scene, sample_rate: float) -> float | None:
@@ -147,30 +213,30 @@ def _step_rate(scene: Scene, sample_rate: float) -> float | None:
     return default_step_rate(scene, sample_rate, highest)
 
 
-def _spectra(
-    scene: Scene, duration: float, sample_rate: float, step_rate: float | None
-) -> dict[str, Spectrum]:
-    motion = motions(scene, duration, sample_rate, step_rate)
-    return {
-        dof: core.spectrum(motion.outer_acceleration[:, index], sample_rate)
-        for index, dof in enumerate(motion.dofs)
-    }
+def _spectra(scene: Scene, how: How) -> dict[str, Spectrum]:
+    return _spectra_of(motions(scene, how).motion, 0)
 
 
-def _late_spectra(
-    scene: Scene, duration: float, sample_rate: float, step_rate: float | None
-) -> dict[str, Spectrum]:
-    motion = motions(scene, duration, sample_rate, step_rate)
-    late = motion.outer_acceleration[motion.time.size // 2 :]
-    if not np.isfinite(late).all():
-        return {}
-    frequency, density = core.spectrum(late, sample_rate)
+def _late_spectra(scene: Scene, how: How) -> dict[str, Spectrum]:
+    motion, since = motions(scene, how)
+    first = math.ceil(since * motion.sample_rate - 1e-6)
+    return _spectra_of(motion, first) if np.isfinite(motion.outer_acceleration).all() else {}
+
+
+def _spectra_of(motion: Motion, first: int) -> dict[str, Spectrum]:
+    frequency, density = core.spectrum(motion.outer_acceleration[first:], motion.sample_rate)
     return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(motion.dofs)}
 
 
+def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
+    return plan_for(scene, view, how)
+
+
 equilibria = ComputedOnce(_over_period, 512)
+planned_equilibria = ComputedOnce(_over_nodes, 128)
 single_equilibria = ComputedOnce(_at, 2048)
 modes = ComputedOnce(_modes, 256)
+planned_modes = ComputedOnce(_modes_over_nodes, 64)
 maps = ComputedOnce(_maps, 16)  # about 2 MB each
 motions = ComputedOnce(_motion, 8)  # about 20 MB each
 step_rates = ComputedOnce(_step_rate, 512)
@@ -178,6 +244,7 @@ excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
 late_spectra = ComputedOnce(_late_spectra, 64)
 orbits = ComputedOnce(core.orbit, 256)
+plans = ComputedOnce(_plan, 128)
 
 
 class Results:
@@ -193,13 +260,16 @@ class Results:
     maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
+    plan: what the scene's curves or motion are drawn by, where they are drawn by a plan
     motion, sound_motion: simulated motion
-    excerpt: the last ball passes of the motion
-    spectra, sound_spectra: {dof: Spectrum} of the housing's acceleration
-    late_spectra: the same of the second half of the motion, when the start is forgotten
+    settled_since: [s] of the motion, when its start is forgotten
+    excerpt: some ball passes of the settled motion
+    spectra: {dof: Spectrum} of the housing's acceleration from rest on
+    late_spectra, sound_late_spectra: the same of the settled motion
     ball_passes: after how many of them the scene is as before; None where it never is
     orbit: the motion that repeats itself; None where it takes too many ball passes to look for
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
+    plans: {view: Plan} of what is to be planned; without those that cannot be
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
@@ -212,13 +282,16 @@ class Results:
             "sound_motion",
             "excerpt",
             "spectra",
-            "sound_spectra",
             "late_spectra",
+            "sound_late_spectra",
             "orbit",
             "orbit_spectra",
             "dof_comparison",
         }
     )
+
+    #: attributes that are made of a simulated motion
+    moving_ones = frozenset({"motion", "excerpt", "spectra", "late_spectra", "dof_comparison"})
 
     def __init__(
         self,
@@ -226,11 +299,17 @@ class Results:
         cage_angle: float = 0.0,
         settings: Settings | None = None,
         focus: int = 0,
+        *,
+        moving: bool = False,
+        planned: tuple[str, ...] = (),
     ) -> None:
+        """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`."""
         self.scene = scene
         self.cage_angle = cage_angle
         self.settings = settings or Settings()
         self.focus = focus
+        self.moving = moving
+        self.planned = planned
 
     @property
     def over_shaft(self) -> bool:
@@ -244,7 +323,8 @@ class Results:
         A ball spacing, after which all is as before. With a defect of the inner race nothing
         repeats so soon: then the turn of the shaft that the cage angle shown lies in.
         """
-        angles = default_cage_angles(self.scene, self.settings.n_cage_angles)
+        by_hand = self.settings.cage_angles
+        angles = default_cage_angles(self.scene, by_hand or self.settings.n_cage_angles)
         length = float(angles[-1])
         turn = math.floor(self.cage_angle / length + 1e-9) if self.over_shaft else 0
         return turn * length, (turn + 1) * length, angles.size
@@ -262,14 +342,62 @@ class Results:
         return np.degrees(inside)
 
     @cached_property
+    def plans(self) -> dict[str, Plan]:
+        """Plans of the views in `planned`, made when first asked for."""
+        return {view: self.plan_of(view) for view in self.planned}
+
+    def plan_of(self, view: str) -> Plan:
+        """The plan for a view; what is drawn beside it is planned too. ValueError without one."""
+        if view in CURVES and self.scene.defects:
+            plans(self.scene.sound(), view, self.settings.planning(view))
+        return plans(self.scene, view, self.settings.planning(view))
+
+    @cached_property
+    def plan(self) -> Plan | None:
+        """The plan that is drawn by; None where there is none, or a hand has overruled it.
+
+        Planned cage angles are those of a first turn: in later ones, balls meet a defect of the
+        inner race elsewhere.
+        """
+        if len(self.planned) != 1:
+            return None
+        (view,) = self.planned
+        over_angles = view in CURVES
+        if over_angles and (self.settings.cage_angles is not None or self.stretch[0] != 0.0):
+            return None
+        return self.plans[view]
+
+    def _nodes(self, sound: bool) -> bytes | None:
+        """Cage angles that a plan has chosen, those of the sound bearing by a plan of its own."""
+        if self.plan is None or self.plan.cage_angles is None:
+            return None
+        plan = self.plan
+        if sound and self.scene.defects:
+            view = plan.view
+            plan = plans(self.scene.sound(), view, self.settings.planning(view))
+        angles = plan.cage_angles
+        assert angles is not None
+        # without a defect of the inner race curves are shorter
+        last = self.stretch[1]
+        if abs(float(angles[-1]) - last) > 1e-9 * last:
+            return None
+        return angles.tobytes()
+
+    def _static(self, scene: Scene, sound: bool = False) -> Equilibrium:
+        nodes = self._nodes(sound)
+        if nodes is None:
+            return equilibria(scene, *self.stretch)
+        return planned_equilibria(scene, nodes)
+
+    @cached_property
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
-        return equilibria(self.scene, *self.stretch)
+        return self._static(self.scene)
 
     @cached_property
     def sound_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
-        return equilibria(self.scene.sound(), *self.stretch)
+        return self._static(self.scene.sound(), sound=True)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -284,12 +412,18 @@ class Results:
     @cached_property
     def modes(self) -> Modes:
         """Natural frequencies over the same cage angles."""
-        return modes(self.scene, *self.stretch)
+        return self._modes(self.scene)
 
     @cached_property
     def sound_modes(self) -> Modes:
         """The same without the defect."""
-        return modes(self.scene.sound(), *self.stretch)
+        return self._modes(self.scene.sound(), sound=True)
+
+    def _modes(self, scene: Scene, sound: bool = False) -> Modes:
+        nodes = self._nodes(sound)
+        if nodes is None:
+            return modes(scene, *self.stretch)
+        return planned_modes(scene, nodes)
 
     @property
     def extent(self) -> float:
@@ -323,30 +457,63 @@ class Results:
         """The race around the defect and the path of a ball's centre over it."""
         return profile(self.scene, self.cage_angle, self.focus)
 
+    @property
+    def coarse(self) -> bool:
+        """Whether motions are marched coarsely, as a slider moves and they take long."""
+        settings = self.settings
+        return (
+            self.moving
+            and settings.step_rate is None
+            and is_dear(self.scene, settings.sample_rate, settings.duration)
+        )
+
+    @cached_property
+    def _marching(self) -> Marching:
+        return self.settings.coarse_marching if self.coarse else self.settings.marching
+
+    @cached_property
+    def _how(self) -> How:
+        """How the scene's motion comes about."""
+        if self.plan is None or self.plan.cage_angles is not None:
+            return self._marching
+        how = self.settings.planning(self.plan.view)
+        assert isinstance(how, MotionPlanning)
+        return how
+
     @cached_property
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
-        return motions(self.scene, *self.settings.marching)
+        return motions(self.scene, self._how).motion
+
+    @property
+    def settled_since(self) -> float:
+        """When [s] of the motion its start is forgotten."""
+        return motions(self.scene, self._how).since
 
     @cached_property
     def sound_motion(self) -> Motion:
-        """The same without the defect."""
-        return motions(self.scene.sound(), *self.settings.marching)
+        """The same without the defect, always marched."""
+        return motions(self.scene.sound(), self._marching).motion
 
     @cached_property
     def excerpt(self) -> Excerpt:
-        """The last ball passes of the motion, with static loads beside the moving ones."""
-        return excerpts(self.scene, *self.settings.marching)
+        """Some ball passes of the settled motion, with static loads beside the moving ones."""
+        return excerpts(self.scene, self._how)
 
     @cached_property
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
-        return spectra(self.scene, *self.settings.marching)
+        return spectra(self.scene, self._marching)
 
     @cached_property
     def late_spectra(self) -> dict[str, Spectrum]:
-        """The same of the second half of the motion; empty where it did not stay finite."""
-        return late_spectra(self.scene, *self.settings.marching)
+        """The same of the settled motion; empty where it did not stay finite."""
+        return late_spectra(self.scene, self._how)
+
+    @cached_property
+    def sound_late_spectra(self) -> dict[str, Spectrum]:
+        """The same without the defect, always marched."""
+        return late_spectra(self.scene.sound(), self._marching)
 
     @property
     def ball_passes(self) -> int | None:
@@ -370,11 +537,6 @@ class Results:
         }
 
     @cached_property
-    def sound_spectra(self) -> dict[str, Spectrum]:
-        """The same without the defect."""
-        return spectra(self.scene.sound(), *self.settings.marching)
-
-    @cached_property
     def contact_damping(self) -> float:
         """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
         return core.contact_damping(self.scene)
@@ -396,7 +558,9 @@ class Results:
         chosen, other = self.scene.active_dofs, other_dofs(self.scene)
         if chosen == other:
             return DofComparison(chosen, other, {}, {})
-        against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
+        against = Results(
+            self.scene.replace(dofs=other), self.cage_angle, self.settings, moving=self.moving
+        )
         static = static_differences(self.equilibrium, against.equilibrium)
         try:
             moving = spectrum_differences(self.spectra, against.spectra)

@@ -11,6 +11,7 @@ export function render({ model }) {
     line.dataset.mood = mood
     if (chip.textContent !== words) chip.textContent = words
     rest.textContent = details.join("  ·  ")
+    rest.title = rest.textContent  // where the line is cut short
   }
   model.on("line", write)
   write()

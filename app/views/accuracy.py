@@ -24,12 +24,13 @@ from bokeh.plotting import figure
 
 from app.accuracy import TRIALS, Found, compute
 from app.jobs import Work
+from app.planning import steps_by_hand
 from app.results import Settings
 from app.scene_editor import SceneEditor
 from app.views import figures
 from app.views.base import Ranges, Sources
 from app.views.job_view import JobView
-from app.views.status import scientific, steps_by_hand
+from app.views.status import scientific
 from app.views.step_choice import StepChoice
 from app.wire import Wire
 from bearingcore.precision import Experiment, Point, StabilityChart

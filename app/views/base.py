@@ -64,6 +64,8 @@ class View:
     title: ClassVar[str]
     about: ClassVar[str] = ""
     needs: ClassVar[frozenset[str]]
+    #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
+    plans: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, wire: Wire) -> None:
         self._results: Results | None = None

@@ -29,6 +29,7 @@ class LoadDistribution(View):
         "the inner race the most in a turn of the shaft. Shaded: the defect. Dots: balls now."
     )
     needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+    plans = ("load",)
 
     def build(self, wire: Wire) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)

@@ -47,6 +47,7 @@ class NaturalFrequencies(View):
         "Black: now."
     )
     needs = frozenset({"modes", "sound_modes"})
+    plans = ("modes",)
 
     def build(self, wire: Wire) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0)

@@ -22,7 +22,7 @@ from app.views.vibration_spectrum import (
     LEVEL_FLOOR,
     SHOWN,
     decibels,
-    levels,
+    drawn_levels,
 )
 from app.wire import Wire
 from bearingcore.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
@@ -152,8 +152,8 @@ class SteadyOrbit(View):
             fit.fit(path[dof], marched[dof])
             for fit, dof in zip(self._displacement, SHOWN, strict=True)
         )
-        found = drawn_levels(results.orbit_spectra)
-        late = drawn_levels(results.late_spectra)
+        found = drawn_levels(results.orbit_spectra, HIGHEST)
+        late = drawn_levels(results.late_spectra, HIGHEST)
         in_view = np.concatenate([spectrum[dof] for spectrum in (found, late) for dof in SHOWN])
         loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
         low_high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 3.0)
@@ -271,13 +271,6 @@ def _along(dofs: tuple[str, ...], path: NDArray[np.float64]) -> dict[str, NDArra
     return {
         dof: 1e6 * path[:, dofs.index(dof)] if dof in dofs else np.zeros(len(path)) for dof in SHOWN
     }
-
-
-def drawn_levels(spectra: dict[str, Any]) -> dict[str, NDArray[np.float64]]:
-    """Levels [dB] up to the highest frequency shown; empty without spectra."""
-    if not spectra:
-        return {name: np.zeros(0) for name in ("frequency", *SHOWN)}
-    return levels(spectra, HIGHEST)
 
 
 def level_gap(results: Results) -> float:

@@ -10,13 +10,14 @@ import param
 from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.planning import by_hand, sentence_of
 from app.results import Results
 
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 
 
 class StatusLine(JSComponent):
-    """Converged or not, residual, degrees of freedom, time taken."""
+    """Converged or not, residual, degrees of freedom, time taken, or what was planned."""
 
     #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
     line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
@@ -39,8 +40,11 @@ class Tabs(JSComponent):
         self.on_msg(lambda event: asked(event.data))
 
 
-def status_of(results: Results, seconds: float) -> dict[str, Any]:
-    """What the status line says about these results, computed in `seconds` [s]."""
+def status_of(results: Results, seconds: float, moves: bool = False) -> dict[str, Any]:
+    """What the status line says about these results, computed in `seconds` [s].
+
+    `moves`: whether a motion is among what is shown.
+    """
     found = results.equilibrium
     n_angles = found.converged.size
     bad = np.flatnonzero(~found.converged)
@@ -56,19 +60,18 @@ def status_of(results: Results, seconds: float) -> dict[str, Any]:
     finite = found.residual[found.converged & np.isfinite(found.residual)]
     if finite.size:
         details.append(f"residual at most {scientific(float(finite.max()))}")
+    overruled = by_hand(results.settings)
+    if results.plan is not None:
+        details = [*overruled, *details, sentence_of(results.plan)]
+        return {"mood": mood, "words": words, "details": details}
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
     plural = "" if len(found.dofs) == 1 else "s"
     details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")
     details.append(f"{n_angles} cage angles")
-    if results.settings.step_rate is not None:
-        details.append(steps_by_hand(results.settings.step_rate))
-    details.append(f"{1e3 * seconds:.1f} ms")
+    if results.coarse and moves:
+        details.append("coarse while it moves: half the motion in half the steps")
+    details = [*overruled, *details, f"{1e3 * seconds:.1f} ms"]
     return {"mood": mood, "words": words, "details": details}
-
-
-def steps_by_hand(step_rate: float) -> str:
-    """That the steps [Hz] of motions are not the program's own choice."""
-    return f"steps set by hand: {step_rate:.0f} Hz"
 
 
 def scientific(value: float) -> str:

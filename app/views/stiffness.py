@@ -76,6 +76,7 @@ class Stiffness(View):
         "how hard the inner ring resists each displacement (column) with each load (row)."
     )
     needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+    plans = ("stiffness",)
 
     def build(self, wire: Wire) -> Any:
         """One canvas for all traces."""
@@ -114,17 +115,19 @@ class Stiffness(View):
         """All traces, scaled into their cells."""
         found, sound, now = results.equilibrium, results.sound_equilibrium, results.now
         first, last, _ = results.stretch
-        share = (found.cage_angles - first) / (last - first)
+        shares = [(e.cage_angles - first) / (last - first) for e in (found, sound)]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
         scales = term_sizes(lambda term: np.concatenate([found.term(term), sound.term(term)]))
-        lines: dict[str, list[np.ndarray]] = {"x": [], "defective": [], "sound": []}
+        lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
         heads: list[tuple[float, float, float, float]] = []
 
-        def put(cell: Cell, limits: tuple[float, float], x: np.ndarray, *y: np.ndarray) -> None:
-            lines["x"] += [cell.x(x), _GAP]
-            for key, values in zip(("defective", "sound"), y, strict=True):
-                lines[key] += [cell.y(values, limits), _GAP]
+        def put(
+            cell: Cell, limits: tuple[float, float], xs: list[np.ndarray], *ys: np.ndarray
+        ) -> None:
+            for line, x, y in zip(lines, xs, ys, strict=True):
+                line["x"] += [cell.x(x), _GAP]
+                line["y"] += [cell.y(y, limits), _GAP]
 
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
@@ -132,7 +135,7 @@ class Stiffness(View):
             a, b = _cleaned(found.term(term), scale), _cleaned(sound.term(term), scale)
             at_now = float(_cleaned(now.term(term), scale)[0])
             limits = _trace_limits(sticky, scale, a, b)
-            put(cell, limits, share, a, b)
+            put(cell, limits, shares, a, b)
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
@@ -141,18 +144,24 @@ class Stiffness(View):
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, sound)]
         low, high = self._ball_limits.fit(*counts)
         limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
-        steps = _stepped(share)
-        put(_BALLS, limits, steps, *(np.repeat(count, 2) for count in counts))
+        put(
+            _BALLS,
+            limits,
+            [_stepped(share) for share in shares],
+            *(np.repeat(count, 2) for count in counts),
+        )
         balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
         at = float(_BALLS.y(np.array(balls), limits))
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
         heads.append((limits[0], limits[1], balls, _BALLS.bottom))
 
-        x = np.concatenate(lines["x"])
+        drawn, beside = (
+            {axis: np.concatenate(parts) for axis, parts in line.items()} for line in lines
+        )
         mark, head = np.array(marks).T, np.array(heads).T
         return {
-            "stiffness_defective": {"x": x, "y": np.concatenate(lines["defective"])},
-            "stiffness_sound": {"x": x, "y": np.concatenate(lines["sound"])},
+            "stiffness_defective": drawn,
+            "stiffness_sound": beside,
             "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
@@ -187,10 +196,11 @@ class Stiffness(View):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and sound."""
         found, sound = results.equilibrium, results.sound_equilibrium
-        columns = {"cage_angle_deg": np.degrees(found.cage_angles)}
-        if results.over_shaft:
-            columns["shaft_angle_deg"] = results.along(found.cage_angles)
+        columns: dict[str, np.ndarray] = {}
         for kind, answer in (("defective", found), ("sound", sound)):
+            columns[f"{kind}_cage_angle_deg"] = np.degrees(answer.cage_angles)
+            if results.over_shaft:
+                columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
             for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
                 columns[f"{kind}_{term}_{unit_name(unit)}"] = answer.term(term)
             columns[f"{kind}_loaded_balls"] = answer.loaded_balls

@@ -15,6 +15,7 @@ from app.views.base import Ranges, Sources, View
 from app.views.modes import BAND_WORDS, band_rows, spread
 from app.views.sticky_range import StickyRange
 from app.wire import Wire
+from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from app.results import Results
@@ -36,10 +37,12 @@ class VibrationSpectra(View):
     name = "vibration-spectrum"
     title = "Spectrum of the vibration"
     about = (
-        "Power spectral density of the housing's acceleration along x and y, 32 Hz resolution. "
-        "Grey: without the defect. Shaded: the bands of the natural frequencies."
+        "Power spectral density of the housing's acceleration along x and y once the start is "
+        "forgotten, 32 Hz resolution. Grey: without the defect. Shaded: the bands of the natural "
+        "frequencies."
     )
-    needs = frozenset({"spectra", "sound_spectra", "modes"})
+    needs = frozenset({"motion", "late_spectra", "sound_late_spectra", "modes"})
+    plans = (SETTLED,)
 
     def build(self, wire: Wire) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
@@ -127,7 +130,7 @@ class VibrationSpectra(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         bands = band_rows(results.modes)
         top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
-        drawn = levels(results.spectra, top)
+        drawn = drawn_levels(results.late_spectra, top)
         in_view = np.concatenate([drawn[dof] for dof in SHOWN])
         # a level far below everything is silence, not something to make room for
         loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
@@ -139,7 +142,7 @@ class VibrationSpectra(View):
         }
         sources: Sources = {
             "spectrum_lines": drawn,
-            "spectrum_sound": levels(results.sound_spectra, top),
+            "spectrum_sound": drawn_levels(results.sound_late_spectra, top),
             "spectrum_passes": passing,
             "spectrum_first_pass": first,
         }
@@ -153,11 +156,11 @@ class VibrationSpectra(View):
 
     def sentence(self, results: Results) -> str:
         words = []
+        if not results.late_spectra:
+            return "The simulated motion did not stay finite: there is no spectrum of it."
         for dof in SHOWN:
-            if dof in results.spectra:
-                frequency, density = results.spectra[dof]
-                if not np.isfinite(density).all():
-                    return "The simulated motion did not stay finite: there is no spectrum of it."
+            if dof in results.late_spectra:
+                frequency, density = results.late_spectra[dof]
                 heard = (frequency >= 100.0) & (frequency <= HIGHEST)
                 most = np.flatnonzero(heard)[np.argmax(density[heard])]
                 words.append(
@@ -175,13 +178,21 @@ class VibrationSpectra(View):
                 for race, frequency in passed(results.scene)
             ]
         )
-        return f"{text}; balls pass a point {passing}."
+        text += f"; balls pass a point {passing}"
+        if (plan := results.plan) is None:
+            return f"{text}."
+        if plan.orbit is not None:
+            return f"{text}. The spectrum is that of the stable orbit, which repeats itself."
+        start = figures.with_prefix(results.settled_since, "s")
+        return f"{text}. The spectrum is that of a marched motion without its first {start}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        for who, spectra in (("", results.spectra), ("sound_", results.sound_spectra)):
+        spectra_of = {"": results.late_spectra, "sound_": results.sound_late_spectra}
+        for who, spectra in spectra_of.items():
             for dof, (frequency, density) in spectra.items():
-                table.setdefault("frequency_hz", frequency)
+                # samples of an orbit fit its period: a hair's breadth off those of a march
+                table.setdefault(f"{who}frequency_hz", frequency)
                 unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"
                 table[f"{who}density_{dof}_{unit}"] = density
         return table
@@ -204,6 +215,13 @@ def levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]
             for dof in SHOWN
         },
     }
+
+
+def drawn_levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]]:
+    """The same; empty without spectra."""
+    if not spectra:
+        return {name: np.zeros(0) for name in ("frequency", *SHOWN)}
+    return levels(spectra, top)
 
 
 def passed(scene: Scene) -> list[tuple[str, float]]:

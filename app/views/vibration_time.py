@@ -14,6 +14,7 @@ from app.views import figures
 from app.views.base import Ranges, Sources, View
 from app.views.sticky_range import StickyRange
 from app.wire import Wire
+from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from app.results import Results
@@ -42,6 +43,7 @@ class VibrationInTime(View):
         "or leave the defect; thin: what they would carry at rest."
     )
     needs = frozenset({"excerpt"})
+    plans = (SETTLED,)
 
     def build(self, wire: Wire) -> Any:
         self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)

@@ -1,0 +1,60 @@
+"""What the program has planned for the views on screen, and a way to overrule it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import param
+from panel.custom import JSComponent
+
+from app.assets import asset_path, asset_text
+from app.planning import CHOICES, by_hand, chosen, sentence_of
+from bearingcore.plan import SETTLED
+
+if TYPE_CHECKING:
+    from app.results import Results
+
+TITLES = {
+    "load": "Loads of the balls",
+    "stiffness": "Stiffness",
+    "modes": "Natural frequencies",
+    SETTLED: "Settled vibration",
+}
+"""What plans are for, as the page calls it."""
+
+
+class PlanChoice(JSComponent):
+    """A button beside the status line, and what opens above it: plans, and choices by hand.
+
+    `asked` gets {name: value} of CHOICES, or {"own": true} for the program's own choices, of the
+    browser, from strangers too: judge them.
+    """
+
+    spec = param.Dict(default={})
+    #: {"plans": [[title, sentence]], "resting": bool, "chosen": {name: value}, "by_hand": [words]}
+    state = param.Dict(default={"plans": [], "resting": False, "chosen": {}, "by_hand": []})
+
+    _esm = asset_path("plan_choice.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("plan_choice.css")]
+
+    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+        spec = {
+            "choices": [
+                {"name": name, "label": label, "options": list(options.items())}
+                for name, (label, options) in CHOICES.items()
+            ]
+        }
+        super().__init__(spec=spec, margin=0, **params)
+        self.on_msg(lambda event: asked(event.data))
+
+    def show(self, results: Results) -> None:
+        """What these results are drawn by. On the event loop only."""
+        state = {
+            "plans": [[TITLES[view], sentence_of(made)] for view, made in results.plans.items()],
+            "resting": not results.moving,
+            "chosen": chosen(results.settings),
+            "by_hand": by_hand(results.settings),
+        }
+        if state != self.state:
+            self.state = state

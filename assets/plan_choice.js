@@ -1,0 +1,62 @@
+// The plan: a button beside the status line; above it what was planned, and choices by hand.
+export function render({ model }) {
+  const make = (tag, attributes = {}, ...children) => {
+    const made = document.createElement(tag)
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+    made.append(...children)
+    return made
+  }
+  const back = make("button", {
+    type: "button", class: "own", title: "Back to the program's own choices",
+  }, "Automatic again")
+  const more = make("button", {
+    type: "button", class: "more", "aria-expanded": "false", "aria-controls": "plan-list",
+  }, "Plan")
+  const plans = make("div", { class: "plans" })
+  const selects = {}
+  const fields = model.spec.choices.map(({ name, label, options }) => {
+    const select = selects[name] = make("select", { id: `plan-${name}` },
+      ...options.map(([value, words]) => make("option", { value }, words)))
+    select.addEventListener("change", () => model.send_msg({ [name]: select.value }))
+    return make("div", { class: "field" }, make("label", { for: select.id }, label), select)
+  })
+  const about = make("p", { class: "about" },
+    "While a slider moves, all is drawn at once with what usually does. When it rests, the program " +
+    "plans what is on screen, with no more than its error allows, and draws it anew.")
+  const list = make("section", { id: "plan-list", class: "list", "aria-label": "Plan" },
+    about, plans, make("div", { class: "fields" }, ...fields))
+  list.hidden = true
+  const box = make("div", { class: "box" }, back, more, list)
+
+  const open = (shown) => {
+    list.hidden = !shown
+    more.setAttribute("aria-expanded", String(shown))
+    more.title = shown ? "Hide the plan" : "Show the plan, and overrule it"
+  }
+  more.addEventListener("click", () => open(list.hidden))
+  back.addEventListener("click", () => {
+    model.send_msg({ own: true })
+    more.focus()
+  })
+  box.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !list.hidden) {
+      open(false)
+      more.focus()
+    }
+  })
+  const write = () => {
+    const { plans: made, resting, chosen, by_hand } = model.state
+    window.__resting = resting
+    back.hidden = by_hand.length === 0
+    more.dataset.overruled = String(by_hand.length > 0)
+    if (made.length || resting) plans.replaceChildren(...made.map(([title, sentence]) =>
+      make("p", {}, make("strong", {}, title), ` ${sentence}.`)))
+    plans.dataset.stale = String(!resting)
+    for (const [name, value] of Object.entries(chosen))
+      if (selects[name].value !== value) selects[name].value = value
+  }
+  model.on("state", write)
+  open(false)
+  write()
+  return box
+}

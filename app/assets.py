@@ -10,10 +10,10 @@ _PLACES = (_HERE / "_assets", _HERE.parent / "assets")  # installed; in a checko
 
 
 def asset_path(name: str) -> Path:
-    """Where the asset called `name` lies."""
+    """Where the asset called `name` lies, a file or a folder."""
     for place in _PLACES:
         path = place / name
-        if path.is_file():
+        if path.exists():
             return path
     raise FileNotFoundError(f"asset {name!r} is in none of {[str(place) for place in _PLACES]}")
 

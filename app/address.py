@@ -38,18 +38,21 @@ import struct
 import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.quantities import (
     DEFECT_FIELDS,
     QUANTITIES,
+    Limits,
     defects_of,
     in_si,
     in_unit,
+    limits_of,
     refusal,
 )
+from app.quantities import read as read_number
 from app.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
 from app.scene_editor import MOST_DEFECTS, SceneEditor
 from bearingcore import (
@@ -356,7 +359,17 @@ def _number(text: str, quantity: Quantity) -> float | None:
     if text == "none" and (quantity.optional or quantity.field in OPTIONAL_FIELDS):
         return None
     value, is_si = _parsed(text, quantity.name)
-    return value if is_si else in_si(quantity, value)
+    if is_si:
+        return value
+    # as it would be typed on the page: out of range it is refused in the words of the page
+    read_number(quantity.name, text, _usual_limits())
+    return in_si(quantity, value)
+
+
+@cache
+def _usual_limits() -> Mapping[str, Limits]:
+    """Limits of what can be typed: the same with every preset."""
+    return limits_of(presets["fan-rig"])
 
 
 def _parsed(text: str, name: str) -> tuple[float, bool]:

@@ -9,13 +9,14 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 import panel as pn
 
 from app.assets import asset_text
 from app.controls import Controls, Rows
 from app.jobs import Jobs
+from app.keeping import Keeping, asked_for, read_asked
 from app.live import LatestWins, in_thread, one_message, send_at_once
 from app.planning import Rest, with_choices
 from app.quantities import Values
@@ -29,11 +30,14 @@ from app.views.control_view import ControlView
 from app.views.job_view import JobView
 from app.views.limits import LimitsStrip, rows_of
 from app.views.plan_choice import PlanChoice
+from app.views.share import ShareBar
 from app.views.status import StatusLine, Tabs, status_of
 from app.wire import Wire
 from bearingcore import Scene
 
 log = logging.getLogger(__name__)
+
+Found = TypeVar("Found")
 
 #: a slow view that cost more than this [s] may be skipped while newer inputs wait ...
 _HEAVY = 0.04
@@ -112,7 +116,10 @@ class Picture:
 class Explorer:
     """A session. `page.py` puts its parts on a page; the browser's messages arrive here."""
 
-    def __init__(self, sections: Sequence[Section], preset: str = "fan-rig") -> None:
+    def __init__(
+        self, sections: Sequence[Section], preset: str = "fan-rig", address: str = ""
+    ) -> None:
+        """`address`: what stands behind the question mark, from strangers too."""
         self.wire = Wire()
         self._sections = {section.name: section for section in sections}
         self._views: dict[str, list[View]] = {}
@@ -132,13 +139,16 @@ class Explorer:
         self.jobs = Jobs(lambda change: one_message(self._doc, change))
 
         self.editor = SceneEditor(preset)
+        self.keeping = Keeping(self.editor, address)
+        self.share = ShareBar(self._share_asked, state=self.keeping.state())
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
         one_line = ["one-line"]
         self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
         self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
-        self._shown = next(iter(self._sections))
+        tab = self.keeping.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.tabs = Tabs(
             self._tab_asked,
             names=[[section.name, section.title] for section in sections],
@@ -222,6 +232,8 @@ class Explorer:
             if isinstance(file := message.get("floor"), dict):
                 self._read(file)
         finally:
+            if self.keeping.follow(message):
+                self._tell_share()
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
@@ -246,18 +258,58 @@ class Explorer:
             return
         text = text[: LARGEST_FILE + 1]
 
-        async def read() -> None:
-            found = await in_thread(read_file, text)
-            await one_message(self._doc, lambda: take(found))
-
         def take(found: Any) -> None:
             self.editor.take_floor(name[:200], *found)
+            self.keeping.step()
             self._tell(state=self.editor.state())
+            self._tell_share()
             self.draw()
 
-        task = asyncio.get_running_loop().create_task(read())
+        self._in_background(lambda: read_file(text), take)
+
+    def _in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
+        """Compute something off the event loop, then take it."""
+
+        async def work() -> None:
+            found = await in_thread(compute)
+            await one_message(self._doc, lambda: take(found))
+
+        task = asyncio.get_running_loop().create_task(work())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+    # The bar above the controls
+
+    def _share_asked(self, message: Any) -> None:
+        if not isinstance(message, dict):
+            return
+        if isinstance(name := message.get("keep"), str):
+            self.share.answer(kept=self.keeping.kept(name))
+        if message.get("want") == "toml":
+            self.share.answer(file=self.keeping.toml())
+        if "mark" not in message:
+            return
+        if self.keeping.go(message):
+            self._tell(state=self.editor.state())
+        if isinstance(name := message.get("pin_here"), str):
+            self.keeping.pin_here(name)
+        if message.get("unpin") is True:
+            self.keeping.unpin()
+        if (asked := asked_for(message)) is not None:
+
+            def take(found: Any) -> None:
+                if self.keeping.take(asked, found):
+                    self._tell(state=self.editor.state())
+                self._tell_share()
+                self.draw()
+
+            self._in_background(lambda: read_asked(asked), take)
+        self._asked(message)  # the mark, and a reset
+
+    def _tell_share(self) -> None:
+        """The bar follows: the address, and what can be undone."""
+        if self.share.state != (state := self.keeping.state()):
+            self.share.state = state
 
     def _take_steps(self, step_rate: float | None) -> None:
         """March motions with steps [Hz] set by hand, or None: with the program's own."""
@@ -284,6 +336,8 @@ class Explorer:
         name = message.get("show") if isinstance(message, dict) else None
         if isinstance(name, str) and name in self._sections:
             self._shown = name
+            self.keeping.show(name)
+            self._tell_share()
             self.draw()
 
     def _bring(self, name: str) -> None:

@@ -34,9 +34,9 @@ class History(Generic[State]):
         return bool(self._future)
 
     @property
-    def moving(self) -> bool:
-        """Whether a step has begun and not ended."""
-        return bool(self._moving)
+    def moving(self) -> str:
+        """What is being moved: a step has begun and not ended."""
+        return self._moving
 
     def moved(self, now: State, what: str) -> None:
         """Go on with the step that moves `what`, or begin it."""

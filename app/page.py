@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from functools import cache
+from urllib.parse import urlencode
 
 import panel as pn
 
@@ -49,14 +50,21 @@ def warm_once() -> None:
     bearingcore.warm(report=log.info)
 
 
+def address() -> str:
+    """What stands behind the question mark in the address of this session's page."""
+    given = pn.state.session_args or {}
+    return urlencode([(name, value) for name, values in given.items() for value in values])
+
+
 def page() -> pn.Template:
     """The page of a new session."""
-    explorer = Explorer(SECTIONS)
+    explorer = Explorer(SECTIONS, address=address())
     template = pn.Template(asset_text("page.html"))
     template.add_variable("style", asset_text("page.css"))
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_panel("tabs", explorer.tabs)
-    template.add_panel("controls", explorer.controls)
+    side = pn.Column(explorer.share, explorer.controls, sizing_mode="stretch_width", margin=0)
+    template.add_panel("controls", side)
     template.add_panel("main", explorer.main)
     template.add_panel("status", explorer.status)
     template.add_panel("plan", explorer.plan)

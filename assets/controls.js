@@ -37,6 +37,7 @@ export function render({ model }) {
     }
     button.addEventListener("click", () => {
       playing = !playing
+      if (!playing) panel.release()
       show()
       last = performance.now()
       if (playing) requestAnimationFrame(turn)
@@ -111,15 +112,13 @@ export function render({ model }) {
     }
   }
 
-  const reset = element("button", { type: "button", class: "reset", title: "Back to the numbers of this bearing" }, "Reset")
-  reset.addEventListener("click", () => send({ reset: true }))
   // What is clicked at in a figure goes the way of typed numbers.
   const typed = (event) => {
-    if (reset.isConnected) send({ typed: event.detail })
+    if (form.isConnected) send({ typed: event.detail })
     else window.removeEventListener("explorer-typed", typed)
   }
   window.addEventListener("explorer-typed", typed)
-  const form = element("form", { "aria-label": "Scene" }, choice("preset", reset))
+  const form = element("form", { "aria-label": "Scene" }, choice("preset"))
   form.addEventListener("submit", (event) => event.preventDefault())
   for (const group of spec.groups) {
     const own = Object.keys(spec.choices).filter((name) => spec.choices[name].group === group.title)

@@ -30,6 +30,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
   let limits = {}, values = {}
   let pending = null, sent_at = 0, waiting = false
+  let released = false, held = false
 
   const drawn = () => window.__mark || 0
   const asked = () => window.__asked || 0
@@ -49,7 +50,19 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     }
     const set = pending
     pending = null
-    send({ set })
+    send(released ? { set, released } : { set })
+    released = false
+  }
+  // The hand lets go: what it did was one step, to be undone as one. A key held down is one too.
+  const release = () => {
+    pending = { ...pending }
+    released = true
+    if (!waiting) pump()
+  }
+  const holds = (event, on) => {
+    if (!/^(Arrow|Page|Home|End)/.test(event.key)) return
+    if (held && !on) release()
+    held = on
   }
   const push = (name, value) => {
     rows[name].asked = asked() + 1
@@ -115,6 +128,12 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     rows[name] = { asked: 0, root, slider, number, refusal, extra, unit, line, about, label, symbol }
 
     slider.addEventListener("input", () => move(name, Number(slider.value)))
+    slider.addEventListener("change", () => { if (!held) release() })
+    for (const input of [slider, number]) {
+      input.addEventListener("keydown", (event) => holds(event, true))
+      input.addEventListener("keyup", (event) => holds(event, false))
+      input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
+    }
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
     number.addEventListener("focus", () => number.select())
     number.addEventListener("keydown", (event) => {
@@ -193,6 +212,6 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     for (const [name, sentence] of Object.entries(message.refused ?? {})) refuse(name, sentence)
   })
 
-  return { rows, selects, values, limits, control, choice, take, listen, send, push, put,
+  return { rows, selects, values, limits, control, choice, take, listen, send, push, put, release,
            drawn: () => asked() <= drawn() || late() }
 }

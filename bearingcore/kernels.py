@@ -66,8 +66,9 @@ CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2
 # it is still taken below the second. The third is the least pivot, relative to the greatest
 # stiffness, with which a Newton step is taken as it is.
 RESIDUAL_AIM, RESIDUAL_LIMIT, LEAST_PIVOT = 1e-12, 1e-9, 1e-12
-# So many Newton steps before another way is taken, and at each softness of that way.
-MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = 60, 600
+# So many Newton steps before another way is taken, and at each softness of that way. (Plain
+# integers would be types of their own, and what takes them compiled for each.)
+MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = np.int64(60), np.int64(600)
 
 # A stiffness below this part of the greatest is none: rounding leaves more than it. Where a pivot
 # is below the second, taking them in the order of the directions does not tell.
@@ -456,13 +457,11 @@ def without_faint(q, F, noise, c, s, d, active, ca, sa, A0, rL, K, g, H):
 
 
 @compiled
-def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, patient):
-    """Move q downhill to the minimum of V by Newton's method with a line search.
+def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
+    """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
 
-    `patient` says in how many steps at most. Other arguments and what is returned are those of
-    `minimise_energy`.
+    Other arguments and what is returned are those of `minimise_energy`.
     """
-    most = MOST_PATIENT_ITERATIONS if patient else MOST_ITERATIONS
     carried = 0.0
     axial = False
     for i in active:
@@ -598,7 +597,7 @@ def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial)
     ones: how far their answers lie apart is about what the softer balls are compressed.
     """
     now, status, residual, iterations, evaluations = descend(
-        q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, False
+        q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, MOST_ITERATIONS
     )
     if status != NOT_CONVERGED:
         return now, status, residual, iterations, evaluations
@@ -619,7 +618,8 @@ def minimise_energy(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial)
         for i in active:
             q[i] = start[i]
         now, status, residual, more, calls = descend(
-            q, F, c, s, d, active, ca, sa, A0, rL, Ks, G, H, L, p, trial, True
+            q, F, c, s, d, active, ca, sa, A0, rL, Ks, G, H, L, p, trial,
+            MOST_PATIENT_ITERATIONS,
         )
         iterations += more
         evaluations += calls

@@ -178,7 +178,7 @@ def simulate(
     if scene.shaft_speed == 0.0:
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a simulated motion")
     dofs = scene.active_dofs
-    bodies = body_numbers(scene, dofs)
+    body_numbers(scene, dofs)  # refuses a support that lacks a number
     highest = highest_natural_frequency(scene)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
@@ -199,9 +199,7 @@ def simulate(
             f"at most {MOST_STEPS / step_rate:.3g} s at {step_rate:.6g} steps a second",
         )
     time = np.arange(n) / sample_rate
-    active = np.array([DOF_NAMES.index(name) for name in dofs])
     history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
-    paths = path_tables(scene.defects, scene.bearing)
     y = static_start(scene, dofs)
     if y is None:
         history[:] = math.nan
@@ -209,25 +207,7 @@ def simulate(
         done, status = 0, f"no static state to start from: {reason}"
     else:
         h = 1.0 / step_rate
-        common = (y, max(n_steps, 1), h, 0.0, scene.cage_speed, *paths)
-        n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
-        c = contact_damping(scene)
-        if is_flat(scene):
-            masses = (bodies.inner_mass, bodies.outer_mass)
-            kernels.flat_smooth(y, 0.0, *paths, *masses, n_balls, rL, c, 1.0)
-            done = kernels.march_flat(*common, *bodies, n_balls, rL, K, c, history)
-        elif scene.contact_law == "published":
-            numbers = np.array([scene.cage_speed, ca, sa, A0, rL, K, c, 1.0])
-            masses = (1.0 / bodies.inner_mass, 1.0 / bodies.outer_mass)
-            packed = np.array([bodies.force, *masses, bodies.stiffness, bodies.damping])
-            done = kernels.march_smooth(
-                y, max(n_steps, 1), h, 0.0, n_balls, numbers, packed, active, *paths, history
-            )
-        else:
-            force, *others = bodies
-            done = kernels.march(
-                *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, False, history
-            )
+        done = march_from(scene, y, h, history)
         status = "completed"
         if done < n_steps:
             history[done + 1 :] = math.nan
@@ -245,6 +225,38 @@ def simulate(
         history=history,
     )
     return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
+
+
+def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[np.float64]) -> int:
+    """Steps of h [s] from the state y (4 nd,) at cage angle 0, which is moved, by the best kernel.
+
+    history (steps + 1, 6, nd) is filled. Returns the number of steps after which all was finite.
+    """
+    dofs = scene.active_dofs
+    n_steps = len(history) - 1
+    active = np.array([DOF_NAMES.index(name) for name in dofs])
+    bodies = body_numbers(scene, dofs)
+    paths = path_tables(scene.defects, scene.bearing)
+    common = (y, n_steps, h, 0.0, scene.cage_speed, *paths)
+    n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
+    c = contact_damping(scene)
+    if is_flat(scene):
+        masses = (bodies.inner_mass, bodies.outer_mass)
+        kernels.flat_smooth(y, 0.0, *paths, *masses, n_balls, rL, c, 1.0)
+        return int(kernels.march_flat(*common, *bodies, n_balls, rL, K, c, history))
+    if scene.contact_law == "published":
+        numbers = np.array([scene.cage_speed, ca, sa, A0, rL, K, c, 1.0])
+        inverse = (1.0 / bodies.inner_mass, 1.0 / bodies.outer_mass)
+        packed = np.array([bodies.force, *inverse, bodies.stiffness, bodies.damping])
+        done = kernels.march_smooth(
+            y, n_steps, h, 0.0, n_balls, numbers, packed, active, *paths, history
+        )
+        return int(done)
+    force, *others = bodies
+    done = kernels.march(
+        *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, False, history
+    )
+    return int(done)
 
 
 def is_flat(scene: Scene) -> bool:

@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 import panel as pn
 
+from app import compiling
 from app.assets import asset_text
 from app.controls import Controls, Rows
 from app.jobs import Jobs
@@ -34,6 +35,7 @@ from app.views.share import ShareBar
 from app.views.status import StatusLine, Tabs, status_of
 from app.wire import Wire
 from bearingcore import Scene
+from bearingcore.plan import CURVES
 
 log = logging.getLogger(__name__)
 
@@ -192,6 +194,7 @@ class Explorer:
         if self._nothing_new(rested):
             self._worker.submit(rested)
             return
+        self._rested = None
         self._worker.submit(inputs)
         if section.plans or section.moves:
             self._rest.begin(rested)
@@ -207,8 +210,12 @@ class Explorer:
 
     def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        self._rested = dataclasses.replace(inputs, planned=planned)
-        self._worker.submit(self._rested)
+        rested = dataclasses.replace(inputs, planned=planned)
+        if rested != self._rested:
+            self._rested = rested
+            self._worker.submit(rested)
+        if not compiling.ready():
+            self._rest.begin(inputs)  # there will be more to say
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -438,6 +445,8 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
     for view in inputs.planned:
         if overtaken():
             break
+        if view not in CURVES and not compiling.ready():
+            continue
         try:
             results.plan_of(view)
         except ValueError:

@@ -9,6 +9,7 @@ from urllib.parse import urlencode
 import panel as pn
 
 import bearingcore
+from app import compiling
 from app.assets import asset_text
 from app.explorer import Explorer, Section
 from app.views.accuracy import Accuracy
@@ -21,6 +22,7 @@ from app.views.maps import StiffnessMaps
 from app.views.model_editor import ModelEditor
 from app.views.modes import NaturalFrequencies
 from app.views.orbit import SteadyOrbit
+from app.views.plan import PlanInFull
 from app.views.speed_run import SpeedRunSpectra
 from app.views.stability_map import OrbitStability
 from app.views.stiffness import Stiffness
@@ -37,7 +39,7 @@ SECTIONS = (
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("accuracy", "Accuracy", (Accuracy,)),
+    Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
     Section("bearing", "Bearing", (BearingEditor,)),
     Section("model", "Model", (ModelEditor, DofDifferences)),
 )
@@ -58,6 +60,7 @@ def address() -> str:
 
 def page() -> pn.Template:
     """The page of a new session."""
+    compiling.begin()
     explorer = Explorer(SECTIONS, address=address())
     template = pn.Template(asset_text("page.html"))
     template.add_variable("style", asset_text("page.css"))

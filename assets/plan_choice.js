@@ -23,8 +23,11 @@ export function render({ model }) {
   const about = make("p", { class: "about" },
     "While a slider moves, all is drawn at once with what usually does. When it rests, the program " +
     "plans what is on screen, with no more than its error allows, and draws it anew.")
+  const wait = make("p", { class: "about" },
+    "On this first start the program is still being compiled for motions; until then they are " +
+    "drawn as usual.")
   const list = make("section", { id: "plan-list", class: "list", "aria-label": "Plan" },
-    about, plans, make("div", { class: "fields" }, ...fields))
+    about, wait, plans, make("div", { class: "fields" }, ...fields))
   list.hidden = true
   const box = make("div", { class: "box" }, back, more, list)
 
@@ -45,8 +48,9 @@ export function render({ model }) {
     }
   })
   const write = () => {
-    const { plans: made, resting, chosen, by_hand } = model.state
+    const { plans: made, resting, compiling, chosen, by_hand } = model.state
     window.__resting = resting
+    wait.hidden = !compiling
     back.hidden = by_hand.length === 0
     more.dataset.overruled = String(by_hand.length > 0)
     if (made.length || resting) plans.replaceChildren(...made.map(([title, sentence]) =>

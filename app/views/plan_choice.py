@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import param
 from panel.custom import JSComponent
 
+from app import compiling
 from app.assets import asset_path, asset_text
 from app.planning import CHOICES, by_hand, chosen, sentence_of
 from bearingcore.plan import SETTLED
@@ -32,7 +33,8 @@ class PlanChoice(JSComponent):
     """
 
     spec = param.Dict(default={})
-    #: {"plans": [[title, sentence]], "resting": bool, "chosen": {name: value}, "by_hand": [words]}
+    #: {"plans": [[title, sentence]], "resting": bool, "compiling": bool, "chosen": {name: value},
+    #: "by_hand": [words]}
     state = param.Dict(default={"plans": [], "resting": False, "chosen": {}, "by_hand": []})
 
     _esm = asset_path("plan_choice.js")
@@ -53,6 +55,7 @@ class PlanChoice(JSComponent):
         state = {
             "plans": [[TITLES[view], sentence_of(made)] for view, made in results.plans.items()],
             "resting": not results.moving,
+            "compiling": not compiling.ready(),
             "chosen": chosen(results.settings),
             "by_hand": by_hand(results.settings),
         }

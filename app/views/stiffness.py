@@ -183,7 +183,8 @@ class Stiffness(View):
             line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
             if sound.converged.any():
-                line += f" (sound: {with_prefix(float(np.nanmean(sounds)), 'N/m')} on average)"
+                mean = _mean(sound.cage_angles, sounds)
+                line += f" (sound: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
@@ -223,8 +224,18 @@ def _trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tup
         return math.nan, math.nan
     if not finite.any():
         return -1.0, 1.0
-    middle = finite.mean()
+    middle = 0.5 * (finite.min() + finite.max())
     return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
+
+
+def _mean(angles: np.ndarray, values: np.ndarray) -> float:
+    """Mean over the angles, which may stand close in one place and far apart in another."""
+    known = np.isfinite(values)
+    angles, values = angles[known], values[known]
+    if angles.size < 2:
+        return float(values.mean())
+    middles = 0.5 * (values[1:] + values[:-1])
+    return float(middles @ np.diff(angles) / (angles[-1] - angles[0]))
 
 
 def _stepped(share: np.ndarray) -> np.ndarray:

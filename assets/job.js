@@ -7,13 +7,27 @@ export function render({ model }) {
     return made
   }
   const inputs = {}
+  // Options of a list, those with the same third part under it as their heading.
+  const grouped = (options) => {
+    const parts = []
+    for (const [value, words, heading] of options) {
+      const option = make("option", { value }, words)
+      if (!heading) parts.push(option)
+      else if (parts.at(-1)?.label === heading) parts.at(-1).append(option)
+      else parts.push(make("optgroup", { label: heading }, option))
+    }
+    return parts
+  }
   const field = ({ name, label, options }) => {
     const id = `job-${name}`
     const input = inputs[name] = options
-      ? make("select", { id }, ...options.map(([value, words]) => make("option", { value }, words)))
+      ? make("select", { id }, ...grouped(options))
       : make("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" })
     input.value = model.values[name] ?? ""
-    input.addEventListener("change", () => fill(name))
+    input.addEventListener("change", () => {
+      fill(name)
+      if (model.spec.at_once) ask()
+    })
     return make("div", { class: `field field-${name}` }, make("label", { for: id }, label), input)
   }
   // What is chosen in one field may bring the numbers of others with it.
@@ -23,19 +37,26 @@ export function render({ model }) {
   }
   const start = make("button", { type: "submit", class: "start" }, model.spec.start)
   const cancel = make("button", { type: "button", class: "cancel" }, "Cancel")
-  const fields = make("div", { class: "fields" }, ...model.spec.fields.map(field), start, cancel)
+  const fields = make("div", { class: "fields" }, ...model.spec.fields.map(field))
   const filled = make("i")
   const bar = make("div", {
     class: "bar", role: "progressbar", "aria-label": model.spec.start,
     "aria-valuemin": "0", "aria-valuemax": "100",
   }, filled)
   const words = make("p", { class: "words", role: "status" })
-  const form = make("form", {}, fields, make("div", { class: "going" }, bar, words))
+  const going = make("div", { class: "going" }, bar, words)
+  // Where fields start the job, the button is seldom needed and stands out of their way.
+  if (model.spec.at_once) going.prepend(start, cancel)
+  else fields.append(start, cancel)
+  const form = make("form", {}, fields, going)
 
-  form.addEventListener("submit", (event) => {
-    event.preventDefault()
+  const ask = () => {
     const given = Object.entries(inputs).map(([name, input]) => [name, input.value])
     model.send_msg({ start: Object.fromEntries(given) })
+  }
+  form.addEventListener("submit", (event) => {
+    event.preventDefault()
+    ask()
   })
   cancel.addEventListener("click", () => model.send_msg({ cancel: true }))
 

@@ -30,13 +30,17 @@ from bokeh.plotting import figure
 
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""
-SOUND = "#9AA0A6"
+SOUND = "#868C94"
 """The same bearing without its defect."""
 DEFECT = "#E69F00"
 """Where the defect is."""
 INK = "#20262D"
 """Text, and the mark of the current cage angle."""
 FAINT_INK = "#5B6470"
+PAPER = "#FFFFFF"
+"""What figures stand on; white is paper wherever it is said."""
+LIGHT, SHADE = "#FEFEFE", "#1B2127"
+"""On top of pictures, which are the same on a light and on a dark page."""
 STEEL = "#E7EAEE"
 STEEL_EDGE = "#A9B1BB"
 GRID = "#EDEFF2"
@@ -54,7 +58,7 @@ SMALL_TEXT_SIZE = "11px"
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 # `power` gives the power of ten of the prefix for a greatest value: the rule of `_power` below.
-_JS_PREFIX = """
+JS_PREFIX = """
 const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
 const power = (top) => !(top > 0) || !isFinite(top) ? 0 :
   Math.max(-12, Math.min(12, 3*Math.floor(Math.log10(top*1.0000001)/3)))
@@ -90,7 +94,8 @@ class AxisQuantity:
     def label(self, top: float = 1.0) -> str:
         """Text of the axis for a range whose greatest absolute value is `top` [unit]."""
         prefix = _PREFIXES[_power(top)] if self.prefixed else ""
-        return f"{self.words} ({prefix}{self.unit})"
+        unit = f"{prefix}{self.unit}"
+        return f"{self.words} ({unit})" if unit else self.words
 
 
 BALL_LOAD = AxisQuantity("Ball load", "Q", "N", prefixed=True)
@@ -127,8 +132,8 @@ def house_figure(
         min_border_left=64,
         min_border_top=10,
         min_width=280,
-        background_fill_color="white",
-        border_fill_color="white",
+        background_fill_color=PAPER,
+        border_fill_color=PAPER,
         outline_line_color=None,
         **options,
     )
@@ -142,7 +147,7 @@ def house_figure(
         plot.title.text_font_style = "normal"
         plot.title.text_color = FAINT_INK
     for axis, quantity, shown in ((plot.xaxis[0], x, x_range), (plot.yaxis[0], y, y_range)):
-        _style(axis)
+        style_axis(axis)
         write_units(axis, quantity, shown)
     return plot
 
@@ -164,7 +169,8 @@ def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: A
     return plot
 
 
-def _style(axis: Axis) -> None:
+def style_axis(axis: Axis) -> None:
+    """Fonts and colours of an axis."""
     axis.axis_label_text_font = axis.major_label_text_font = FONT
     axis.axis_label_text_font_style = "normal"
     axis.axis_label_text_font_size = TEXT_SIZE
@@ -194,7 +200,7 @@ def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Rang
                 "words": quantity.words,
                 "unit": quantity.unit,
             },
-            code=_JS_PREFIX
+            code=JS_PREFIX
             + """
 const e = power(Math.max(Math.abs(shown.start), Math.abs(shown.end)))
 const label = `${words} (${names[e]}${unit})`
@@ -209,7 +215,7 @@ def tick_formatter(quantity: AxisQuantity, shown: Range1d) -> CustomJSTickFormat
     """Numbers of an axis over the range `shown`, with a true minus sign."""
     return CustomJSTickFormatter(
         args={"shown": shown, "prefixed": quantity.prefixed, "around": quantity.around},
-        code=_JS_PREFIX
+        code=JS_PREFIX
         + """
 const e = prefixed ? power(Math.max(Math.abs(shown.start), Math.abs(shown.end))) : 0
 const turned = !around ? tick : tick > 360 ? tick - 360 : tick < 0 ? tick + 360 : tick
@@ -222,7 +228,7 @@ def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
     """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten."""
     return CustomJSTickFormatter(
         args={"unit": unit},
-        code=_JS_PREFIX
+        code=JS_PREFIX
         + """
 if (unit) return si(tick, unit)
 if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
@@ -247,7 +253,7 @@ def words_of(source: ColumnDataSource, code: str) -> CustomJSExpr:
     """
     return CustomJSExpr(
         args={"source": source},
-        code=_JS_PREFIX
+        code=JS_PREFIX
         + """
 const data = source.data
 const columns = Object.keys(data)
@@ -310,6 +316,11 @@ def in_degrees(angle: float, digits: int = 1) -> str:
     whole = f"{360.0:.{digits}f}"
     text = f"{0.0:.{digits}f}" if text == whole else text
     return text.rstrip("0").rstrip(".") + "°" if "." in text else text + "°"
+
+
+def css_color(color: str) -> str:
+    """A colour for a style in HTML that follows light and dark as it does in figures."""
+    return f"var(--in-dark-{color[1:].upper()}, {color})"
 
 
 def list_words(words: Sequence[str]) -> str:

@@ -25,7 +25,8 @@ class JobPanel(JSComponent):
     """
 
     #: {"start": words of the button, "fields": [{"name", "label", "options": [[value, words]]}]};
-    #: a field without options is one to type into
+    #: a field without options is one to type into, a third part of an option its heading in the
+    #: list; with "at_once" a changed field starts the job as the button does
     spec = param.Dict(default={})
     #: {field: what stands in it}
     values = param.Dict(default={})
@@ -57,6 +58,8 @@ class JobView(View, Generic[Found]):
     """Words of the button."""
     bounds: ClassVar[str]
     """A sentence: how large a job may be."""
+    at_once: ClassVar[bool] = False
+    """Whether a changed field starts the job, without the button."""
 
     found: Found | None = None
     _jobs: Jobs | None = None
@@ -68,7 +71,8 @@ class JobView(View, Generic[Found]):
         """The panel of the job, made when first asked for."""
         if not hasattr(self, "_job"):
             state = JobState("idle", 0.0, self.bounds)
-            self._job = JobPanel(self._asked, spec={"start": self.start, "fields": self.fields()})
+            spec = {"start": self.start, "fields": self.fields(), "at_once": self.at_once}
+            self._job = JobPanel(self._asked, spec=spec)
             self._job.show(state)
         return self._job
 
@@ -89,16 +93,21 @@ class JobView(View, Generic[Found]):
         """The job that the form asks for; ValueError with a sentence where it cannot be."""
         raise NotImplementedError
 
+    def texts(self, given: Mapping[Any, Any]) -> dict[str, str]:
+        """What stands in each field, out of a message of the browser."""
+        return {
+            field["name"]: str(given.get(field["name"], ""))[:_LONGEST_TEXT]
+            for field in self.fields()
+        }
+
     def _asked(self, message: Any) -> None:
         if not isinstance(message, dict) or self._jobs is None:
             return
         if message.get("cancel") is True:
             self._jobs.cancel()
         if isinstance(given := message.get("start"), dict):
-            names = [field["name"] for field in self.fields()]
-            texts = {name: str(given.get(name, ""))[:_LONGEST_TEXT] for name in names}
             try:
-                work = self.prepare(texts, self._editor)
+                work = self.prepare(self.texts(given), self._editor)
             except ValueError as error:
                 self.job.show(JobState("failed", 0.0, str(error)))
             else:

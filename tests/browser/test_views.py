@@ -29,7 +29,7 @@ def test_numbers_are_written_alike_in_sentences_and_in_figures(
     page, _ = watch
     open_explorer(page, explorer)
     values = [m * 10.0**e for m in (1.0, 2.0616, 5.0, -9.9949) for e in range(-9, 9)] + [0.0]
-    code = f"(values) => {{ {figures._JS_PREFIX}; return values.map(v => si(v, 'N')) }}"
+    code = f"(values) => {{ {figures.JS_PREFIX}; return values.map(v => si(v, 'N')) }}"
     written = [text.replace("\u00a0", " ") for text in page.evaluate(code, values)]
     assert written == [figures.with_prefix(value, "N") for value in values]
 

@@ -1,0 +1,406 @@
+"""Any output over the plane of any two quantities: coarse at once, refined while one waits.
+
+The first, coarse level follows the sliders like any other view. When the hand rests, a job refines
+it level by level. The figures are HoloViews, and made when there is something to draw in them: the
+library is imported then, too, off the event loop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.events import Tap
+from bokeh.models import CustomJS, Spacer
+
+from app.assets import asset_text
+from app.explore import (
+    BUDGET,
+    CHOICES,
+    SIZES,
+    Choice,
+    Job,
+    Plane,
+    Question,
+    planes,
+    refine,
+)
+from app.jobs import JobState, Work
+from app.quantities import refusal
+from app.scene_editor import SceneEditor
+from app.sweep import SWEEPABLE, Sweep, focused, sweep, usual_range, value_of
+from app.views import figures
+from app.views.base import Ranges, Sources
+from app.views.figures import AxisQuantity
+from app.views.grid_image import Side
+from app.views.job_view import JobView
+from app.wire import Wire
+
+if TYPE_CHECKING:
+    from app.plotting.plane import Field
+    from app.results import Results
+
+REST = 0.2
+"""[s] that sliders must rest before a map is refined."""
+
+_FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
+_GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
+_FADED = 0.65
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the form asks for."""
+
+    x: Sweep
+    y: Sweep
+    choice: Choice
+    stride: int
+
+    def of(self, results: Results) -> Question:
+        """The question for the scene shown."""
+        return Question(focused(results.scene, results.focus), self.x, self.y, self.choice)
+
+
+class _While:
+    """A job that ends, too, when what it computes is no longer asked for."""
+
+    def __init__(self, job: Work, wanted: Callable[[], bool]) -> None:
+        self._job, self._wanted = job, wanted
+        self.progress = job.progress
+        self.show = job.show
+
+    def cancelled(self) -> bool:
+        return self._job.cancelled() or not self._wanted()
+
+
+class ExplorePlane(JobView[Plane]):
+    """A map of one output over two quantities, with lines across it and a histogram."""
+
+    name = "explore"
+    title = "Explore a plane"
+    about = (
+        "Any output over any two quantities; all else as the sliders have it. The curves follow "
+        "the pointer; click on the map to go there; select a part of the histogram to see where "
+        "such values lie. Hatched: no answer, point at it to see why. Ring: this scene."
+    )
+    needs = frozenset()
+    start = "Compute the map"
+    at_once = True
+    bounds = f"Coarse at once, finer while you wait: at most {BUDGET / 60.0:.0f} minutes a map."
+
+    _asking: Asked | None = None
+    _question: Question | None = None
+    _refining: tuple[Question, int] | None = None
+    _timer: asyncio.TimerHandle | None = None
+    _drawn: Plane | None = None
+    _at: tuple[float, float] = (0.0, 0.0)
+    _news: Any = None
+
+    def build(self, wire: Wire) -> Any:
+        self._mark = wire.source("explore_mark", "x", "y")
+        self._old = wire.source("explore_old", "left", "right", "bottom", "top", "alpha")
+        # the browser must know the sources before there is a figure that draws them
+        anchor = Spacer(width=0, height=0, visible=False, tags=[self._mark, self._old])
+        self._figures = pn.Column(min_height=490, sizing_mode="stretch_width", margin=0)
+        return pn.Column(
+            self.job,
+            self._figures,
+            pn.pane.Bokeh(anchor, margin=0),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+    # The form
+
+    def fields(self) -> list[dict[str, Any]]:
+        quantities = [
+            [q.name, f"{q.label}{f' ({q.unit})' if q.unit else ''}", q.group]
+            for q in SWEEPABLE.values()
+        ]
+        outputs = [[choice.name, choice.label, choice.group] for choice in CHOICES.values()]
+        parts: list[dict[str, Any]] = [{"name": "output", "label": "Map of", "options": outputs}]
+        for side, words in (("x", "To the right"), ("y", "Upwards")):
+            parts += [
+                {"name": side, "label": words, "options": quantities},
+                {"name": f"{side}_from", "label": "from"},
+                {"name": f"{side}_to", "label": "to"},
+            ]
+        return [*parts, {"name": "grid", "label": "Points", "options": _GRIDS}]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        fills: dict[str, Any] = {"x": {}, "y": {}}
+        for name in SWEEPABLE:
+            low, high = (f"{v:g}" for v in usual_range(name, editor.limits))
+            for side, fill in fills.items():
+                fill[name] = {f"{side}_from": low, f"{side}_to": high}
+        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
+        # loads that point down, as weights do: without a load there is nothing to map
+        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}"
+        if self._asking is None:
+            self._asking = self.asked(values, editor)
+        return values, fills
+
+    def asked(self, given: Mapping[str, str], editor: SceneEditor) -> Asked:
+        """What the form asks for; ValueError with a sentence where it cannot be."""
+        if given["output"] not in CHOICES:
+            raise ValueError("There is no such output.")
+        if given["grid"] not in [value for value, _ in _GRIDS]:
+            raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
+        if given["x"] == given["y"]:
+            raise ValueError("Choose two different quantities.")
+        x, y = (
+            sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], n, editor.limits)
+            for side, n in zip(("x", "y"), SIZES[1], strict=True)
+        )
+        return Asked(x, y, CHOICES[given["output"]], int(given["grid"]))
+
+    def _asked(self, message: Any) -> None:
+        if not isinstance(message, dict) or self._jobs is None:
+            return
+        if message.get("cancel") is True:
+            self._wait_no_more()
+            self._jobs.cancel()
+        if isinstance(given := message.get("start"), dict):
+            try:
+                self._asking = self.asked(self.texts(given), self._editor)
+            except ValueError as error:
+                self.job.show(JobState("failed", 0.0, str(error)))
+            else:
+                self._refining = None
+                self._draw()
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        import app.plotting  # noqa: F401 - takes a second, once, and this is not the event loop
+
+        none = np.zeros(0)
+        sources: Sources = {
+            "explore_mark": {"x": none, "y": none},
+            "explore_old": dict.fromkeys(("left", "right", "bottom", "top", "alpha"), none),
+        }
+        if self._asking is None:
+            return sources, {}
+        question = self._asking.of(results)
+        scene = focused(results.scene, results.focus)
+        x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
+        sources["explore_mark"] = {"x": np.array([x]), "y": np.array([y])}
+        if self._drawn is not None and self._plane(question)[0] is None:
+            ends = [float(v) for s in (self._drawn.question.x, self._drawn.question.y)
+                    for v in (s.values[0], s.values[-1])]  # fmt: skip
+            names = ("left", "right", "bottom", "top", "alpha")
+            sources["explore_old"] = {
+                name: np.array([value]) for name, value in zip(names, [*ends, _FADED], strict=True)
+            }
+        return sources, {}
+
+    def sentence(self, results: Results) -> str:
+        if self._asking is None:
+            return "There is no map yet."
+        question = self._asking.of(results)
+        plane, why = self._plane(question)
+        if plane is None:
+            faint = "What is drawn, faint, is another map. " if self._drawn is not None else ""
+            return faint + (why or "This output takes a while: the map is being computed.")
+        return summary(plane)
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None or self._asking is None:
+            return
+        self._question = question = self._asking.of(results)
+        scene = focused(results.scene, results.focus)
+        x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
+        self._at = x, y
+        plane, why = self._plane(question)
+        if plane is not None:
+            self._show(plane)
+        if self._refining == (question, self._asking.stride):
+            return
+        self._wait_no_more()
+        self._refining = None
+        if why:
+            self.job.show(JobState("failed", 0.0, why))
+        elif self._jobs is not None:
+            loop = asyncio.get_running_loop()
+            self._timer = loop.call_later(REST, self._refine, question, plane)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        if self._drawn is None:
+            return {}
+        found = self._drawn
+        y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
+        question = found.question
+        name = question.choice.name.replace(":", "_")
+        return {
+            question.x.quantity.name: x,
+            question.y.quantity.name: y,
+            f"{name}_{_unit_name(question.choice.unit)}".rstrip("_"): found.values,
+            "no_answer_because": found.reasons,
+        }
+
+    def _plane(self, question: Question) -> tuple[Plane | None, str]:
+        """What is known of the map by now, or why there can be none."""
+        if self.found is not None and self.found.question == question:
+            return self.found, ""
+        if not question.at_once:
+            return None, ""
+        try:
+            return planes(question), ""
+        except ValueError as error:
+            return None, refusal(error)
+
+    def _show(self, plane: Plane) -> None:
+        """Draw a map; its figures are made anew where it is one of something else."""
+        if plane is self._drawn:
+            return
+        from app.plotting.plane import plane as linked_figures
+
+        field = field_of(plane, self._at)
+        before, self._drawn = self._drawn, plane
+        if before is not None and before.question.figure == plane.question.figure:
+            self._news.send(field)
+            return
+        import holoviews as hv
+
+        self._news = hv.streams.Pipe(data=field)
+        names = [plane.question.x.quantity.name, plane.question.y.quantity.name]
+        layout = linked_figures(
+            field,
+            news=self._news,
+            mark=self._mark,
+            hooks=[_Marks(names, self._mark, self._old)],
+            responsive=True,
+        )
+        pane = pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
+        self._figures[:] = [pane]
+
+    # Refining
+
+    def _refine(self, question: Question, start: Plane | None) -> None:
+        """Start the job, if this is still what is asked for."""
+        self._timer = None
+        if self._jobs is None or self._asking is None or question != self._question:
+            return
+        stride = self._asking.stride
+        self._refining = asked = (question, stride)
+
+        def work(job: Work) -> str:
+            going: Job = _While(job, lambda: self._refining == asked)
+            try:
+                return refine(going, question, stride, start)
+            except ValueError as error:
+                text = str(error)
+                raise ValueError(text if text.endswith(".") else refusal(error)) from error
+
+        self._jobs.start(work, self._take, self.job.show)
+
+    def _take(self, found: Plane) -> None:
+        if found.question == self._question:
+            self.found = found
+            self._show(found)
+            self._draw()
+
+    def _wait_no_more(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+
+class _Marks:
+    """A hook: the ring at this scene, the veil over a map of another, and the click to go there."""
+
+    def __init__(self, names: list[str], mark: Any, old: Any) -> None:
+        self._names, self._mark, self._old = names, mark, old
+
+    def __call__(self, plot: Any, _: Any) -> None:
+        if "marks" in plot.handles:
+            return
+        plot.handles["marks"] = True
+        figure = plot.handles["plot"]
+        figure.name = "explore_map"
+        figure.stylesheets = [":host { cursor: crosshair; }"]
+        figure.quad(
+            "left", "right", "top", "bottom", source=self._old, fill_color="white",
+            fill_alpha="alpha", line_color=None, level="overlay",
+        )  # fmt: skip
+        for color, width in (("white", 5.0), (figures.INK, 2.0)):
+            figure.scatter(
+                "x", "y", source=self._mark, size=15, fill_color=None, line_color=color,
+                line_width=width, level="overlay",
+            )  # fmt: skip
+        go = CustomJS(
+            args={"image": plot.handles["source"], "names": self._names},
+            code=asset_text("explore_click.js"),
+        )
+        figure.js_on_event(Tap, go)
+
+
+def field_of(plane: Plane, at: tuple[float, float]) -> Field:
+    """A map as the figures take it, with lines drawn across it at a place."""
+    from app.plotting.plane import Field
+
+    question = plane.question
+    sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
+    axes = [AxisQuantity(side.words, side.symbol, side.unit) for side in sides]
+    choice = question.choice
+    words = choice.label[0].upper() + choice.label[1:] if choice.label[0] != "k" else choice.label
+    value = AxisQuantity(words, "", choice.unit, prefixed=choice.unit not in ("", "°"))
+    return Field(
+        (sides[0].name, axes[0], plane.x.values),
+        (sides[1].name, axes[1], plane.y.values),
+        (choice.name.replace(":", "_"), value),
+        plane.values,
+        plane.reasons,
+        at,
+    )
+
+
+def summary(plane: Plane) -> str:
+    """What a map shows, in a sentence: least and greatest, where, and how much is not known."""
+    question, values = plane.question, plane.values
+    what = question.choice.label
+    missing = ""
+    if plane.missing:
+        reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
+        common = max(set(reasons), key=reasons.count)
+        points = "1 point has" if plane.missing == 1 else f"{plane.missing} points have"
+        missing = f" {points} no answer, most often: {common.rstrip('.')}."
+    if plane.missing == values.size:
+        return (
+            f"{what[0].upper()}{what[1:]}: no point of {plane.shape_words} has an answer." + missing
+        )
+    least, most = (
+        np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
+    )
+    ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
+    return f"{plane.shape_words}. {what}: {ends}.{missing}"
+
+
+def _place(plane: Plane, at: tuple[Any, ...]) -> str:
+    choice = plane.question.choice
+    value = float(plane.values[at])
+    shown = (
+        figures.with_prefix(value, choice.unit)
+        if choice.unit not in ("", "°")
+        else f"{figures.number(value)}{choice.unit}"
+    )
+    where = [
+        f"{sweep.quantity.label.lower()} {figures.number(float(sweep.values[k]))}"
+        + (
+            sweep.quantity.unit if sweep.quantity.unit == "°" else f" {sweep.quantity.unit}"
+        ).rstrip()
+        for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
+    ]
+    return f"{shown} at {' and '.join(where)}"
+
+
+def _unit_name(unit: str) -> str:
+    """A unit as a column's name has it."""
+    names = {"": "", "°": "deg", "Hz": "hz", "N": "n", "m/s²": "m_per_s2", "rad/s²": "rad_per_s2"}
+    return names.get(unit, unit.replace("N·m", "n_m").replace("/", "_per_").replace("N", "n"))

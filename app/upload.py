@@ -1,0 +1,80 @@
+"""A file on its way from a browser: in pieces, as a message may hold no more than a few MB.
+
+What the browser says about it is not to be trusted: everything is judged here.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+MOST_BYTES = 24 * 2**20
+"""Of a file that is taken from a browser."""
+
+PIECE = 2**20
+"""[bytes] of the pieces that the browser is asked for; far below what the websocket takes."""
+
+LONGEST_NAME = 60
+
+
+class Upload:
+    """Gathers the pieces of one file.
+
+    Parameters
+    ----------
+    name, size
+        of the file [bytes], as the browser tells them.
+
+    Raises
+    ------
+    ValueError
+        with a sentence, for a file that is empty or too large.
+    """
+
+    def __init__(self, name: Any, size: Any) -> None:
+        self.name = shown_name(name)
+        if not isinstance(size, int) or isinstance(size, bool) or size < 0:
+            raise ValueError(f"{self.name} has no size.")
+        if size == 0:
+            raise ValueError(f"{self.name} is empty.")
+        if size > MOST_BYTES:
+            raise ValueError(
+                f"{self.name} is {size / 2**20:.0f} MB long; at most {MOST_BYTES // 2**20} MB are "
+                "taken. A few seconds of the signal are enough."
+            )
+        self.size = size
+        self._pieces: list[bytes] = []
+        self._length = 0
+
+    @property
+    def length(self) -> int:
+        """How much has come [bytes]: where the next piece begins."""
+        return self._length
+
+    @property
+    def whole(self) -> bool:
+        """Whether all has come."""
+        return self._length == self.size
+
+    @property
+    def content(self) -> bytes:
+        """What has come."""
+        return b"".join(self._pieces)
+
+    def take(self, piece: Any) -> None:
+        """Add a piece; ValueError with a sentence for one that cannot be a part of the file."""
+        if not isinstance(piece, bytes | bytearray | memoryview):
+            raise ValueError(f"{self.name} did not arrive whole.")
+        data = bytes(piece)
+        if not data or len(data) > PIECE or self._length + len(data) > self.size:
+            raise ValueError(f"{self.name} did not arrive whole.")
+        self._pieces.append(data)
+        self._length += len(data)
+
+
+def shown_name(name: Any) -> str:
+    """The name of a file as it may stand on the page."""
+    text = "".join(c for c in str(name)[:400] if c.isprintable())
+    text = " ".join(text.split())
+    if len(text) > LONGEST_NAME:
+        text = f"{text[: LONGEST_NAME - 12]}…{text[-11:]}"
+    return text or "The file"

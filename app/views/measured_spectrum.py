@@ -1,0 +1,118 @@
+"""The spectrum of a measured signal over that of the scene, with the scene's bands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from bokeh.models import Range1d
+from bokeh.plotting import figure
+
+from app.measured import Measured, Simulated
+from app.quantities import refusal
+from app.views import figures
+from app.views.base import Sources
+from app.views.frequency_view import ALONG, LINES, RESOLUTIONS, SCALE, FrequencyView, Look, Shown
+from app.views.measured_view import NOTHING
+from app.views.modes import BAND_WORDS, band_rows, spread
+from app.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
+from app.wire import Wire
+
+if TYPE_CHECKING:
+    from app.results import Results
+    from bearingcore import Spectrum
+
+
+class MeasuredSpectrum(FrequencyView):
+    """Power spectral density of the measured and of the simulated acceleration."""
+
+    name = "measured-spectrum"
+    prefix = "measured_spectrum"
+    title = "2  Its spectrum"
+    about = (
+        "Dark: measured. Colour: simulated, for the scene beside. Shaded: the bands of its natural "
+        "frequencies. Where measured resonances lie in the bands, the scene is like the machine."
+    )
+    first_look = Look()
+    fields: ClassVar[list[dict[str, Any]]] = [
+        ALONG,
+        SCALE,
+        {
+            "kind": "one",
+            "name": "resolution",
+            "label": "Resolution",
+            "options": [[resolution, f"{resolution} Hz"] for resolution in RESOLUTIONS],
+        },
+        LINES,
+    ]
+
+    def decorate(self, wire: Wire, plots: list[figure]) -> None:
+        for dof in SHOWN:
+            bands = wire.source(
+                f"{self.prefix}_bands_{dof}", "low", "high", "direction", "number", "label_at"
+            )
+            color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
+            for plot in plots:
+                plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+                plot.vstrip(
+                    "low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None,
+                    level="underlay",
+                )  # fmt: skip
+                plot.text(
+                    "label_at", 0.05, y_range_name="rows", source=bands,
+                    text=figures.words_of(bands, BAND_WORDS), text_align="center",
+                    text_baseline="middle", text_font={"value": figures.FONT},
+                    text_font_size=figures.SMALL_TEXT_SIZE, text_color=color,
+                    background_fill_color="white", background_fill_alpha=0.85, level="annotation",
+                )  # fmt: skip
+
+    def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
+        columns = ("low", "high", "direction", "number", "label_at")
+        sources: Sources = {
+            f"{self.prefix}_bands_{dof}": dict.fromkeys(columns, np.zeros(0)) for dof in SHOWN
+        }
+        measured = self.measured
+        if results is None or shown is None or measured is None:
+            return sources
+        bands = band_rows(Simulated(results, measured).results.modes)
+        index = figures.DIRECTIONS.index(shown.direction)
+        own = {name: column[bands["direction"] == index] for name, column in bands.items()}
+        middle = 0.5 * (own["low"] + own["high"])
+        own["label_at"] = spread(middle, LABEL_WIDTH * shown.top, 0.0, shown.top)
+        return sources | {f"{self.prefix}_bands_{shown.direction}": own}
+
+    def shown(self, results: Results, measured: Measured) -> Shown:
+        model = Simulated(results, measured)
+        direction = self.direction(measured)
+        resolution = measured.finest(float(self.look.resolution))
+        bands = band_rows(model.results.modes)
+        top = max(HIGHEST, 1.05 * float(np.max(bands["high"], initial=0.0)))
+        top = min(top, 0.5 * measured.recording.sample_rate)
+        spectrum = measured.spectrum(direction, resolution)
+        try:
+            simulated, why_not = model.spectrum(direction, resolution), ""
+        except ValueError as error:
+            simulated, why_not = None, refusal(error)
+        return Shown(direction, top, spectrum, simulated, resolution, why_not)
+
+    def sentence(self, results: Results) -> str:
+        measured = self.measured
+        if measured is None:
+            return NOTHING
+        shown = self.shown(results, measured)
+        words = f"Along {shown.direction} above 100 Hz the measured housing vibrates most "
+        words += _loudest(shown.measured, shown.top)
+        if shown.simulated is not None:
+            words += f", the simulated one {_loudest(shown.simulated, shown.top)}"
+        words += f"; resolution {figures.number(shown.resolution, 2)} Hz."
+        return f"{words} {shown.why_not}".strip() + self.simulated_at(results, measured)
+
+
+def _loudest(spectrum: Spectrum, top: float) -> str:
+    frequency, density = spectrum
+    heard = np.flatnonzero((frequency >= 100.0) & (frequency <= top))
+    if not heard.size:
+        return "below that"
+    most = heard[np.argmax(density[heard])]
+    level = figures.number(float(decibels(density[most])), 2)
+    return f"at {frequency[most]:.0f} Hz ({level} dB)"

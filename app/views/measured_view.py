@@ -1,0 +1,69 @@
+"""Views of a measured signal, and the controls that say how its figures look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import param
+from panel.custom import JSComponent
+
+from app.assets import asset_path, asset_text
+from app.measurement import Measurement
+from app.views import figures
+from app.views.base import View
+
+if TYPE_CHECKING:
+    from app.measured import Measured
+    from app.results import Results
+
+MEASURED = figures.INK
+"""Colour of what was measured, where something simulated stands beside it."""
+
+NOTHING = "There is no signal yet: choose a file or simulate a measurement above."
+
+
+class MeasuredView(View):
+    """A view of the session's measurement. What `build` puts in `self.hidden` waits for one."""
+
+    hidden: Any = None
+    measurement: Measurement | None = None
+
+    def measure(self, measurement: Measurement) -> None:
+        """From now on draw what is measured there."""
+        self.measurement = measurement
+
+    @property
+    def measured(self) -> Measured | None:
+        """The signal that is drawn, if there is one."""
+        return None if self.measurement is None else self.measurement.measured
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if self.hidden is not None:
+            self.hidden.visible = self.measured is not None
+
+
+class LookPanel(JSComponent):
+    """Choices of how a figure looks: one of several, some of several, numbers.
+
+    `asked` gets {"look": {name: value}} of the browser, from strangers too: judge it.
+    """
+
+    #: {"name": of the figure, "fields": [{"kind": "one" | "some" | "number", "name", "label",
+    #: "options": [[value, words, colour]], "hint"}]}
+    spec = param.Dict(default={})
+    #: {field: value, a list where some of several can be chosen}
+    values = param.Dict(default={})
+    #: {field: values that cannot be chosen now}
+    disabled = param.Dict(default={})
+    #: {field: what an empty number stands for}
+    hints = param.Dict(default={})
+    refused = param.String()
+
+    _esm = asset_path("look.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("look.css")]
+
+    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+        super().__init__(margin=0, sizing_mode="stretch_width", **params)
+        self.on_msg(lambda event: asked(event.data))

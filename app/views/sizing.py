@@ -1,0 +1,429 @@
+"""The size of the defect behind a measured signal: candidates, and what each would sound like."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from app.jobs import Work
+from app.measured import Measured
+from app.measurement import Sized
+from app.quantities import refusal
+from app.scene_editor import SceneEditor
+from app.sweep import focused
+from app.views import figures
+from app.views.base import Ranges, Sources
+from app.views.candidates import CandidateList, in_degrees, rows
+from app.views.job_view import JobView
+from app.views.measured_view import MEASURED, NOTHING, MeasuredView
+from app.views.measurement import with_head
+from app.views.modes import BAND_WORDS, spread
+from app.views.status import StatusLine
+from app.views.sticky_range import StickyRange
+from app.views.vibration_spectrum import DEPTH_OF_VIEW, FREQUENCY, LEVEL_FLOOR, SHOWN, decibels
+from app.wire import Wire
+from bearingcore import Candidate, Scene, Sizing, size_defect
+from bearingcore.averaging import BallPasses
+
+if TYPE_CHECKING:
+    from app.results import Results
+
+HEIGHT = 236
+SAMPLES = 600
+"""Of a mean ball pass that is drawn."""
+BEFORE = 0.14
+"""Of a ball pass that is drawn before the entry."""
+NAME_WIDTH = 0.36
+"""Of a band's name, as a share of the width of its figure."""
+
+_KNOCK_WORDS = "return 'knock'"
+_EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+
+
+class Given(Exception):  # noqa: N818
+    """Somebody wants the work to end."""
+
+
+class DefectSize(JobView[Sized], MeasuredView):
+    """Candidates for the extent with their probabilities, and their curves over the measured."""
+
+    name = "sizing"
+    title = "4  The size of the defect"
+    about = (
+        "The time from a ball's entry to a ball's exit gives the extent up to whole ball spacings. "
+        "So every extent is simulated, and each candidate is asked how well it explains the mean "
+        "ball pass and the spectrum. Point at a candidate to see its curves."
+    )
+    needs = frozenset()
+    start = "Find the size"
+    bounds = (
+        "Takes some seconds. Bearing, load, support, depth and centre of the defect are taken from "
+        "the scene; its extent is not looked at."
+    )
+
+    def build(self, wire: Wire) -> Any:
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.candidates = CandidateList(self._looked_at)
+        self._looked: int | None = None
+        self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
+        self._levels = {dof: StickyRange(-80.0, -20.0, least_span=30.0) for dof in SHOWN}
+        seconds = wire.range("sizing_time", 0.0, 0.03)
+        frequency = wire.range("sizing_frequency", 0.0, 2500.0)
+        events = wire.source("sizing_events", "time", "exit", "row", "shift")
+        knocks = wire.source("sizing_knocks", "time")
+        self._rows = {}
+        for dof in SHOWN:
+            self._rows[dof] = pn.Row(
+                self._pass_plot(wire, dof, seconds, events, knocks),
+                self._spectrum_plot(wire, dof, frequency),
+                sizing_mode="stretch_width",
+                margin=0,
+            )
+        self._answer_part = pn.Column(
+            self.status,
+            self.candidates,
+            *self._rows.values(),
+            sizing_mode="stretch_width",
+            margin=0,
+            visible=False,
+        )
+        self.hidden = pn.Column(
+            self.job, self._answer_part, sizing_mode="stretch_width", margin=0, visible=False
+        )
+        return self.hidden
+
+    def _pass_plot(
+        self, wire: Wire, dof: str, seconds: Range1d, events: Any, knocks: Any
+    ) -> figure:
+        plot = figures.house_figure(
+            figures.AxisQuantity("Time after a ball's entry", "t", "s", prefixed=True),
+            figures.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
+            seconds,
+            wire.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
+            height=HEIGHT,
+            title=f"Mean ball pass along {dof}",
+        )
+        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+        plot.vspan("time", source=knocks, line_color=figures.DEFECT, line_width=5, line_alpha=0.28)
+        plot.text(
+            "time", 0.06, y_range_name="rows", text=figures.words_of(knocks, _KNOCK_WORDS),
+            source=knocks, x_offset=5, text_baseline="middle", text_font={"value": figures.FONT},
+            text_font_size=figures.SMALL_TEXT_SIZE, text_color="#8A5A00", level="annotation",
+        )  # fmt: skip
+        plot.vspan("time", source=events, line_color=figures.INK, line_width=1.0, line_alpha=0.7)
+        plot.text(
+            "time", "row", y_range_name="rows", text=figures.words_of(events, _EDGE_WORDS),
+            source=events, x_offset="shift", text_align="left", text_baseline="middle",
+            text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
+            text_color=figures.INK, background_fill_color="white", background_fill_alpha=0.85,
+            level="annotation",
+        )  # fmt: skip
+        self._curves(wire, plot, dof, "pass", "time", "size")
+        return plot
+
+    def _spectrum_plot(self, wire: Wire, dof: str, frequency: Range1d) -> figure:
+        plot = figures.house_figure(
+            FREQUENCY,
+            figures.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+            frequency,
+            wire.range(f"sizing_level_{dof}", -80.0, -20.0),
+            height=HEIGHT,
+            title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
+        )
+        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+        color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
+        bands = wire.source(f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at")
+        plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
+        plot.text(
+            "label_at", 0.93, y_range_name="rows", text=figures.words_of(bands, BAND_WORDS),
+            source=bands, text_align="center", text_baseline="middle",
+            text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
+            text_color=color, background_fill_color="white", background_fill_alpha=0.85,
+            level="annotation",
+        )  # fmt: skip
+        self._curves(wire, plot, dof, "spectrum", "frequency", "level")
+        return plot
+
+    def _curves(
+        self, wire: Wire, plot: figure, dof: str, what: str, along: str, value: str
+    ) -> None:
+        color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
+        for who, line, width in (("candidate", color, 2.4), ("measured", MEASURED, 1.2)):
+            source = wire.source(f"sizing_{what}_{who}_{dof}", along, value)
+            plot.line(along, value, source=source, line_color=line, line_width=width)
+
+    # The job
+
+    def fields(self) -> list[dict[str, Any]]:
+        return []
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        return {}, {}
+
+    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+        measured = self.measured
+        if measured is None:
+            raise ValueError(NOTHING)
+        scene = measured.scene(focused(editor.scene, editor.selected))
+
+        def work(job: Work) -> str:
+            return compute(job, measured, scene)
+
+        return work
+
+    def _take(self, found: Sized) -> None:
+        if self.measurement is not None:
+            self.measurement.sized = found
+        self._looked = None
+        super()._take(found)
+
+    @property
+    def sized(self) -> Sized | None:
+        """The answer, where it is one about the signal that is drawn."""
+        found = self.found
+        return found if found is not None and found.measured is self.measured else None
+
+    def _looked_at(self, message: Any) -> None:
+        sized = self.sized
+        index = message.get("look") if isinstance(message, dict) else None
+        if sized is None or not isinstance(index, int) or isinstance(index, bool):
+            return
+        if 0 <= index < len(sized.sizing.candidates):
+            self._looked = index
+            self._draw()
+
+    def candidate(self, sizing: Sizing) -> Candidate:
+        """The candidate that is looked at; the most probable one at first."""
+        return sizing.best if self._looked is None else sizing.candidates[self._looked]
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        sized = self.sized
+        if sized is None:
+            return self._nothing(), {}
+        sizing = sized.sizing
+        candidate = self.candidate(sizing)
+        measured = alike(sizing.passes, candidate.passes)
+        period = 1.0 / sizing.passes.frequency
+        times, first = pass_times(candidate, period)
+        curves = {
+            "measured": in_order(measured.waveform(SAMPLES, sizing.band.lowest), first),
+            "candidate": in_order(candidate.waveform(SAMPLES, sizing.band.lowest), first),
+        }
+        levels = {
+            "measured": decibels(measured.density),
+            "candidate": decibels(candidate.passes.density),
+        }
+        frequency = measured.harmonic_frequency
+        seen = (frequency >= sizing.band.lowest) & (frequency <= sizing.band.highest)
+        top = sizing.band.highest
+        sources = self._nothing() | edges(sizing, candidate, period)
+        ranges: Ranges = {
+            "sizing_time": (-BEFORE * period, (1.0 - BEFORE) * period),
+            "sizing_frequency": (0.0, top),
+        }
+        for column, dof in enumerate(sizing.recording.directions):
+            for who in ("measured", "candidate"):
+                sources[f"sizing_pass_{who}_{dof}"] = {
+                    "time": times,
+                    "size": curves[who][:, column],
+                }
+                sources[f"sizing_spectrum_{who}_{dof}"] = {
+                    "frequency": frequency[seen],
+                    "level": levels[who][seen, column],
+                }
+            sources[f"sizing_bands_{dof}"] = bands_of(candidate, dof, top)
+            ranges[f"sizing_pass_size_{dof}"] = with_head(
+                self._passes[dof], [curve[:, column] for curve in curves.values()], 0.3
+            )
+            level = levels["measured"][seen, column]
+            loudest = max(
+                float(np.nanmax(part[seen, column], initial=LEVEL_FLOOR))
+                for part in levels.values()
+            )
+            lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
+            head = 0.2 * (loudest - lowest)
+            ranges[f"sizing_level_{dof}"] = self._levels[dof].fit(
+                np.array([lowest, loudest + head])
+            )
+        return sources, ranges
+
+    def _nothing(self) -> Sources:
+        none = np.zeros(0)
+        bands = dict.fromkeys(("low", "high", "direction", "number", "label_at"), none)
+        sources: Sources = {
+            "sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none),
+            "sizing_knocks": {"time": none},
+        }
+        for dof in SHOWN:
+            for who in ("measured", "candidate"):
+                sources[f"sizing_pass_{who}_{dof}"] = {"time": none, "size": none}
+                sources[f"sizing_spectrum_{who}_{dof}"] = {"frequency": none, "level": none}
+            sources[f"sizing_bands_{dof}"] = bands
+        return sources
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        sized = self.sized
+        self._answer_part.visible = sized is not None
+        if sized is None:
+            return
+        self.status.line = status(sized)
+        self.candidates.rows = rows(sized)
+        looked = self.candidate(sized.sizing)
+        self.candidates.looked = next(
+            index for index, other in enumerate(sized.sizing.candidates) if other is looked
+        )
+        for dof, row in self._rows.items():
+            row.visible = dof in sized.measured.directions
+
+    def sentence(self, results: Results) -> str:
+        if self.measured is None:
+            return NOTHING
+        sized = self.sized
+        if sized is None:
+            return "The size has not been looked for yet."
+        words = sized.sizing.status
+        truth = sized.measured.true_extent
+        if truth is not None:
+            words += f" The signal is simulated: the true extent is {in_degrees(truth)}."
+        if not same_machine(
+            sized.scene, sized.measured.scene(focused(results.scene, results.focus))
+        ):
+            words += " The scene has changed since; this is the answer for the one before."
+        return words
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        sized = self.sized
+        if sized is None:
+            return {}
+        candidates = sized.sizing.candidates
+        table = {
+            "extent_deg": np.degrees([c.extent for c in candidates]),
+            "ball_spacings": np.array([c.turns for c in candidates]),
+            "probability": np.array([c.probability for c in candidates]),
+            "edge": np.array([c.edge for c in candidates]),
+            "waveform_misfit": np.array([c.waveform_misfit.mean() for c in candidates]),
+            "spectrum_misfit": np.array([c.spectrum_misfit.mean() for c in candidates]),
+        }
+        for name in candidates[0].factors:
+            table[f"{name}_factor"] = np.array([c.factors[name] for c in candidates])
+        return table
+
+
+def compute(job: Work, measured: Measured, scene: Scene) -> str:
+    """Size the defect. Runs in a job's thread."""
+    started = time.perf_counter()
+
+    def progress(share: float) -> None:
+        job.progress(share)
+        if job.cancelled():
+            raise Given
+
+    try:
+        sizing = size_defect(measured.recording, scene, progress=progress)
+    except Given:
+        return "There is no answer yet."
+    except ValueError as error:
+        raise ValueError(refusal(error)) from error
+    for candidate in sizing.candidates:
+        _ = candidate.bands  # here, and not while somebody waits for a drawing
+    job.show(Sized(measured, scene, sizing))
+    return f"Every extent from 1° to 110° was tried, in {time.perf_counter() - started:.1f} s."
+
+
+def status(sized: Sized) -> dict[str, Any]:
+    """How sure the answer is, in words and colour, with what it rests on."""
+    sizing = sized.sizing
+    best, events, passes = sizing.best, sizing.events, sizing.passes
+    scene = sized.scene
+    nominal = scene.bearing.bpfo(scene.shaft_speed)
+    off = 100.0 * (passes.frequency / nominal - 1.0)
+    side = "above" if off > 0.0 else "below"
+    spacing = math.degrees(scene.bearing.ball_spacing)
+    uncertainty = 1e3 * events.time_uncertainty
+    details = [
+        f"entry to exit Δt = {figures.number(1e3 * events.time_difference, 3)} ± "
+        f"{figures.number(uncertainty, 1)} ms",
+        f"ball spacing {figures.number(spacing, 3)}°",
+        f"{passes.n_passes} ball passes at {figures.number(passes.frequency, 4)} Hz"
+        + (f", {abs(off):.2f} % {side} BPFO" if abs(off) >= 0.01 else ""),
+    ]
+    if not sizing.conclusive:
+        return {"mood": "bad", "words": "The signal cannot tell", "details": details}
+    size = f"{in_degrees(best.extent)} ± {in_degrees(sizing.extent_uncertainty)}"
+    return {"mood": "good", "words": f"The defect extends over {size}", "details": details}
+
+
+def same_machine(one: Scene, other: Scene) -> bool:
+    """Whether two scenes are alike to the sizing, which does not look at extent and edge."""
+    try:
+        return one.replace(extent=0.5, edge="exact") == other.replace(extent=0.5, edge="exact")
+    except ValueError:
+        return False
+
+
+def alike(passes: BallPasses, candidate: BallPasses) -> BallPasses:
+    """The measured pass with no more harmonics than the simulated one."""
+    count = len(candidate.harmonics)
+    return dataclasses.replace(
+        passes, harmonics=passes.harmonics[:count], power=passes.power[:count]
+    )
+
+
+def pass_times(candidate: Candidate, period: float) -> tuple[NDArray[np.float64], int]:
+    """Times [s] of a drawn pass after a ball's entry, and the sample that it begins with."""
+    entry, _ = candidate.phases()
+    begin = entry / (2.0 * math.pi) - BEFORE
+    first = math.ceil(begin * SAMPLES - 1e-9)
+    times = (np.arange(SAMPLES) + first) / SAMPLES - entry / (2.0 * math.pi)
+    return times * period, first % SAMPLES
+
+
+def in_order(values: NDArray[np.float64], first: int) -> NDArray[np.float64]:
+    """A pass that begins with another of its samples."""
+    return np.roll(values, -first, axis=0)
+
+
+def edges(sizing: Sizing, candidate: Candidate, period: float) -> Sources:
+    """Where balls enter and leave by the candidate, and where the signal alone has its knocks."""
+    entry, leave = candidate.phases()
+
+    def place(phase: float) -> float:
+        turns = (phase - entry) / (2.0 * math.pi)
+        return ((turns + BEFORE) % 1.0 - BEFORE) * period
+
+    knocks = np.array([place(sizing.events.entry_phase), place(sizing.events.exit_phase)])
+    times = np.array([0.0, place(leave)])
+    late = times > (0.8 - BEFORE) * period
+    return {
+        "sizing_events": {
+            "time": times,
+            "exit": np.array([0.0, 1.0]),
+            "row": np.array([0.93, 0.82]),
+            "shift": np.where(late, -62.0, 4.0),
+        },
+        "sizing_knocks": {"time": knocks},
+    }
+
+
+def bands_of(candidate: Candidate, dof: str, top: float) -> dict[str, NDArray[np.float64]]:
+    """A candidate's natural-frequency bands along a direction, with places for their names."""
+    found = [
+        (low, high, figures.DIRECTIONS.index(dof), int(label[-1]))
+        for label, (low, high) in candidate.bands.items()
+        if label[:-1] == dof and math.isfinite(low)
+    ]
+    low, high, direction, number = np.array(found, dtype=float).reshape(-1, 4).T
+    place = spread(0.5 * (low + high), NAME_WIDTH * top, 0.0, top)
+    return {"low": low, "high": high, "direction": direction, "number": number, "label_at": place}

@@ -1,0 +1,124 @@
+// A measured signal: chosen or dropped as a file, sent in pieces, asked about; or simulated.
+export function render({ model }) {
+  const spec = model.spec
+  const make = (tag, attributes = {}, ...children) => {
+    const made = document.createElement(tag)
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+    made.append(...children)
+    return made
+  }
+  const select = (id, options) => make("select", { id },
+    ...options.map(([value, words]) => make("option", { value }, words)))
+  const labelled = (id, words, input, note = "") => make("div", { class: `field field-${id}` },
+    make("label", { for: id }, words), input, make("p", { class: "refusal", id: `${id}-refusal` }, note))
+
+  // Files: the server says where the next piece shall begin, so it is never asked to hold more.
+  const file = make("input", { type: "file", id: "measurement-file", accept: spec.accept })
+  const choose = make("label", { for: "measurement-file", class: "choose" }, "Choose a file …")
+  const bar = make("div", { class: "bar", role: "progressbar", "aria-label": "File on its way",
+    "aria-valuemin": "0", "aria-valuemax": "100", hidden: "" }, make("i"))
+  let sending = null
+  const begin = (chosen) => {
+    if (!chosen) return
+    sending = chosen.size <= spec.most ? chosen : null
+    far(0)
+    model.send_msg({ file: { name: chosen.name, size: chosen.size } })
+  }
+  const far = (share) => {
+    bar.hidden = !sending
+    bar.firstChild.style.width = `${100*share}%`
+    bar.setAttribute("aria-valuenow", String(Math.round(100*share)))
+  }
+  const send = async (from) => {
+    const source = sending
+    if (!source || from >= source.size) return
+    let piece
+    try {
+      piece = await source.slice(from, from + spec.piece).arrayBuffer()
+    } catch {
+      piece = null  // the file is gone or may not be read: the server says so
+    }
+    if (source !== sending) return
+    const sent = from + (piece?.byteLength ?? 0)
+    far(sent/source.size)
+    if (!piece || sent >= source.size) sending = null
+    model.send_msg({ piece })
+    if (!sending) setTimeout(() => far(1), 300)
+  }
+  file.addEventListener("change", () => {
+    begin(file.files[0])
+    file.value = ""  // so that the same file, mended, can be chosen again
+  })
+
+  // Simulated measurements, for those who have none.
+  const noise = select("measurement-noise", spec.noises)
+  const machine = select("measurement-machine", spec.machines)
+  const simulate = make("button", { type: "button", class: "start" }, "Simulate a measurement")
+  simulate.addEventListener("click", () =>
+    model.send_msg({ simulate: { noise: noise.value, machine: machine.value } }))
+
+  const own = make("section", { class: "way own", "aria-label": "A file of your own" },
+    make("h3", {}, "A file of your own"),
+    make("div", { class: "line" }, choose, file, bar),
+    make("p", { class: "note" }, spec.formats))
+  const made = make("section", { class: "way", "aria-label": "No file at hand" },
+    make("h3", {}, "No file at hand?"),
+    make("div", { class: "line" }, simulate,
+      labelled("measurement-noise", "Noise below it", noise),
+      labelled("measurement-machine", "Machine", machine)),
+    make("p", { class: "note" }, "Of the scene beside: its true extent is known and shown."))
+
+  // What the file does not say for sure.
+  const inputs = {
+    x: select("measurement-x", []), y: select("measurement-y", []),
+    unit: select("measurement-unit", spec.units),
+    full_scale: make("input", { type: "text", id: "measurement-full_scale", inputmode: "decimal", autocomplete: "off" }),
+    sample_rate: make("input", { type: "text", id: "measurement-sample_rate", inputmode: "decimal", autocomplete: "off" }),
+    shaft_speed: make("input", { type: "text", id: "measurement-shaft_speed", autocomplete: "off" }),
+  }
+  const words = { x: "Along x, sideways", y: "Along y, up", unit: "Unit",
+    full_scale: "1 in the file is", sample_rate: "Sample rate (Hz)", shaft_speed: "Shaft speed (Hz or rpm)" }
+  const fields = Object.fromEntries(Object.entries(inputs).map(([name, input]) =>
+    [name, labelled(`measurement-${name}`, words[name], input)]))
+  const form = make("form", { class: "asked", "aria-label": "What the file holds" }, ...Object.values(fields))
+  const answer = () => model.send_msg({ form: Object.fromEntries(
+    Object.entries(inputs).map(([name, input]) => [name, input.value])) })
+  form.addEventListener("change", answer)
+  form.addEventListener("submit", (event) => event.preventDefault())
+
+  const said = make("p", { class: "words", role: "status" })
+  const root = make("div", { class: "measurement" },
+    make("div", { class: "ways" }, own, made), form, said)
+
+  for (const kind of ["dragenter", "dragover"]) root.addEventListener(kind, (event) => {
+    event.preventDefault()
+    root.classList.add("over")
+  })
+  for (const kind of ["dragleave", "drop"]) root.addEventListener(kind, (event) => {
+    if (kind === "dragleave" && root.contains(event.relatedTarget)) return
+    event.preventDefault()
+    root.classList.remove("over")
+  })
+  root.addEventListener("drop", (event) => begin(event.dataTransfer?.files[0]))
+
+  const show = () => {
+    const { words: sentence, bad, busy, columns, values, refused, scaled } = model.state
+    if (said.textContent !== sentence) said.textContent = sentence
+    root.dataset.mood = bad ? "bad" : busy ? "busy" : "good"
+    form.hidden = !columns.length
+    for (const name of ["x", "y"])
+      inputs[name].replaceChildren(...columns.map(([value, text]) => new Option(text, value)))
+    for (const [name, input] of Object.entries(inputs)) {
+      if (values[name] !== undefined) input.value = values[name]
+      const wrong = refused[name] ?? ""
+      fields[name].querySelector(".refusal").textContent = wrong
+      input.setAttribute("aria-invalid", wrong ? "true" : "false")
+      input.setAttribute("aria-describedby", `measurement-${name}-refusal`)
+    }
+    fields.full_scale.hidden = !scaled && (values.full_scale ?? "1") === "1"
+  }
+  model.on("state", show)
+  model.on("msg:custom", (message) => { if (message.want !== undefined) send(message.want) })
+  show()
+  return root
+}

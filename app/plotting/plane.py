@@ -7,7 +7,7 @@ histogram, selected with the mouse, is what stays bright on the map.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -70,16 +70,11 @@ class Field:
         """One output of a sweep over two fields, in the units that it says."""
         if found.ndim != 2:
             raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
-        y, x = found.dims
-        axes = [
-            (str(name), _quantity(name, found[name].attrs), np.asarray(found[name], dtype=float))
-            for name in (x, y)
-        ]
-        values = np.asarray(found, dtype=float)
+        y, x = (_in_page_units(name, found[name]) for name in found.dims)
+        name, axis, values = _in_page_units(found.name, found)
         reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
-        middle = (float(axes[0][2].mean()), float(axes[1][2].mean()))
-        value = (str(found.name), _quantity(found.name, found.attrs))
-        return cls(axes[0], axes[1], value, values, reasons, middle)
+        middle = (float(x[2].mean()), float(y[2].mean()))
+        return cls(x, y, (name, axis), values, reasons, middle)
 
     @property
     def dimensions(self) -> tuple[hv.Dimension, hv.Dimension, hv.Dimension]:
@@ -97,11 +92,16 @@ class Field:
         return sides[0][0], sides[1][0], sides[0][1], sides[1][1]
 
 
-def _quantity(name: Any, attrs: Mapping[Any, Any]) -> AxisQuantity:
-    unit = str(attrs.get("units", ""))
+def _in_page_units(name: Any, given: DataArray) -> tuple[str, AxisQuantity, NDArray[np.float64]]:
+    """Name of a dimension, its axis and its values: SI units as they are, angles in degrees."""
+    unit = str(given.attrs.get("units", ""))
+    values = np.asarray(given, dtype=float)
     words = str(name).replace("_", " ")
-    prefixed = unit not in ("", "1", "rad", "kg", "kg·m²")
-    return AxisQuantity(words[0].upper() + words[1:], "", "" if unit == "1" else unit, prefixed)
+    words = words[0].upper() + words[1:]
+    if unit == "rad":
+        return f"{name}_deg", AxisQuantity(words, "", "°"), np.degrees(values)
+    prefixed = unit not in ("", "1", "kg", "kg·m²")
+    return str(name), AxisQuantity(words, "", "" if unit == "1" else unit, prefixed), values
 
 
 class Section(Link):

@@ -51,6 +51,7 @@ class Axes:
             figure.toolbar.autohide = True
             figure.toolbar.logo = None
             figure.outline_line_color = None
+            figure.background_fill_color = figure.border_fill_color = figures.PAPER
             figure.title.text_font = figures.FONT
             figure.title.text_font_size = figures.TEXT_SIZE
             figure.title.text_font_style = "normal"

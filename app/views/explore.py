@@ -326,10 +326,10 @@ class _Marks:
         figure.name = "explore_map"
         figure.stylesheets = [":host { cursor: crosshair; }"]
         figure.quad(
-            "left", "right", "top", "bottom", source=self._old, fill_color="white",
+            "left", "right", "top", "bottom", source=self._old, fill_color=figures.PAPER,
             fill_alpha="alpha", line_color=None, level="overlay",
         )  # fmt: skip
-        for color, width in (("white", 5.0), (figures.INK, 2.0)):
+        for color, width in ((figures.LIGHT, 5.0), (figures.SHADE, 2.0)):
             figure.scatter(
                 "x", "y", source=self._mark, size=15, fill_color=None, line_color=color,
                 line_width=width, level="overlay",

@@ -17,6 +17,7 @@ from app.views.bearing import BearingDrawing
 from app.views.bearing_editor import BearingEditor
 from app.views.depth_profile import DepthProfile
 from app.views.dof_comparison import DofDifferences
+from app.views.explore import ExplorePlane
 from app.views.load_distribution import LoadDistribution
 from app.views.maps import StiffnessMaps
 from app.views.model_editor import ModelEditor
@@ -39,6 +40,7 @@ SECTIONS = (
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
+    Section("explore", "Explore", (ExplorePlane,)),
     Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
     Section("bearing", "Bearing", (BearingEditor,)),
     Section("model", "Model", (ModelEditor, DofDifferences)),

@@ -48,8 +48,8 @@ SHORTEST, LONGEST = 1.0, 5.0  # [s]
 SETTLING = 0.3  # [s] before a simulated measurement begins
 
 FIRST_WORDS = (
-    "No signal yet. Choose a file with the acceleration of the housing, or simulate a measurement "
-    "of the scene beside."
+    "No signal yet: choose a file with the acceleration of the housing, or simulate one of the "
+    "scene beside."
 )
 
 #: two files at a time are read, whoever brings them: reading takes memory, and the threads that

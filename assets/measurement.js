@@ -53,7 +53,7 @@ export function render({ model }) {
   // Simulated measurements, for those who have none.
   const noise = select("measurement-noise", spec.noises)
   const machine = select("measurement-machine", spec.machines)
-  const simulate = make("button", { type: "button", class: "start" }, "Simulate a measurement")
+  const simulate = make("button", { type: "button", class: "start" }, "Simulate a signal")
   simulate.addEventListener("click", () =>
     model.send_msg({ simulate: { noise: noise.value, machine: machine.value } }))
 

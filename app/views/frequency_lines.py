@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from app.views import figures
+from app.views.measured_view import write_over
 from app.wire import Wire
 from bearingcore import Scene
 
@@ -108,8 +108,6 @@ class FrequencyLines:
     def __init__(self, wire: Wire, prefix: str, plots: Sequence[figure], height: float) -> None:
         self._prefix = prefix
         self._row = ROW_PIXELS / height
-        for plot in plots:
-            plot.extra_y_ranges["names"] = Range1d(0.0, 1.0, syncable=False)
         for family in FAMILIES:
             lines = wire.source(f"{prefix}_{family.name}", "frequency")
             names = wire.source(
@@ -122,12 +120,7 @@ class FrequencyLines:
                     "frequency", source=lines, line_color=family.color, line_alpha=0.6,
                     line_dash=family.dash, line_width=1.1, level="underlay",
                 )  # fmt: skip
-                plot.text(
-                    "frequency", "row", y_range_name="names", text=words, source=names, x_offset=3,
-                    text_baseline="middle", text_font={"value": figures.FONT},
-                    text_font_size=figures.SMALL_TEXT_SIZE, text_color=family.ink,
-                    background_fill_color="white", background_fill_alpha=0.85, level="annotation",
-                )  # fmt: skip
+                write_over(plot, names, words, "frequency", "row", family.ink, x_offset=3)
 
     def head_room(self, shown: Sequence[str]) -> float:
         """Share of the frame's height that the names take."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from bokeh.models import Range1d
 from bokeh.plotting import figure
 
 from app.measured import Measured, Simulated
@@ -13,7 +12,7 @@ from app.quantities import refusal
 from app.views import figures
 from app.views.base import Sources
 from app.views.frequency_view import ALONG, LINES, RESOLUTIONS, SCALE, FrequencyView, Look, Shown
-from app.views.measured_view import NOTHING
+from app.views.measured_view import NOTHING, write_over
 from app.views.modes import BAND_WORDS, band_rows, spread
 from app.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
 from app.wire import Wire
@@ -53,18 +52,12 @@ class MeasuredSpectrum(FrequencyView):
             )
             color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
             for plot in plots:
-                plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
                 plot.vstrip(
                     "low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None,
                     level="underlay",
                 )  # fmt: skip
-                plot.text(
-                    "label_at", 0.05, y_range_name="rows", source=bands,
-                    text=figures.words_of(bands, BAND_WORDS), text_align="center",
-                    text_baseline="middle", text_font={"value": figures.FONT},
-                    text_font_size=figures.SMALL_TEXT_SIZE, text_color=color,
-                    background_fill_color="white", background_fill_alpha=0.85, level="annotation",
-                )  # fmt: skip
+                words = figures.words_of(bands, BAND_WORDS)
+                write_over(plot, bands, words, "label_at", 0.05, color, text_align="center")
 
     def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
         columns = ("low", "high", "direction", "number", "label_at")

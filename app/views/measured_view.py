@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import param
+from bokeh.models import ColumnDataSource, CustomJSExpr, Range1d
+from bokeh.plotting import figure
 from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
@@ -20,7 +22,27 @@ if TYPE_CHECKING:
 MEASURED = figures.INK
 """Colour of what was measured, where something simulated stands beside it."""
 
-NOTHING = "There is no signal yet: choose a file or simulate a measurement above."
+
+def write_over(
+    plot: figure,
+    source: ColumnDataSource,
+    words: CustomJSExpr,
+    x: str,
+    row: str | float,
+    color: str,
+    **style: Any,
+) -> None:
+    """Write names into a figure; `row` is where, as a share of the frame's height."""
+    plot.extra_y_ranges.setdefault("rows", Range1d(0.0, 1.0, syncable=False))
+    plot.text(
+        x, row, y_range_name="rows", source=source, text=words, text_color=color,
+        text_baseline="middle", text_font={"value": figures.FONT},
+        text_font_size=figures.SMALL_TEXT_SIZE, background_fill_color=figures.PAPER,
+        background_fill_alpha=0.85, level="annotation", **style,
+    )  # fmt: skip
+
+
+NOTHING = "There is no signal yet: choose a file or simulate one above."
 
 
 class MeasuredView(View):

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import panel as pn
 import param
-from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 from panel.custom import JSComponent
@@ -20,7 +19,7 @@ from app.measurement import MACHINES, NOISES, Measurement, MeasurementState
 from app.upload import MOST_BYTES, PIECE
 from app.views import figures
 from app.views.base import Ranges, Sources
-from app.views.measured_view import MeasuredView
+from app.views.measured_view import MeasuredView, write_over
 from app.views.sticky_range import StickyRange
 from app.views.vibration_spectrum import SHOWN
 from app.wire import Wire
@@ -115,14 +114,9 @@ class MeasuredSignal(MeasuredView):
 
     def _mark_events(self, wire: Wire, plot: figure) -> None:
         events = wire.source("measurement_events", *_EVENT_COLUMNS)
-        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
         plot.vspan("time", source=events, line_color=figures.INK, line_alpha=0.55, line_width=1.0)
-        plot.text(
-            "time", "row", y_range_name="rows", text=figures.words_of(events, _EDGE_WORDS),
-            source=events, x_offset=3, text_baseline="middle", text_font={"value": figures.FONT},
-            text_font_size=figures.SMALL_TEXT_SIZE, text_color=figures.INK,
-            background_fill_color="white", background_fill_alpha=0.85, level="annotation",
-        )  # fmt: skip
+        words = figures.words_of(events, _EDGE_WORDS)
+        write_over(plot, events, words, "time", "row", figures.INK, x_offset=3)
 
     def measure(self, measurement: Measurement) -> None:
         super().measure(measurement)

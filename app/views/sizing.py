@@ -23,8 +23,9 @@ from app.sweep import focused
 from app.views import figures
 from app.views.base import Ranges, Sources
 from app.views.candidates import CandidateList, in_degrees, rows
+from app.views.frequency_lines import FAMILIES
 from app.views.job_view import JobView
-from app.views.measured_view import MEASURED, NOTHING, MeasuredView
+from app.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from app.views.measurement import with_head
 from app.views.modes import BAND_WORDS, spread
 from app.views.status import StatusLine
@@ -72,6 +73,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     def build(self, wire: Wire) -> Any:
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self.candidates = CandidateList(self._looked_at)
         self._looked: int | None = None
         self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
@@ -79,7 +81,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         seconds = wire.range("sizing_time", 0.0, 0.03)
         frequency = wire.range("sizing_frequency", 0.0, 2500.0)
         events = wire.source("sizing_events", "time", "exit", "row", "shift")
-        knocks = wire.source("sizing_knocks", "time")
+        knocks = wire.source("sizing_knocks", "time", "shift")
         self._rows = {}
         for dof in SHOWN:
             self._rows[dof] = pn.Row(
@@ -105,28 +107,19 @@ class DefectSize(JobView[Sized], MeasuredView):
         self, wire: Wire, dof: str, seconds: Range1d, events: Any, knocks: Any
     ) -> figure:
         plot = figures.house_figure(
-            figures.AxisQuantity("Time after a ball's entry", "t", "s", prefixed=True),
+            figures.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
             figures.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
             seconds,
             wire.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
             height=HEIGHT,
             title=f"Mean ball pass along {dof}",
         )
-        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
         plot.vspan("time", source=knocks, line_color=figures.DEFECT, line_width=5, line_alpha=0.28)
-        plot.text(
-            "time", 0.06, y_range_name="rows", text=figures.words_of(knocks, _KNOCK_WORDS),
-            source=knocks, x_offset=5, text_baseline="middle", text_font={"value": figures.FONT},
-            text_font_size=figures.SMALL_TEXT_SIZE, text_color="#8A5A00", level="annotation",
-        )  # fmt: skip
+        words = figures.words_of(knocks, _KNOCK_WORDS)
+        write_over(plot, knocks, words, "time", 0.06, FAMILIES[0].ink, x_offset="shift")
         plot.vspan("time", source=events, line_color=figures.INK, line_width=1.0, line_alpha=0.7)
-        plot.text(
-            "time", "row", y_range_name="rows", text=figures.words_of(events, _EDGE_WORDS),
-            source=events, x_offset="shift", text_align="left", text_baseline="middle",
-            text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
-            text_color=figures.INK, background_fill_color="white", background_fill_alpha=0.85,
-            level="annotation",
-        )  # fmt: skip
+        words = figures.words_of(events, _EDGE_WORDS)
+        write_over(plot, events, words, "time", "row", figures.INK, x_offset="shift")
         self._curves(wire, plot, dof, "pass", "time", "size")
         return plot
 
@@ -139,17 +132,11 @@ class DefectSize(JobView[Sized], MeasuredView):
             height=HEIGHT,
             title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
         )
-        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
         color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
         bands = wire.source(f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at")
         plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
-        plot.text(
-            "label_at", 0.93, y_range_name="rows", text=figures.words_of(bands, BAND_WORDS),
-            source=bands, text_align="center", text_baseline="middle",
-            text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
-            text_color=color, background_fill_color="white", background_fill_alpha=0.85,
-            level="annotation",
-        )  # fmt: skip
+        words = figures.words_of(bands, BAND_WORDS)
+        write_over(plot, bands, words, "label_at", 0.93, color, text_align="center")
         self._curves(wire, plot, dof, "spectrum", "frequency", "level")
         return plot
 
@@ -157,7 +144,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         self, wire: Wire, plot: figure, dof: str, what: str, along: str, value: str
     ) -> None:
         color = figures.DIRECTION_COLORS[figures.DIRECTIONS.index(dof)]
-        for who, line, width in (("candidate", color, 2.4), ("measured", MEASURED, 1.2)):
+        for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
             source = wire.source(f"sizing_{what}_{who}_{dof}", along, value)
             plot.line(along, value, source=source, line_color=line, line_width=width)
 
@@ -215,7 +202,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         candidate = self.candidate(sizing)
         measured = alike(sizing.passes, candidate.passes)
         period = 1.0 / sizing.passes.frequency
-        times, first = pass_times(candidate, period)
+        entry, _ = sizing.best.phases()  # time 0 for all, so that what was measured stays put
+        times, first = pass_times(entry, period)
         curves = {
             "measured": in_order(measured.waveform(SAMPLES, sizing.band.lowest), first),
             "candidate": in_order(candidate.waveform(SAMPLES, sizing.band.lowest), first),
@@ -227,7 +215,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         frequency = measured.harmonic_frequency
         seen = (frequency >= sizing.band.lowest) & (frequency <= sizing.band.highest)
         top = sizing.band.highest
-        sources = self._nothing() | edges(sizing, candidate, period)
+        sources = self._nothing() | edges(sizing, candidate, entry, period)
         ranges: Ranges = {
             "sizing_time": (-BEFORE * period, (1.0 - BEFORE) * period),
             "sizing_frequency": (0.0, top),
@@ -263,7 +251,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         bands = dict.fromkeys(("low", "high", "direction", "number", "label_at"), none)
         sources: Sources = {
             "sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none),
-            "sizing_knocks": {"time": none},
+            "sizing_knocks": {"time": none, "shift": none},
         }
         for dof in SHOWN:
             for who in ("measured", "candidate"):
@@ -381,9 +369,8 @@ def alike(passes: BallPasses, candidate: BallPasses) -> BallPasses:
     )
 
 
-def pass_times(candidate: Candidate, period: float) -> tuple[NDArray[np.float64], int]:
-    """Times [s] of a drawn pass after a ball's entry, and the sample that it begins with."""
-    entry, _ = candidate.phases()
+def pass_times(entry: float, period: float) -> tuple[NDArray[np.float64], int]:
+    """Times [s] of a drawn pass and the sample it begins with; a ball enters at phase `entry`."""
     begin = entry / (2.0 * math.pi) - BEFORE
     first = math.ceil(begin * SAMPLES - 1e-9)
     times = (np.arange(SAMPLES) + first) / SAMPLES - entry / (2.0 * math.pi)
@@ -395,25 +382,31 @@ def in_order(values: NDArray[np.float64], first: int) -> NDArray[np.float64]:
     return np.roll(values, -first, axis=0)
 
 
-def edges(sizing: Sizing, candidate: Candidate, period: float) -> Sources:
-    """Where balls enter and leave by the candidate, and where the signal alone has its knocks."""
-    entry, leave = candidate.phases()
+def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> Sources:
+    """Where balls enter and leave by the candidate, and where the signal alone has its knocks.
 
-    def place(phase: float) -> float:
-        turns = (phase - entry) / (2.0 * math.pi)
-        return ((turns + BEFORE) % 1.0 - BEFORE) * period
+    Time 0 is at the phase `entry`.
+    """
 
-    knocks = np.array([place(sizing.events.entry_phase), place(sizing.events.exit_phase)])
-    times = np.array([0.0, place(leave)])
-    late = times > (0.8 - BEFORE) * period
+    def places(*phases: float) -> NDArray[np.float64]:
+        turns = (np.array(phases) - entry) / (2.0 * math.pi)
+        # rounding must not send the very phase of the entry around
+        return ((turns + BEFORE + 1e-9) % 1.0 - BEFORE - 1e-9) * period
+
+    def shift(times: NDArray[np.float64], width: float) -> NDArray[np.float64]:
+        """Names at the right end stand left of their lines [px]."""
+        return np.where(times > (0.8 - BEFORE) * period, -width, 4.0)
+
+    times = places(*candidate.phases())
+    knocks = places(sizing.events.entry_phase, sizing.events.exit_phase)
     return {
         "sizing_events": {
             "time": times,
             "exit": np.array([0.0, 1.0]),
             "row": np.array([0.93, 0.82]),
-            "shift": np.where(late, -62.0, 4.0),
+            "shift": shift(times, 66.0),
         },
-        "sizing_knocks": {"time": knocks},
+        "sizing_knocks": {"time": knocks, "shift": shift(knocks, 40.0)},
     }
 
 

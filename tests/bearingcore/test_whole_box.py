@@ -220,6 +220,20 @@ CORNERS = {
         ),
         kernels.NOT_CARRIED,
     ),
+    "a moment alone, and a ball across it that touches by rounding only": (
+        PLAIN._replace(
+            n_balls=4,
+            groove_center_distance=5e-6,
+            load_deflection_factor=5e10,
+            extent=4.8,
+            center=9.2,
+            depth=0.5,
+            loads=(0.0, 0.0, 0.0, -0.025, 0.0),
+            dofs=("rx",),
+            cage_angle=0.75 * TURN,
+        ),
+        kernels.CONVERGED,
+    ),
     "an inner race smaller than its balls, which never reach the floor": (
         PLAIN._replace(
             n_balls=2, ball_size=1.0, race="inner", edge="exact", extent=TURN / 2, depth=1.0

@@ -9,6 +9,7 @@ import signal
 import sys
 import time
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 
@@ -37,6 +38,12 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument(
         "--root-path", default="", help="path in front of the page behind a proxy, such as /lab"
     )
+    parser.add_argument(
+        "--lessons",
+        type=Path,
+        metavar="DIR",
+        help="folder with lessons of your own (*.md), instead of those that come along",
+    )
     return parser.parse_args(arguments)
 
 
@@ -51,8 +58,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Loading the page ...")
     import panel as pn
 
-    from app.page import page
+    from app.lessons import faults_in
+    from app.page import TABS, page
 
+    for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
+        _say(f"Lessons: {sentence}")
     _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
     import bearingcore
 
@@ -67,7 +77,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     try:
         server = pn.serve(
-            {"/": page},
+            {"/": lambda: page(chosen.lessons)},
             port=chosen.port,
             address=chosen.address,
             title="Bearing explorer",

@@ -18,6 +18,7 @@ from app.assets import asset_text
 from app.controls import Controls, Rows
 from app.jobs import Jobs
 from app.keeping import Keeping, asked_for, read_asked
+from app.lessons import Fault, Lesson
 from app.live import LatestWins, in_thread, one_message, send_at_once
 from app.planning import Rest, with_choices
 from app.quantities import Values
@@ -29,6 +30,7 @@ from app.views.accuracy import Accuracy
 from app.views.base import Ranges, Sources, View
 from app.views.control_view import ControlView
 from app.views.job_view import JobView
+from app.views.lesson import LessonPanel
 from app.views.limits import LimitsStrip, rows_of
 from app.views.plan_choice import PlanChoice
 from app.views.share import ShareBar
@@ -51,11 +53,12 @@ _BROKEN = "This could not be computed; what is shown belongs to an earlier posit
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page that is on screen as a whole: a tab."""
+    """A part of the page that is on screen as a whole: a tab; those of a group stand together."""
 
     name: str
     title: str
     views: tuple[type[View], ...]
+    group: str = ""
 
     @property
     def plans(self) -> tuple[str, ...]:
@@ -119,7 +122,11 @@ class Explorer:
     """A session. `page.py` puts its parts on a page; the browser's messages arrive here."""
 
     def __init__(
-        self, sections: Sequence[Section], preset: str = "fan-rig", address: str = ""
+        self,
+        sections: Sequence[Section],
+        preset: str = "fan-rig",
+        address: str = "",
+        lessons: Sequence[Lesson | Fault] = (),
     ) -> None:
         """`address`: what stands behind the question mark, from strangers too."""
         self.wire = Wire()
@@ -143,6 +150,7 @@ class Explorer:
         self.editor = SceneEditor(preset)
         self.keeping = Keeping(self.editor, address)
         self.share = ShareBar(self._share_asked, state=self.keeping.state())
+        self.lesson = LessonPanel(self._lesson_asked, lessons)
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
         one_line = ["one-line"]
@@ -153,7 +161,7 @@ class Explorer:
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.tabs = Tabs(
             self._tab_asked,
-            names=[[section.name, section.title] for section in sections],
+            names=[[section.name, section.title, section.group] for section in sections],
             active=self._shown,
         )
         self.main = pn.Column(sizing_mode="stretch_width", margin=0)
@@ -338,6 +346,17 @@ class Explorer:
             news["state"] = {**news["state"], "mark": self._mark}
         for panel in self._panels:
             panel.tell(**news)
+
+    def _lesson_asked(self, message: Any) -> None:
+        """A lesson begins, or a button among its words is pressed."""
+        if not isinstance(message, dict):
+            return
+        lesson = self.lesson.begin(message.get("lesson"))
+        if lesson is not None:
+            lesson.begin(self.editor)
+            self._tell(state=self.editor.state())
+        self._tab_asked(message if lesson is None else {"show": lesson.tab})
+        self._asked(message)  # the mark, and what a button changes
 
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None

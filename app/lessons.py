@@ -173,6 +173,11 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     return found
 
 
+def faults_in(folder: Path, tabs: Tabs) -> list[str]:
+    """What is wrong with the lessons of a folder, a sentence for each file."""
+    return [found.sentence for found in lessons_in(folder, tabs) if isinstance(found, Fault)]
+
+
 def _no_lessons(folder: Path, why: str) -> Fault:
     return _fault(str(folder), f"the folder {why}")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from functools import cache
+from pathlib import Path
 from urllib.parse import urlencode
 
 import panel as pn
@@ -12,6 +13,7 @@ import bearingcore
 from app import compiling
 from app.assets import asset_text
 from app.explorer import Explorer, Section
+from app.lessons import Tabs, lessons_in, own_folder
 from app.views.accuracy import Accuracy
 from app.views.bearing import BearingDrawing
 from app.views.bearing_editor import BearingEditor
@@ -27,6 +29,7 @@ from app.views.plan import PlanInFull
 from app.views.speed_run import SpeedRunSpectra
 from app.views.stability_map import OrbitStability
 from app.views.stiffness import Stiffness
+from app.views.theme import dark_properties, themes
 from app.views.vibration_spectrum import VibrationSpectra
 from app.views.vibration_time import VibrationInTime
 
@@ -60,13 +63,22 @@ def address() -> str:
     return urlencode([(name, value) for name, values in given.items() for value in values])
 
 
-def page() -> pn.Template:
-    """The page of a new session."""
+TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
+"""Names of the tabs and of their views, as lessons speak of them."""
+
+
+def page(lessons: Path | None = None) -> pn.Template:
+    """The page of a new session; `lessons` is a folder with somebody's own."""
     compiling.begin()
-    explorer = Explorer(SECTIONS, address=address())
+    known = lessons_in(lessons or own_folder(), TABS)
+    explorer = Explorer(SECTIONS, address=address(), lessons=known)
     template = pn.Template(asset_text("page.html"))
-    template.add_variable("style", asset_text("page.css"))
+    template.add_variable("style", asset_text("page.css") + dark_properties())
     template.add_variable("logo", asset_text("logo.svg"))
+    template.add_variable("themes", themes())
+    template.add_variable("theme_script", asset_text("theme.js"))
+    template.add_variable("page_script", asset_text("page.js"))
+    template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)
     side = pn.Column(explorer.share, explorer.controls, sizing_mode="stretch_width", margin=0)
     template.add_panel("controls", side)

@@ -42,6 +42,11 @@ export function render({ model }) {
       last = performance.now()
       if (playing) requestAnimationFrame(turn)
     })
+    const heard = () => {  // the space bar, see page.js
+      if (button.isConnected) button.click()
+      else window.removeEventListener("explorer-play", heard)
+    }
+    window.addEventListener("explorer-play", heard)
     show()
     return button
   }
@@ -133,6 +138,32 @@ export function render({ model }) {
     form.append(box)
   }
   if (rows[spec.turning]) rows[spec.turning].line.prepend(play(spec.turning))
+
+  // With a lesson only the controls that it speaks of, and all others when asked for.
+  const all = element("button", { type: "button", class: "all", "aria-expanded": "false" })
+  form.append(all)
+  let named = null, whole = false
+  const put_aside = () => {
+    const few = named !== null && named.length > 0 && !whole
+    const shown = (name) => !few || named.includes(name)
+    for (const [name, { root }] of [...Object.entries(rows), ...Object.entries(panel.selects)])
+      root.classList.toggle("put-aside", !shown(name))
+    for (const box of form.querySelectorAll("fieldset"))
+      box.classList.toggle("put-aside", few && !box.querySelector(".control:not(.put-aside), .choice:not(.put-aside)"))
+    form.classList.toggle("few", few)
+    all.hidden = named === null
+    all.textContent = few ? "All controls" : "Only those of the lesson"
+    all.setAttribute("aria-expanded", String(!few))
+  }
+  all.addEventListener("click", () => { whole = !whole; put_aside() })
+  const lesson = (event) => {
+    if (!form.isConnected) return window.removeEventListener("explorer-lesson", lesson)
+    named = event.detail?.drag ?? null
+    whole = false
+    put_aside()
+  }
+  window.addEventListener("explorer-lesson", lesson)
+  put_aside()
   take(model.state)
   panel.listen(take)
   return form

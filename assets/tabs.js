@@ -1,36 +1,56 @@
-// Tabs. Arrow keys move between them, as people who use the keyboard expect.
+// Tabs in groups, as many rows as they need; where there is little room, a list to choose from.
+// Arrow keys move between tabs, as people who use the keyboard expect.
 export function render({ model }) {
-  const list = document.createElement("div")
-  list.setAttribute("role", "tablist")
-  list.setAttribute("aria-label", "What to look at")
-  const tabs = model.names.map(([name, title]) => {
-    const tab = document.createElement("button")
-    tab.type = "button"
-    tab.textContent = title
-    tab.className = `tab-${name}`
-    tab.dataset.name = name
-    tab.setAttribute("role", "tab")
-    tab.addEventListener("click", () => show(name, true))
-    return tab
-  })
+  const make = (tag, attributes = {}, ...children) => {
+    const made = document.createElement(tag)
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+    made.append(...children)
+    return made
+  }
   const show = (name, ask) => {
     for (const tab of tabs) {
       const chosen = tab.dataset.name === name
       tab.setAttribute("aria-selected", String(chosen))
       tab.tabIndex = chosen ? 0 : -1
     }
+    select.value = name
     if (ask) model.send_msg({ show: name })
   }
+  const groups = []
+  for (const [name, title, group = ""] of model.names) {
+    if (!groups.length || (group && group !== groups.at(-1).group)) groups.push({ group, entries: [] })
+    groups.at(-1).entries.push([name, title])
+  }
+  const tabs = []
+  const list = make("div", { class: "tabs", role: "tablist", "aria-label": "What to look at" },
+    ...groups.map(({ entries }) => make("div", { class: "group", role: "presentation" },
+      ...entries.map(([name, title]) => {
+        const tab = make("button", { type: "button", class: `tab-${name}`, role: "tab" }, title)
+        tab.dataset.name = name
+        tab.addEventListener("click", () => show(name, true))
+        tabs.push(tab)
+        return tab
+      }))))
+  const select = make("select", { "aria-label": "What to look at" },
+    ...groups.map(({ group, entries }) => {
+      const options = entries.map(([name, title]) => make("option", { value: name }, title))
+      return group ? make("optgroup", { label: group }, ...options) : options
+    }).flat())
+  select.addEventListener("change", () => show(select.value, true))
+
   list.addEventListener("keydown", (event) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key]
-    if (!step) return
     const at = tabs.findIndex((tab) => tab.getAttribute("aria-selected") === "true")
-    const next = tabs[(at + step + tabs.length) % tabs.length]
+    const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key]
+    if (to === undefined) return
+    event.preventDefault()
+    const next = tabs[(to + tabs.length) % tabs.length]
     next.focus()
     next.click()
   })
-  list.append(...tabs)
-  model.on("active", () => show(model.active, false))
+  model.on("active", () => {
+    show(model.active, false)
+    window.dispatchEvent(new CustomEvent("explorer-tab", { detail: model.active }))
+  })
   show(model.active, false)
-  return list
+  return make("div", {}, list, select)
 }

@@ -550,8 +550,8 @@ def legend(result: Experiment | StabilityChart | None) -> str:
             items.append((color, MARKERS[marker], f"{method}: {why}" if why else method))
     font = f"font:12.5px/1.45 {figures.FONT}".replace('"', "'")
     spans = "".join(
-        f'<span><span style="color:{color}" aria-hidden="true">{sign}</span> {html.escape(words)}'
-        "</span>"
+        f'<span><span style="color:{figures.css_color(color)}" aria-hidden="true">{sign}</span>'
+        f" {html.escape(words)}</span>"
         for color, sign, words in items
     )
     style = f"{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"

@@ -32,7 +32,9 @@ DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
 # pale to dark, even steps to the eye, told apart by colour-blind eyes and in grey print
 LOAD_PALETTE = list(magma(256))[40:246][::-1]
-IDLE_BALL = "#FFFFFF"
+DARK_LOAD_PALETTE = list(magma(256))[62:]
+INKS = [figures.INK, figures.PAPER]
+IDLE_BALL = figures.PAPER
 NO_VALUE = "#C9CED4"
 
 _LOAD_WORDS = """
@@ -88,7 +90,7 @@ class BearingDrawing(View):
             syncable=False,
         )
         inks = LinearColorMapper(
-            palette=[figures.INK, "#FFFFFF"],
+            palette=INKS,
             low=0.0,
             high=load.end,
             nan_color=figures.INK,

@@ -27,6 +27,8 @@ from app.views.figures import (
     FAINT_INK,
     FONT,
     INK,
+    LIGHT,
+    SHADE,
     STEEL_EDGE,
     bare_figure,
     in_degrees,
@@ -473,11 +475,11 @@ def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:
     """Where the sliders stand: dark on light, so that it shows on every colour."""
-    for color, width, alpha in (("white", 3.0, 0.75), (INK, 1.0, 0.9)):
+    for color, width, alpha in ((LIGHT, 3.0, 0.75), (SHADE, 1.0, 0.9)):
         style = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
         plot.segment("x", "bottom", "x", "top", **style)
         plot.segment("left", "y", "right", "y", **style)
-    plot.scatter("x", "y", source=now, size=8, fill_color=DEFECT, line_color=INK)
+    plot.scatter("x", "y", source=now, size=8, fill_color=DEFECT, line_color=SHADE)
 
 
 def _hover(

@@ -162,7 +162,7 @@ class SpeedRunSpectra(JobView[Found]):
             "frequency", "speed", source=self._marched, marker="triangle", angle=-0.5 * math.pi,
             size=7, fill_color=figures.DEFECT, line_color=None, level="annotation",
         )  # fmt: skip
-        for color, width in (("white", 4.0), (figures.INK, 1.6)):
+        for color, width in ((figures.LIGHT, 4.0), (figures.SHADE, 1.6)):
             plot.hspan(y="speed", source=self._now, line_color=color, line_width=width)
         plot.add_layout(_bar(mapper, dof), "right")
         return plot, marks
@@ -173,28 +173,32 @@ class SpeedRunSpectra(JobView[Found]):
         )
         plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
         strips = plot.vstrip(
-            "low", "high", source=bands, fill_color="white", fill_alpha=0.13, line_color="white",
+            "low", "high", source=bands, fill_color=figures.LIGHT, fill_alpha=0.13,
+            line_color=figures.LIGHT,
             line_alpha=0.9, line_width=1.0,
         )  # fmt: skip
         names = plot.text(
             "label_at", 0.965, y_range_name="rows", text=figures.words_of(bands, BAND_WORDS),
             source=bands, text_align="center", text_baseline="middle",
             text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
-            text_color="white", background_fill_color=figures.INK, background_fill_alpha=0.6,
+            text_color=figures.LIGHT, background_fill_color=figures.SHADE,
+            background_fill_alpha=0.6,
             padding=2,
         )  # fmt: skip
         return [strips, names]
 
     def _mark_harmonics(self, plot: figure) -> list[GlyphRenderer]:
         lines = plot.line(
-            "frequency", "speed", source=self._harmonics, line_color="white", line_alpha=0.75,
+            "frequency", "speed", source=self._harmonics, line_color=figures.LIGHT,
+            line_alpha=0.75,
             line_width=1.0, line_dash=[5, 4],
         )  # fmt: skip
         names = plot.text(
             "frequency", "speed", text=figures.words_of(self._names, _HARMONIC_WORDS),
             source=self._names, text_align="center", text_baseline="top", y_offset=36,
             text_font={"value": figures.FONT}, text_font_size=figures.SMALL_TEXT_SIZE,
-            text_color="white", background_fill_color=figures.INK, background_fill_alpha=0.6,
+            text_color=figures.LIGHT, background_fill_color=figures.SHADE,
+            background_fill_alpha=0.6,
             padding=1,
         )  # fmt: skip
         return [lines, names]

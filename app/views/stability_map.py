@@ -126,11 +126,11 @@ class OrbitStability(JobView[Found]):
             "x1",
             "y1",
             source=wire.source("stability_border", "x0", "y0", "x1", "y1"),
-            line_color=figures.INK,
+            line_color=figures.SHADE,
             line_width=1.6,
         )
         mark = wire.source("stability_mark", "x", "y")
-        for color, width in (("white", 5.0), (figures.INK, 2.0)):
+        for color, width in ((figures.LIGHT, 5.0), (figures.SHADE, 2.0)):
             plot.scatter(
                 "x", "y", source=mark, size=15, fill_color=None, line_color=color, line_width=width,
                 level="annotation",

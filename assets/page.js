@@ -1,0 +1,66 @@
+// What belongs to the page as a whole: its buttons, its keys, and marks on figures that a lesson
+// speaks of. Runs when the page stands.
+{
+  const root = document.documentElement
+  const lessons = document.getElementById("lessons-button")
+  const theme = document.getElementById("theme-button")
+
+  lessons.addEventListener("click", () => window.dispatchEvent(new CustomEvent("explorer-lessons")))
+  const told = (lesson) => {
+    lessons.setAttribute("aria-expanded", String(lesson !== null))
+    mark(lesson?.watch ?? [])
+  }
+  window.addEventListener("explorer-lesson", (event) => told(event.detail))
+
+  const show_theme = () => {
+    const dark = window.explorer_theme.now === "dark"
+    theme.setAttribute("aria-pressed", String(dark))
+    theme.title = dark ? "Light colours" : "Dark colours"
+  }
+  theme.addEventListener("click", () => window.explorer_theme.turn())
+  window.addEventListener("explorer-theme", show_theme)
+  show_theme()
+
+  // Figures come and go with their tabs, each inside the shadow of another.
+  const inside = function* (where) {
+    for (const element of where.querySelectorAll("*")) {
+      yield element
+      if (element.shadowRoot) yield* inside(element.shadowRoot)
+    }
+  }
+  let marked = []
+  const mark = (views) => {
+    marked = views
+    for (const element of inside(document.querySelector("main")))
+      if (element.classList.contains("view"))
+        element.classList.toggle("watched",
+          marked.some((view) => element.classList.contains(`view-${view}`)))
+  }
+
+  // Space turns the bearing, unless something else has a use for it.
+  window.addEventListener("keydown", (event) => {
+    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.repeat) return
+    const at = event.composedPath()[0]
+    if (at instanceof Element && at.closest("textarea, select, button, summary, a[href], [contenteditable], "
+        + "input:not([type=range]), [role=dialog], .words")) return
+    event.preventDefault()
+    window.dispatchEvent(new CustomEvent("explorer-play"))
+  })
+
+  // Figures that come later are marked and coloured as they come.
+  const follow = () => {
+    window.explorer_theme.follow()
+    if (marked.length) mark(marked)
+  }
+  const begun = () => {
+    if (!window.Bokeh?.documents?.length) return setTimeout(begun, 30)
+    follow()
+    let shown = root.dataset.tab
+    window.addEventListener("explorer-tab", (event) => {
+      if (shown === event.detail) return
+      shown = event.detail
+      requestAnimationFrame(() => mark(marked))
+    })
+  }
+  begun()
+}

@@ -36,19 +36,19 @@ from app.views.vibration_time import VibrationInTime
 log = logging.getLogger(__name__)
 
 SECTIONS = (
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "At rest"),
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("modes", "Natural frequencies", (NaturalFrequencies,)),
-    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra), "In motion"),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("explore", "Explore", (ExplorePlane,)),
+    Section("explore", "Explore", (ExplorePlane,), "Tools"),
     Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
-    Section("bearing", "Bearing", (BearingEditor,)),
+    Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
     Section("model", "Model", (ModelEditor, DofDifferences)),
 )
-"""The tabs. What is not on the tab that is open is neither computed nor sent."""
+"""The tabs; a group goes on until the next begins. What is not on the tab that is open is neither computed nor sent."""
 
 
 @cache

@@ -22,7 +22,7 @@ export function render({ model }) {
     groups.at(-1).entries.push([name, title])
   }
   const tabs = []
-  const list = make("div", { class: "tabs", role: "tablist", "aria-label": "What to look at" },
+  const list = make("div", { class: "list", role: "tablist", "aria-label": "What to look at" },
     ...groups.map(({ entries }) => make("div", { class: "group", role: "presentation" },
       ...entries.map(([name, title]) => {
         const tab = make("button", { type: "button", class: `tab-${name}`, role: "tab" }, title)

@@ -23,6 +23,7 @@ from app.live import LatestWins, in_thread, one_message, send_at_once
 from app.planning import Rest, with_choices
 from app.quantities import Values
 from app.quantity_list import CAGE_ANGLE
+from app.reference import Reference
 from app.results import Results
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from app.settings import Settings
@@ -86,6 +87,7 @@ class Inputs:
     settings: Settings = field(default_factory=Settings)
     rested: bool = False
     planned: tuple[str, ...] = ()
+    pinned: Reference | None = None
 
     @property
     def results(self) -> Results:
@@ -97,6 +99,7 @@ class Inputs:
             self.focus,
             moving=not self.rested,
             planned=self.planned,
+            pinned=self.pinned,
         )
 
 
@@ -171,7 +174,14 @@ class Explorer:
     def inputs(self) -> Inputs:
         """What is to be drawn now."""
         angle = math.radians(self.values[CAGE_ANGLE])
-        return Inputs(self.scene, angle, self._mark, self.editor.focus, self._settings)
+        return Inputs(
+            self.scene,
+            angle,
+            self._mark,
+            self.editor.focus,
+            self._settings,
+            pinned=self.keeping.pinned,
+        )
 
     @property
     def scene(self) -> Scene:

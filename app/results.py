@@ -30,6 +30,7 @@ from app.excerpt import Excerpt, excerpt
 from app.planning import plan_for
 from app.profile import Profile, profile
 from app.quantities import defects_of
+from app.reference import Reference
 from app.settings import Marching, MotionPlanning, Settings
 from bearingcore.adaptive import simulate_adaptive
 from bearingcore.defect import RACES
@@ -118,6 +119,8 @@ def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int)
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
 shorter, or somebody's drag would fill the memory of everybody's server."""
+COARSE_STEPS = 0.45
+"""Part of the usual steps that is taken while a slider moves, where all of them take too long."""
 SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
@@ -141,8 +144,8 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     by_hand = how.step_rate
     rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
     if by_hand is None and how.coarse:
-        # as if the highest natural frequency were half as high: half as many steps to its period
-        rate = default_step_rate(scene, how.sample_rate, 0.5 * highest_natural_frequency(scene))
+        highest = COARSE_STEPS * highest_natural_frequency(scene)
+        rate = default_step_rate(scene, how.sample_rate, highest)
     duration = how.duration
     if rate is not None:
         duration = _affordable(duration, rate, by_hand is not None)
@@ -257,6 +260,7 @@ class Results:
     now, sound_now: at `cage_angle` alone (arrays of length 1)
     modes, sound_modes: over the same cage angles
     extent: of the defect looked at [rad]
+    sound_all_around: like sound_equilibrium, over all that a pinned scene does
     maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
@@ -302,14 +306,37 @@ class Results:
         *,
         moving: bool = False,
         planned: tuple[str, ...] = (),
+        pinned: Reference | None = None,
     ) -> None:
-        """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`."""
+        """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
+
+        `pinned`: what the attributes that begin with ``sound_`` are of, instead of the scene
+        without its defect.
+        """
         self.scene = scene
         self.cage_angle = cage_angle
         self.settings = settings or Settings()
         self.focus = focus
         self.moving = moving
         self.planned = planned
+        self.pinned = pinned
+
+    @property
+    def beside(self) -> Scene:
+        """What is drawn in grey beside the scene: a pinned one, or itself without its defect."""
+        return self.scene.sound() if self.pinned is None else self.pinned.scene
+
+    @property
+    def beside_words(self) -> str:
+        """What it is called before its numbers; nothing where it is the scene itself."""
+        if self.pinned is not None:
+            return self.pinned.words
+        return "without the defect" if self.scene.defects else ""
+
+    @property
+    def beside_name(self) -> str:
+        """What it is called in the names of columns."""
+        return "sound" if self.pinned is None else "pinned"
 
     @property
     def over_shaft(self) -> bool:
@@ -397,7 +424,17 @@ class Results:
     @cached_property
     def sound_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
+        if self.pinned is not None:
+            return equilibria(self.pinned.scene, *self.stretch)
         return self._static(self.scene.sound(), sound=True)
+
+    @cached_property
+    def sound_all_around(self) -> Equilibrium:
+        """The same over whatever stretch holds all that happens in a pinned scene."""
+        if self.pinned is None:
+            return self.sound_equilibrium
+        own = Results(self.pinned.scene, self.cage_angle, self.settings)
+        return equilibria(self.pinned.scene, *own.stretch)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -407,7 +444,7 @@ class Results:
     @cached_property
     def sound_now(self) -> Equilibrium:
         """The same without the defect."""
-        return single_equilibria(self.scene.sound(), self.cage_angle)
+        return single_equilibria(self.beside, self.cage_angle)
 
     @cached_property
     def modes(self) -> Modes:
@@ -417,6 +454,8 @@ class Results:
     @cached_property
     def sound_modes(self) -> Modes:
         """The same without the defect."""
+        if self.pinned is not None:
+            return modes(self.pinned.scene, *self.stretch)
         return self._modes(self.scene.sound(), sound=True)
 
     def _modes(self, scene: Scene, sound: bool = False) -> Modes:
@@ -457,15 +496,25 @@ class Results:
         """The race around the defect and the path of a ball's centre over it."""
         return profile(self.scene, self.cage_angle, self.focus)
 
-    @property
+    @cached_property
     def coarse(self) -> bool:
-        """Whether motions are marched coarsely, as a slider moves and they take long."""
+        """Whether motions are marched coarsely, as a slider moves and they take long.
+
+        Not only the scene's own: a motion is compared with others that are marched alike.
+        """
         settings = self.settings
-        return (
-            self.moving
-            and settings.step_rate is None
-            and is_dear(self.scene, settings.sample_rate, settings.duration)
+        if not self.moving or settings.step_rate is not None:
+            return False
+        return any(
+            is_dear(scene, settings.sample_rate, settings.duration) for scene in self._compared
         )
+
+    @property
+    def _compared(self) -> tuple[Scene, ...]:
+        """Scenes whose motions are marched: with the free directions of the comparison too."""
+        if not self._compares_dofs:
+            return (self.scene,)
+        return self.scene, self.scene.replace(dofs=other_dofs(self.scene))
 
     @cached_property
     def _marching(self) -> Marching:
@@ -493,7 +542,7 @@ class Results:
     @cached_property
     def sound_motion(self) -> Motion:
         """The same without the defect, always marched."""
-        return motions(self.scene.sound(), self._marching).motion
+        return motions(self.beside, self._marching).motion
 
     @cached_property
     def excerpt(self) -> Excerpt:
@@ -510,10 +559,15 @@ class Results:
         """The same of the settled motion; empty where it did not stay finite."""
         return late_spectra(self.scene, self._how)
 
+    @property
+    def sound_settled_since(self) -> float:
+        """When [s] of that motion its start is forgotten."""
+        return motions(self.beside, self._marching).since
+
     @cached_property
     def sound_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect, always marched."""
-        return late_spectra(self.scene.sound(), self._marching)
+        return late_spectra(self.beside, self._marching)
 
     @property
     def ball_passes(self) -> int | None:

@@ -1,25 +1,67 @@
-// Head of a view: title, what it shows, and the numbers behind it as a file.
+// Head of a view: title, what it shows, and the figure as files: pictures, numbers, Python.
 export function render({ model }) {
-  const head = document.createElement("header")
-  const words = document.createElement("div")
-  const title = document.createElement("h2")
-  const about = document.createElement("p")
-  const save = document.createElement("button")
-  title.textContent = model.title
-  about.textContent = model.about
-  save.type = "button"
-  save.textContent = "CSV"
-  save.title = `Save the numbers of this figure (${model.file_name})`
-  save.setAttribute("aria-label", `Save the numbers of “${model.title}” as CSV`)
-  save.addEventListener("click", () => model.send_msg("csv"))
-  model.on("msg:custom", (message) => {
-    const link = document.createElement("a")
-    link.href = URL.createObjectURL(new Blob([message.csv], { type: "text/csv" }))
-    link.download = model.file_name
-    link.click()
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000)
+  const make = (tag, attributes = {}, ...children) => {
+    const made = document.createElement(tag)
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+    made.append(...children)
+    return made
+  }
+  const file = (ending) => `bearing-${model.name_of_files}.${ending}`
+  const button = (words, what, act) => {
+    const made = make("button", { type: "button", class: `save-${words.toLowerCase()}`, title: what,
+                                  "aria-label": `“${model.title}”: ${what}` }, words)
+    made.addEventListener("click", act)
+    return made
+  }
+  const views = () => figures_on_screen(model.figures)
+  const failed = (error) => console.warn("the figure could not be saved", error)
+  const pictures = model.figures.length ? [
+    button("PNG", `save the picture (${file("png")})`, () =>
+      figures_as_png(views()).then((blob) => save_file(file("png"), blob), failed)),
+    button("SVG", `save the picture as a drawing (${file("svg")})`, () =>
+      save_file(file("svg"), figures_as_svg(views(), model.title), "image/svg+xml")),
+  ] : []
+  const numbers = button("CSV", `save the numbers (${file("csv")})`, () => model.send_msg("csv"))
+  const python = button("Python", "show the lines of Python that make it", () => model.send_msg("python"))
+
+  // The lines, to be copied or saved
+  const code = make("pre", { tabindex: "0", "aria-label": "Lines of Python" })
+  const said = make("span", { role: "status" })
+  const copy = make("button", { type: "button" }, "Copy")
+  copy.addEventListener("click", async () => {
+    if (await copy_text(code.textContent)) said.textContent = "Copied."
+    else {
+      getSelection().selectAllChildren(code)
+      said.textContent = "Marked: copy by hand."
+    }
   })
-  words.append(title, about)
-  head.append(words, save)
-  return head
+  const save = make("button", { type: "button" }, "Save")
+  save.addEventListener("click", () => save_file(file("py"), code.textContent, "text/x-python"))
+  const close = make("button", { type: "button", class: "close", "aria-label": "Close" }, "\u00d7")
+  const dialog = make("dialog", { "aria-label": `Python for “${model.title}”` },
+    make("div", { class: "bar" }, make("strong", {}, `${model.title} in Python`), said, copy, save, close), code)
+  close.addEventListener("click", () => dialog.close())
+  dialog.addEventListener("click", (event) => { if (event.target === dialog) dialog.close() })
+
+  model.on("msg:custom", (message) => {
+    if (message.csv !== undefined) save_file(file("csv"), message.csv, "text/csv")
+    if (message.python !== undefined) {
+      code.textContent = message.python || "Nothing is drawn yet."
+      said.textContent = ""
+      dialog.showModal()
+      copy.focus()
+    }
+  })
+  const files = make("div", { class: "files", role: "group", "aria-label": `“${model.title}” as files` },
+    ...pictures, numbers, python)
+  const grey = make("p", { class: "grey" })
+  const tell = () => {
+    grey.hidden = !model.pinned
+    grey.textContent = `Grey is the pinned scene “${model.pinned}”.`
+  }
+  model.on("pinned", tell)
+  tell()
+  const words = make("div", { class: "words" }, make("h2", {}, model.title),
+    make("p", {}, model.about), grey)
+  return make("header", {}, words, files, dialog)
 }

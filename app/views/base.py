@@ -22,10 +22,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import panel as pn
 import param
-from bokeh.models import SaveTool
+from bokeh.models import Plot, SaveTool
 from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.python_lines import lines_of
 from app.wire import Wire
 
 if TYPE_CHECKING:
@@ -38,13 +39,18 @@ Ranges = dict[str, tuple[float, float]]
 
 
 class Caption(JSComponent):
-    """Head of a view: its title, what it shows, and a button that saves its numbers."""
+    """Head of a view: its title, what it shows, and buttons that save it."""
 
     title = param.String()
     about = param.String()
-    file_name = param.String()
+    #: files are called bearing- and this
+    name_of_files = param.String()
+    #: what is drawn in grey, where that is a pinned scene
+    pinned = param.String()
+    #: ids of the models of Bokeh's figures in the view, for pictures
+    figures = param.List(default=[])
 
-    _esm = asset_path("caption.js")
+    _esm = asset_text("figure_export.js") + asset_text("caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
 
@@ -69,16 +75,23 @@ class View:
 
     def __init__(self, wire: Wire) -> None:
         self._results: Results | None = None
+        self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
+        body = pn.panel(self.build(wire), margin=0)
+        #: Bokeh's figures, in the order of the page
+        self.figures = [
+            plot
+            for pane in body.select(pn.pane.Bokeh)
+            for plot in pane.object.select({"type": Plot})
+        ]
         self._caption = Caption(
             title=self.title,
             about=self.about,
-            file_name=f"{self.name}.csv",
+            name_of_files=self.name,
+            figures=[plot.id for plot in self.figures],
             sizing_mode="stretch_width",
             margin=0,
         )
         self._caption.on_msg(self._answer)
-        self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
-        body = pn.panel(self.build(wire), margin=0)
         for pane in body.select(pn.pane.Bokeh):
             for tool in pane.object.select({"type": SaveTool}):
                 tool.filename = f"bearing-{self.name}"
@@ -115,14 +128,27 @@ class View:
         """
         self._results = results or self._results
         self._sentence.text = sentence
+        if results is not None and self.compares:
+            self._caption.pinned = results.pinned.name if results.pinned else ""
+
+    @property
+    def compares(self) -> bool:
+        """Whether it draws something in grey beside the scene."""
+        return any(name.startswith("sound_") for name in self.needs)
 
     def csv(self) -> str:
         """The table of what is drawn now as comma-separated values; empty before the first."""
         return "" if self._results is None else as_csv(self.table(self._results))
 
+    def python(self) -> str:
+        """Lines of Python that make what is drawn now; empty before the first."""
+        return "" if self._results is None else lines_of(self, self._results)
+
     def _answer(self, event: Any) -> None:
         if event.data == "csv":
             self._caption._send_msg({"csv": self.csv()})
+        if event.data == "python":
+            self._caption._send_msg({"python": self.python()})
 
 
 def as_csv(table: dict[str, np.ndarray]) -> str:

@@ -241,7 +241,7 @@ class BearingDrawing(View):
             "bearing_marks": drawn.angle_marks(),
             "bearing_balls": drawn.balls(results.drop, load),
             "bearing_bars": drawn.bars(load, top),
-            "bearing_sound_loads": drawn.load_rim(*load_curve(results.sound_equilibrium), top),
+            "bearing_sound_loads": drawn.load_rim(*load_curve(results.sound_all_around), top),
             "bearing_arrow": drawn.load_arrow(),
             "bearing_load_words": load_words(scene.load),
             "bearing_scale_words": {

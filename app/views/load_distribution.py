@@ -87,7 +87,7 @@ class LoadDistribution(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         angle, load = load_curve(results.equilibrium)
-        sound_angle, sound_load = load_curve(results.sound_equilibrium)
+        sound_angle, sound_load = load_curve(results.sound_all_around)
         now = results.now
         sources = {
             "load_distribution_defect": shaded(results.scene, results.cage_angle),
@@ -109,9 +109,9 @@ class LoadDistribution(View):
             f"A ball carries most, {figures.with_prefix(load[most], 'N')}, at "
             f"{figures.in_degrees(angle[most])}"
         )
-        _, sound = load_curve(results.sound_equilibrium)
-        if results.scene.defects and np.isfinite(sound).any():
-            words += f"; without the defect {figures.with_prefix(np.nanmax(sound), 'N')}"
+        _, sound = load_curve(results.sound_all_around)
+        if results.beside_words and np.isfinite(sound).any():
+            words += f"; {results.beside_words} {figures.with_prefix(np.nanmax(sound), 'N')}"
         if results.over_shaft:
             words += " (the most at each angle while the shaft makes this turn)"
         now = results.now
@@ -125,12 +125,12 @@ class LoadDistribution(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         angle, load = load_curve(results.equilibrium)
-        sound_angle, sound_load = load_curve(results.sound_equilibrium)
+        sound_angle, sound_load = load_curve(results.sound_all_around)
         return {
             "ball_angle_deg": np.degrees(angle[1:-1]),
             "ball_load_n": load[1:-1],
-            "sound_ball_angle_deg": np.degrees(sound_angle[1:-1]),
-            "sound_ball_load_n": sound_load[1:-1],
+            f"{results.beside_name}_ball_angle_deg": np.degrees(sound_angle[1:-1]),
+            f"{results.beside_name}_ball_load_n": sound_load[1:-1],
         }
 
 

@@ -137,8 +137,8 @@ class NaturalFrequencies(View):
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {figures.list_words(words)}"
         first = radial[0]
-        if results.scene.defects and np.isfinite(sound.get(first, (np.nan,))[0]):
-            text += f"; without the defect {first} within {_from_to(sound[first])}"
+        if results.beside_words and np.isfinite(sound.get(first, (np.nan,))[0]):
+            text += f"; {results.beside_words} {first} within {_from_to(sound[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -156,9 +156,10 @@ class NaturalFrequencies(View):
             table[f"{label}_hz"] = modes.frequency[:, i]
         for i, label in enumerate(modes.label):
             table[f"{label}_damping_ratio"] = modes.damping_ratio[:, i]
-        table["sound_cage_angle_deg"] = np.degrees(sound.cage_angles)
+        beside = results.beside_name
+        table[f"{beside}_cage_angle_deg"] = np.degrees(sound.cage_angles)
         for i, label in enumerate(sound.label):
-            table[f"sound_{label}_hz"] = sound.frequency[:, i]
+            table[f"{beside}_{label}_hz"] = sound.frequency[:, i]
         return table
 
 

@@ -87,7 +87,7 @@ class Stiffness(View):
         # property of the figure, Panel would hand the width on to the whole card.)
         plot.min_width = None
         plot.stylesheets = [":host { min-width: 760px; }"]
-        _static_parts(plot)
+        self._legend = _static_parts(plot)
         cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
         sound = wire.source("stiffness_sound", "x", "y")
         defective = wire.source("stiffness_defective", "x", "y")
@@ -174,6 +174,7 @@ class Stiffness(View):
     def sentence(self, results: Results) -> str:
         """How far the radial stiffness and the number of loaded balls vary."""
         found, sound = results.equilibrium, results.sound_equilibrium
+        beside = "sound" if results.pinned is None else results.pinned.words
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
@@ -184,7 +185,7 @@ class Stiffness(View):
             line += f" to {with_prefix(most, 'N/m')}"
             if sound.converged.any():
                 mean = _mean(sound.cage_angles, sounds)
-                line += f" (sound: {with_prefix(mean, 'N/m')} on average)"
+                line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
@@ -194,11 +195,19 @@ class Stiffness(View):
             over if results.over_shaft else ""
         )
 
+    def say(self, results: Results | None, sentence: str) -> None:
+        """Also in the legend what is drawn in grey."""
+        super().say(results, sentence)
+        if results is not None:
+            words = _legend_words(results.pinned.words if results.pinned else "sound bearing")
+            if words != self._legend.data["text"]:
+                self._legend.data = {**self._legend.data, "text": words}
+
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and sound."""
         found, sound = results.equilibrium, results.sound_equilibrium
         columns: dict[str, np.ndarray] = {}
-        for kind, answer in (("defective", found), ("sound", sound)):
+        for kind, answer in (("defective", found), (results.beside_name, sound)):
             columns[f"{kind}_cage_angle_deg"] = np.degrees(answer.cage_angles)
             if results.over_shaft:
                 columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
@@ -249,8 +258,8 @@ def _text(plot: figure, source: ColumnDataSource, **options: Any) -> None:
     plot.text(source=source, **{"x": "x", "y": "y", **style, **options})
 
 
-def _static_parts(plot: figure) -> None:
-    """Frames, names and legend: painted from the page's own numbers, never sent again."""
+def _static_parts(plot: figure) -> ColumnDataSource:
+    """Frames, names and legend: painted from the page's own numbers; returns the legend's."""
     plot.quad(
         left=[cell.left for cell in _FRAMES],
         right=[cell.right for cell in _FRAMES],
@@ -275,9 +284,14 @@ def _static_parts(plot: figure) -> None:
     y = [-2.36, -2.52, -2.68]
     colors, widths = [DEFECTIVE, SOUND, INK], [2.4, 2.0, 1.2]
     plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
-    words = ["with the defect", "sound bearing", "now"]
-    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": words})
+    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("sound bearing")})
     _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
+    return legend
+
+
+def _legend_words(beside: str) -> list[str]:
+    """Words of the legend; `beside` is what is drawn in grey."""
+    return ["with the defect", beside if len(beside) <= 40 else beside[:39] + "…", "now"]
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:

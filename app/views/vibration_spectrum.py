@@ -188,7 +188,8 @@ class VibrationSpectra(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        spectra_of = {"": results.late_spectra, "sound_": results.sound_late_spectra}
+        beside = f"{results.beside_name}_"
+        spectra_of = {"": results.late_spectra, beside: results.sound_late_spectra}
         for who, spectra in spectra_of.items():
             for dof, (frequency, density) in spectra.items():
                 # samples of an orbit fit its period: a hair's breadth off those of a march

@@ -119,8 +119,6 @@ def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int)
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
 shorter, or somebody's drag would fill the memory of everybody's server."""
-COARSE_STEPS = 0.45
-"""Part of the usual steps that is taken while a slider moves, where all of them take too long."""
 SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
@@ -144,8 +142,8 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     by_hand = how.step_rate
     rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
     if by_hand is None and how.coarse:
-        highest = COARSE_STEPS * highest_natural_frequency(scene)
-        rate = default_step_rate(scene, how.sample_rate, highest)
+        # as if the highest natural frequency were half as high: half as many steps to its period
+        rate = default_step_rate(scene, how.sample_rate, 0.5 * highest_natural_frequency(scene))
     duration = how.duration
     if rate is not None:
         duration = _affordable(duration, rate, by_hand is not None)
@@ -496,25 +494,15 @@ class Results:
         """The race around the defect and the path of a ball's centre over it."""
         return profile(self.scene, self.cage_angle, self.focus)
 
-    @cached_property
-    def coarse(self) -> bool:
-        """Whether motions are marched coarsely, as a slider moves and they take long.
-
-        Not only the scene's own: a motion is compared with others that are marched alike.
-        """
-        settings = self.settings
-        if not self.moving or settings.step_rate is not None:
-            return False
-        return any(
-            is_dear(scene, settings.sample_rate, settings.duration) for scene in self._compared
-        )
-
     @property
-    def _compared(self) -> tuple[Scene, ...]:
-        """Scenes whose motions are marched: with the free directions of the comparison too."""
-        if not self._compares_dofs:
-            return (self.scene,)
-        return self.scene, self.scene.replace(dofs=other_dofs(self.scene))
+    def coarse(self) -> bool:
+        """Whether motions are marched coarsely, as a slider moves and they take long."""
+        settings = self.settings
+        return (
+            self.moving
+            and settings.step_rate is None
+            and is_dear(self.scene, settings.sample_rate, settings.duration)
+        )
 
     @cached_property
     def _marching(self) -> Marching:

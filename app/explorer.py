@@ -462,8 +462,8 @@ class Explorer:
 def _picture(results: Results, views: Sequence[View], started: float) -> Picture:
     """Compute what the views need and have them say it. Runs in a worker thread."""
     drawings = [_drawing(results, view) for view in views]
-    moves = any(view.needs & Results.moving_ones for view in views)
-    status = status_of(results, time.perf_counter() - started, moves)
+    shown = frozenset[str]().union(*(view.needs for view in views))
+    status = status_of(results, time.perf_counter() - started, shown)
     return Picture(drawings, status, rows_of(results.limits))
 
 

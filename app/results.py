@@ -119,6 +119,8 @@ def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int)
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
 shorter, or somebody's drag would fill the memory of everybody's server."""
+COARSE_STEPS = 0.45
+"""Part of the usual steps that is taken while a slider moves, where all of them take too long."""
 SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
@@ -142,8 +144,8 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     by_hand = how.step_rate
     rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
     if by_hand is None and how.coarse:
-        # as if the highest natural frequency were half as high: half as many steps to its period
-        rate = default_step_rate(scene, how.sample_rate, 0.5 * highest_natural_frequency(scene))
+        highest = COARSE_STEPS * highest_natural_frequency(scene)
+        rate = default_step_rate(scene, how.sample_rate, highest)
     duration = how.duration
     if rate is not None:
         duration = _affordable(duration, rate, by_hand is not None)
@@ -192,7 +194,10 @@ def _planned(scene: Scene, how: MotionPlanning) -> Moved:
 
 def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
     """Whether a motion takes too long to be marched in full while a slider moves."""
-    rate = step_rates(scene, sample_rate) or 0.0
+    try:
+        rate = step_rates(scene, sample_rate) or 0.0
+    except ValueError:
+        return False  # there is no motion
     touched = duration * rate * scene.bearing.n_balls
     return touched * (1.0 if is_flat(scene) else GENERAL_COST) > MOST_TOUCHED
 
@@ -494,14 +499,28 @@ class Results:
         """The race around the defect and the path of a ball's centre over it."""
         return profile(self.scene, self.cage_angle, self.focus)
 
-    @property
+    @cached_property
     def coarse(self) -> bool:
-        """Whether motions are marched coarsely, as a slider moves and they take long."""
+        """Whether the motion is marched coarsely, as a slider moves and it takes long."""
+        return self._is_coarse(self.scene)
+
+    @cached_property
+    def coarse_comparison(self) -> bool:
+        """The same of `dof_comparison`, whose motions are marched alike."""
+        return self.coarse or self._is_coarse(self.scene.replace(dofs=other_dofs(self.scene)))
+
+    def is_coarse(self, shown: frozenset[str]) -> bool:
+        """Whether what is shown of attributes is made of motions that are marched coarsely."""
+        if "dof_comparison" in shown and self.coarse_comparison:
+            return True
+        return bool(shown & self.moving_ones) and self.coarse
+
+    def _is_coarse(self, scene: Scene) -> bool:
         settings = self.settings
         return (
             self.moving
             and settings.step_rate is None
-            and is_dear(self.scene, settings.sample_rate, settings.duration)
+            and is_dear(scene, settings.sample_rate, settings.duration)
         )
 
     @cached_property
@@ -600,12 +619,12 @@ class Results:
         chosen, other = self.scene.active_dofs, other_dofs(self.scene)
         if chosen == other:
             return DofComparison(chosen, other, {}, {})
-        against = Results(
-            self.scene.replace(dofs=other), self.cage_angle, self.settings, moving=self.moving
-        )
+        against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
         static = static_differences(self.equilibrium, against.equilibrium)
+        settings = self.settings
+        how = settings.coarse_marching if self.coarse_comparison else settings.marching
         try:
-            moving = spectrum_differences(self.spectra, against.spectra)
+            moving = spectrum_differences(spectra(self.scene, how), spectra(against.scene, how))
         except ValueError as error:
             return DofComparison(chosen, other, static, {}, str(error))
         return DofComparison(chosen, other, static, moving)

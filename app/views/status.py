@@ -40,10 +40,12 @@ class Tabs(JSComponent):
         self.on_msg(lambda event: asked(event.data))
 
 
-def status_of(results: Results, seconds: float, moves: bool = False) -> dict[str, Any]:
+def status_of(
+    results: Results, seconds: float, shown: frozenset[str] = frozenset()
+) -> dict[str, Any]:
     """What the status line says about these results, computed in `seconds` [s].
 
-    `moves`: whether a motion is among what is shown.
+    `shown`: the attributes of the results that views on screen read.
     """
     found = results.equilibrium
     n_angles = found.converged.size
@@ -68,7 +70,7 @@ def status_of(results: Results, seconds: float, moves: bool = False) -> dict[str
     plural = "" if len(found.dofs) == 1 else "s"
     details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")
     details.append(f"{n_angles} cage angles")
-    if results.coarse and moves:
+    if results.is_coarse(shown):
         details.append("coarse while it moves: half the motion in half the steps")
     details = [*overruled, *details, f"{1e3 * seconds:.1f} ms"]
     return {"mood": mood, "words": words, "details": details}

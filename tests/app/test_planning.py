@@ -176,10 +176,22 @@ def test_motions_that_take_long_are_coarse_while_something_moves_and_only_then()
     assert moving.coarse
     assert not still.coarse
     assert not Results(LIEW_LIM, moving=True, settings=Settings(step_rate=65536.0)).coarse
+    shown = frozenset({"motion"})
+    assert not moving.is_coarse(frozenset({"equilibrium"}))
     assert 0.4 < moving.motion.time[-1] / still.motion.time[-1] < 0.6
     assert moving.motion.step_rate < 0.6 * still.motion.step_rate
-    assert any("coarse" in words for words in status_of(moving, 0.0, moves=True)["details"])
-    assert not any("coarse" in words for words in status_of(still, 0.0, moves=True)["details"])
+    assert any("coarse" in words for words in status_of(moving, 0.0, shown)["details"])
+    assert not any("coarse" in words for words in status_of(still, 0.0, shown)["details"])
+
+
+def test_motions_that_are_compared_are_marched_alike() -> None:
+    """Radial motion is cheap and that in five directions dear: both are coarse or none is."""
+    moving, still = Results(FAN_RIG, moving=True), Results(FAN_RIG)
+    assert not moving.coarse
+    assert moving.is_coarse(frozenset({"dof_comparison"}))
+    assert not still.is_coarse(frozenset({"dof_comparison"}))
+    for results in (moving, still):
+        assert max(results.dof_comparison.motion.values()) < 0.05
 
 
 def test_the_plan_in_full_has_a_row_for_each_kind_of_picture() -> None:

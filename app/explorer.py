@@ -20,6 +20,7 @@ from app.jobs import Jobs
 from app.keeping import Keeping, asked_for, read_asked
 from app.lessons import Fault, Lesson
 from app.live import LatestWins, in_thread, one_message, send_at_once
+from app.measurement import Measurement
 from app.planning import Rest, with_choices
 from app.quantities import Values
 from app.quantity_list import CAGE_ANGLE
@@ -33,6 +34,7 @@ from app.views.control_view import ControlView
 from app.views.job_view import JobView
 from app.views.lesson import LessonPanel
 from app.views.limits import LimitsStrip, rows_of
+from app.views.measured_view import MeasuredView
 from app.views.plan_choice import PlanChoice
 from app.views.share import ShareBar
 from app.views.status import StatusLine, Tabs, status_of
@@ -154,6 +156,9 @@ class Explorer:
         self.keeping = Keeping(self.editor, address)
         self.share = ShareBar(self._share_asked, state=self.keeping.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
+        self.measurement = Measurement(
+            self.editor, lambda change: one_message(self._doc, change), self.draw
+        )
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
         one_line = ["one-line"]
@@ -203,6 +208,7 @@ class Explorer:
         self._worker.stop()
         self._rest.end()
         self.jobs.stop()
+        self.measurement.stop()
 
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""
@@ -389,6 +395,8 @@ class Explorer:
                 if isinstance(view, ControlView):
                     view.listen(self._asked, self.editor.state())
                     self._panels.append(view.rows)
+                if isinstance(view, MeasuredView):
+                    view.measure(self.measurement)
                 if isinstance(view, JobView):
                     view.employ(self.jobs, self.editor, self.draw)
                 if isinstance(view, Accuracy):

@@ -128,7 +128,8 @@ class Simulated:
     """
 
     def __init__(self, results: Results, measured: Measured) -> None:
-        self.results = Results(measured.scene(results.scene), 0.0, results.settings)
+        scene, self._moving = measured.scene(results.scene), results.moving
+        self.results = Results(scene, 0.0, results.settings, moving=self._moving)
 
     @property
     def scene(self) -> Scene:
@@ -137,11 +138,15 @@ class Simulated:
 
     def spectrum(self, direction: str, resolution: float) -> Spectrum | None:
         """Spectrum along a direction; None where the housing cannot move along it."""
-        return simulated_spectra(self.scene, self.results.settings, direction, resolution)
+        return simulated_spectra(
+            self.scene, self.results.settings, self._moving, direction, resolution
+        )
 
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum | None:
         """Envelope spectrum of a band [Hz], up to `top` [Hz]."""
-        return simulated_envelopes(self.scene, self.results.settings, direction, *band, top)
+        return simulated_envelopes(
+            self.scene, self.results.settings, self._moving, direction, *band, top
+        )
 
 
 def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
@@ -155,9 +160,9 @@ def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
 
 
 def _spectrum(
-    scene: Scene, settings: Settings, direction: str, resolution: float
+    scene: Scene, settings: Settings, moving: bool, direction: str, resolution: float
 ) -> Spectrum | None:
-    motion = Results(scene, 0.0, settings).motion
+    motion = Results(scene, 0.0, settings, moving=moving).motion
     signal = _steady(motion, direction)
     if signal is None:
         return None
@@ -166,9 +171,15 @@ def _spectrum(
 
 
 def _envelope(
-    scene: Scene, settings: Settings, direction: str, low: float, high: float, top: float
+    scene: Scene,
+    settings: Settings,
+    moving: bool,
+    direction: str,
+    low: float,
+    high: float,
+    top: float,
 ) -> Spectrum | None:
-    motion = Results(scene, 0.0, settings).motion
+    motion = Results(scene, 0.0, settings, moving=moving).motion
     signal = _steady(motion, direction)
     if signal is None or high >= 0.5 * motion.sample_rate or not signal.any():
         return None

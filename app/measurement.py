@@ -19,7 +19,7 @@ import numpy as np
 
 from app.jobs import Change
 from app.measured import Measured
-from app.measurement_form import Asked, FormError, columns_of, guess, understood, usable
+from app.measurement_form import Asked, FormError, columns_of, guess, speed_told, understood, usable
 from app.quantities import refusal
 from app.results import Results, Settings
 from app.scene_editor import SceneEditor
@@ -51,6 +51,8 @@ FIRST_WORDS = (
     "No signal yet: choose a file with the acceleration of the housing, or simulate one of the "
     "scene beside."
 )
+
+_SPEED_OF_SCENE = "The shaft speed is that of the scene: type in the measured one."
 
 #: two files at a time are read, whoever brings them: reading takes memory, and the threads that
 #: draw must stay free
@@ -177,7 +179,8 @@ class Measurement:
         self._table, self._cut = found.table, found.cut
         if found.asked is not None:
             self.measured = Measured(found.asked.recording, found.asked.shaft_speed)
-            words, bad = self._summary(), False
+            told = "" if speed_told(found.table.scalars) else _SPEED_OF_SCENE
+            words, bad = self._summary(told), False
         else:
             words = f"{found.table.name} is read. " + " ".join(found.refused.values())
             bad = True
@@ -212,8 +215,9 @@ class Measurement:
         self._tell(words=self._summary(), bad=False, busy=False, values=texts, refused={})
         self._draw()
 
-    def _summary(self) -> str:
-        return " ".join(filter(None, (summary(self.measured, self._editor.scene), self._cut)))
+    def _summary(self, *more: str) -> str:
+        words = (summary(self.measured, self._editor.scene), self._cut, *more)
+        return " ".join(filter(None, words))
 
     # Simulated ones
 

@@ -64,7 +64,7 @@ def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
         "unit": "g" if _in_g(headings) else "m/s²",
         "full_scale": "1",
         "sample_rate": "" if rate is None else f"{rate:.8g}",
-        "shaft_speed": _speed_told(table.scalars) or f"{shaft_speed_hz:g} Hz",
+        "shaft_speed": speed_told(table.scalars) or f"{shaft_speed_hz:g} Hz",
     }
 
 
@@ -139,7 +139,7 @@ def number_of(text: str, words: str, unit: str, least: float, most: float) -> fl
     bare = re.sub(r"(?<=\d)[\s'](?=\d{3}\b)", "", text.strip()).replace("−", "-")
     bare = re.sub(rf"\s*{re.escape(unit)}$", "", bare, flags=re.IGNORECASE) if unit else bare
     if not bare:
-        raise ValueError(f"{words} is missing{f', in {unit}' if unit else ''}.")
+        raise ValueError(f"{words} is missing: type it in{f' ({unit})' if unit else ''}.")
     try:
         value = float(bare.replace(",", "."))
     except ValueError:
@@ -157,7 +157,7 @@ def _is_index(text: str, count: int) -> bool:
 def _tokens(heading: str) -> set[str]:
     """The words of a heading, without units in brackets."""
     bare = re.sub(r"[\[(].*?[\])]", " ", heading.lower())
-    return {word for word in re.split(r"[^a-z]+", bare) if word}
+    return {word for word in re.split(r"[^a-z0-9]+", bare) if word}
 
 
 def _in_g(headings: str) -> bool:
@@ -165,7 +165,7 @@ def _in_g(headings: str) -> bool:
     return re.search(r"[\[(/_\s]g[\])\s]|[\[(/_\s]g$", headings) is not None
 
 
-def _speed_told(scalars: Mapping[str, float]) -> str:
+def speed_told(scalars: Mapping[str, float]) -> str:
     """Shaft speed among the single numbers of a file, with its unit; empty without one."""
     for name, value in scalars.items():
         if math.isfinite(value) and value > 0.0:

@@ -22,10 +22,14 @@ from app.views.dof_comparison import DofDifferences
 from app.views.explore import ExplorePlane
 from app.views.load_distribution import LoadDistribution
 from app.views.maps import StiffnessMaps
+from app.views.measured_envelope import MeasuredEnvelope
+from app.views.measured_spectrum import MeasuredSpectrum
+from app.views.measurement import MeasuredSignal
 from app.views.model_editor import ModelEditor
 from app.views.modes import NaturalFrequencies
 from app.views.orbit import SteadyOrbit
 from app.views.plan import PlanInFull
+from app.views.sizing import DefectSize
 from app.views.speed_run import SpeedRunSpectra
 from app.views.stability_map import OrbitStability
 from app.views.stiffness import Stiffness
@@ -44,6 +48,7 @@ SECTIONS = (
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
     Section("explore", "Explore", (ExplorePlane,), "Tools"),
+    Section("sizing", "Sizing", (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize)),
     Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
     Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
     Section("model", "Model", (ModelEditor, DofDifferences)),

@@ -176,7 +176,7 @@ class MeasuredSignal(MeasuredView):
     def sentence(self, results: Results) -> str:
         measured = self.measured
         if measured is None:
-            return ""  # the form says so
+            return "There is nothing to draw yet."
         recording = measured.recording
         sizes = []
         for index, dof in enumerate(recording.directions):

@@ -13,9 +13,11 @@ from app.results import Results
 from app.views.base import View
 from app.views.control_view import ControlView
 from app.views.job_view import JobView
+from app.views.measured_view import MeasuredView
 from app.views.status import scientific, status_of
 from app.wire import Wire
 from bearingcore import Defect, RoughFloor, presets
+from tests.app.measuring import measuring, signal
 
 VIEWS = [view for section in SECTIONS for view in section.views]
 SCENES = {
@@ -43,6 +45,8 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
     results = Results(SCENES[name], 0.1)
     wire = Wire()
     made = view(wire)
+    if isinstance(made, MeasuredView):
+        made.measure(measuring(signal()))
     data, ranges = made.data(results)
     assert wire.pack(data, ranges).size > 3 or isinstance(made, ControlView)
     assert all(np.isfinite(limits).all() and limits[0] != limits[1] for limits in ranges.values())
@@ -73,6 +77,8 @@ def test_views_say_which_slow_answers_they_read(view: type[View]) -> None:
             return super().__getattribute__(name)
 
     made = view(Wire())
+    if isinstance(made, MeasuredView):
+        made.measure(measuring(signal()))
     results = Watched(presets["fan-rig"], 0.1)
     made.data(results)
     made.sentence(results)

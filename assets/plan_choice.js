@@ -53,8 +53,9 @@ export function render({ model }) {
     wait.hidden = !compiling
     back.hidden = by_hand.length === 0
     more.dataset.overruled = String(by_hand.length > 0)
-    if (made.length || resting) plans.replaceChildren(...made.map(([title, sentence]) =>
-      make("p", {}, make("strong", {}, title), ` ${sentence}.`)))
+    if (made.length || resting) plans.replaceChildren(...made.length
+      ? made.map(([title, sentence]) => make("p", {}, make("strong", {}, title), ` ${sentence}.`))
+      : [make("p", {}, compiling ? "" : "Nothing here has a plan: what is on screen is drawn as usual.")])
     plans.dataset.stale = String(!resting)
     for (const [name, value] of Object.entries(chosen))
       if (selects[name].value !== value) selects[name].value = value

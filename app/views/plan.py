@@ -102,7 +102,6 @@ class PlanInFull(View):
     def sentence(self, results: Results) -> str:
         if not results.plans:
             return "While something moves, curves are drawn at equally spaced cage angles."
-        saved = [made.full_seconds / made.seconds for made in results.plans.values()]
         unmet = [TITLES[view].lower() for view, made in results.plans.items() if not made.met]
         words = (
             "Below the table: the cage angles of each kind of curve, close where balls meet edges, "
@@ -110,8 +109,7 @@ class PlanInFull(View):
         )
         if unmet:
             words += f". What is allowed is not met for {figures.list_words(unmet)}"
-        least, most = (figures.number(float(f(saved)), 2) for f in (min, max))
-        return f"{words}. The full model takes {least} to {most} times as long."
+        return words + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

@@ -63,10 +63,10 @@ def status_of(
     if finite.size:
         details.append(f"residual at most {scientific(float(finite.max()))}")
     overruled = by_hand(results.settings)
-    if results.plan is not None:
-        details = [*overruled, *details, sentence_of(results.plan)]
-        return {"mood": mood, "words": words, "details": details}
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
+    if (plan := results.plan) is not None:
+        planned = sentence_of(plan).replace(" DOF", f" DOF ({symbols})", 1)
+        return {"mood": mood, "words": words, "details": [*overruled, planned, *details]}
     plural = "" if len(found.dofs) == 1 else "s"
     details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")
     details.append(f"{n_angles} cage angles")

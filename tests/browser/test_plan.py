@@ -1,0 +1,96 @@
+"""The plan on the page: drawn by when the hand rests, overruled, and given back."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.helpers import Server, Watch, drag
+from tests.browser.test_explorer import open_page, settle, show, slider, source
+
+PLANNED = re.compile(r"this scene: 2 DOF \(x y\), (\d+) cage angles: .*, error 0\.\d+ %")
+
+
+def rest(page: Page) -> None:
+    """Wait until what is on screen is drawn by its plan."""
+    page.wait_for_function("window.__resting === true", timeout=60_000)
+    settle(page)
+
+
+def test_the_hand_moves_rests_overrules_and_gives_back(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    status = page.locator("footer .status [role=status]").first
+    rest(page)
+    footer = page.get_by_role("contentinfo").bounding_box()
+
+    thumb = slider(page, "extent_deg")
+    box = thumb.bounding_box()
+    assert box is not None
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + 0.2 * box["width"], y)
+    page.mouse.down()
+    moved_at = page.evaluate("performance.now()")
+    for step in range(30):
+        page.mouse.move(box["x"] + (0.2 + 0.005 * step) * box["width"], y)
+        page.wait_for_timeout(20)
+    settled = page.evaluate("window.__resting")
+    assert settled is False, "nothing is planned while the hand moves"
+    expect(status).to_contain_text("121 cage angles")
+    page.mouse.up()
+    rest(page)
+    assert page.evaluate("performance.now()") - moved_at > 250
+    expect(status).to_have_text(PLANNED)
+    assert page.get_by_role("contentinfo").bounding_box() == footer, "the page does not jump"
+    found = PLANNED.search(status.inner_text() or status.text_content() or "")
+    assert found is not None
+    # 15 terms with a gap after each, and two points an angle for the loaded balls
+    nodes = int(found[1])
+    assert len(source(page, "stiffness_defective")["x"]) == 15 * (nodes + 1) + 2 * nodes + 1
+
+    # turning the bearing plans nothing anew
+    drag(page, slider(page, "cage_angle_deg"), 0.1, 0.3)
+    settle(page)
+    expect(status).to_contain_text(f"{nodes} cage angles")
+    assert page.evaluate("window.__resting") is True
+
+    opener = page.get_by_role("button", name="Plan", exact=True)
+    opener.click()
+    expect(page.locator("#plan-list")).to_contain_text("Stiffness this scene: 2 DOF")
+    page.get_by_label("Cage angles", exact=True).select_option("61")
+    expect(status).to_contain_text("cage angles set by hand: 61")
+    settle(page)
+    assert len(source(page, "stiffness_defective")["x"]) == 15 * 62 + 2 * 61 + 1
+    back = page.get_by_role("button", name="Automatic again")
+    back.click()
+    expect(status).to_have_text(PLANNED)
+    expect(back).to_be_hidden()
+    page.keyboard.press("Escape")
+    expect(page.locator("#plan-list")).to_be_hidden()
+
+    # motion: the orbit or a march, and it says which
+    show(page, "vibration")
+    page.evaluate("window.__resting = false")
+    drag(page, slider(page, "extent_deg"), 0.3, 0.25)
+    rest(page)
+    expect(status).to_have_text(re.compile(r"this scene: 2 DOF \(x y\), .* kHz, .* dB; full model"))
+    spectrum = page.locator(".view-vibration-spectrum")
+    expect(spectrum).to_contain_text(re.compile("that of (the stable orbit|a marched motion)"))
+    opener.click()
+    page.get_by_label("Settled vibration").select_option("march")
+    expect(spectrum).to_contain_text("that of a marched motion")
+    expect(status).to_contain_text("marched motion set by hand")
+    page.get_by_label("Settled vibration").select_option("orbit")
+    expect(spectrum).to_contain_text("that of the stable orbit")
+    expect(status).to_have_text(re.compile(r"periodic orbit set by hand.*1 ball pass: "))
+    back.click()
+    expect(status).not_to_contain_text("by hand")
+
+    show(page, "accuracy")
+    rest(page)
+    table = page.locator(".view-plan table")
+    expect(table.get_by_role("row")).to_have_count(5, timeout=60_000)
+    expect(table).to_contain_text("Settled vibration")

@@ -33,6 +33,9 @@ DARK_COLORS = {
     "#FAFBFC": "#1F2832",  # a cell of the matrix
     "#E6F3EE": "#16342B",  # inside the circle of stable multipliers
     "#00704F": "#4CCB9C",
+    "#8A5A00": "#E8B23F",  # names of the bearing's frequencies, as their lines
+    "#94407A": "#E89BC7",
+    "#1F6F9F": "#A9DBFB",
     "#30363D": "#D3DAE1",  # kinds of the stability map
     "#8B929A": "#7A8591",
     "#B9BEC4": "#525D69",

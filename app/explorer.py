@@ -25,6 +25,7 @@ from app.planning import Rest, with_choices
 from app.quantities import Values
 from app.quantity_list import CAGE_ANGLE
 from app.reference import Reference
+from app.report import About, now, report
 from app.results import Results
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from app.settings import Settings
@@ -154,6 +155,7 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.keeping = Keeping(self.editor, address)
+        self._reporting = False
         self.share = ShareBar(self._share_asked, state=self.keeping.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self.measurement = Measurement(
@@ -318,6 +320,8 @@ class Explorer:
             self.share.answer(kept=self.keeping.kept(name))
         if message.get("want") == "toml":
             self.share.answer(file=self.keeping.toml())
+        if isinstance(base := message.get("report"), str) and not self._reporting:
+            self._report(base[:2000])
         if "mark" not in message:
             return
         if self.keeping.go(message):
@@ -336,6 +340,32 @@ class Explorer:
 
             self._in_background(lambda: read_asked(asked), take)
         self._asked(message)  # the mark, and a reset
+
+    def _report(self, base: str) -> None:
+        """Make a report; `base` is the address of the page without what is behind it."""
+        inputs = self.inputs
+        results = Results(
+            inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
+        )
+        kinds = [view for section in self._sections.values() for view in section.views]
+        jobs = [v for views in self._views.values() for v in views if isinstance(v, JobView)]
+        found = {view.name: view.found for view in jobs if view.found is not None}
+        link = f"{base}?{self.keeping.state()['address']}"
+        about = About(self.editor.preset, link, now())
+
+        def make() -> dict[str, Any] | None:
+            try:
+                return report(results, kinds, found, about)
+            except Exception:
+                log.exception("a report failed")
+                return None
+
+        def take(made: dict[str, Any] | None) -> None:
+            self._reporting = False
+            self.share.answer(report=made)
+
+        self._reporting = True
+        self._in_background(make, take)
 
     def _tell_share(self) -> None:
         """The bar follows: the address, and what can be undone."""

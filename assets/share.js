@@ -199,8 +199,12 @@ export function render({ model }) {
         kept_words.textContent = `“${kept.name}” is kept in this browser.`
       }
     }
-    if (page) make_report(page).then((name) => say(`${name} is saved.`),
-                                     () => say("The report could not be made."))
+    const lost = (error) => {
+      console.warn("the report could not be made", error)
+      say("The report could not be made.")
+    }
+    if (page === null) lost("on the server")
+    if (page) make_report(page).then((name) => say(`${name} is saved.`), lost)
   })
 
   // Keys: not where text is typed, which has an undo of its own.

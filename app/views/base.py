@@ -79,9 +79,7 @@ class View:
         body = pn.panel(self.build(wire), margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
-            plot
-            for pane in body.select(pn.pane.Bokeh)
-            for plot in pane.object.select({"type": Plot})
+            plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
         self._caption = Caption(
             title=self.title,
@@ -92,9 +90,10 @@ class View:
             margin=0,
         )
         self._caption.on_msg(self._answer)
-        for pane in body.select(pn.pane.Bokeh):
-            for tool in pane.object.select({"type": SaveTool}):
-                tool.filename = f"bearing-{self.name}"
+        for plot in self.figures:
+            for tool in plot.toolbar.tools:
+                if isinstance(tool, SaveTool):
+                    tool.filename = f"bearing-{self.name}"
         self.panel: pn.viewable.Viewable = pn.Column(
             self._caption,
             body,
@@ -149,6 +148,13 @@ class View:
             self._caption._send_msg({"csv": self.csv()})
         if event.data == "python":
             self._caption._send_msg({"python": self.python()})
+
+
+def figures_in(layout: Any) -> list[Plot]:
+    """Bokeh's figures in one of its layouts. Looked for here: `select` looks at all models."""
+    if isinstance(layout, Plot):
+        return [layout]
+    return [plot for child in getattr(layout, "children", ()) for plot in figures_in(child)]
 
 
 def as_csv(table: dict[str, np.ndarray]) -> str:

@@ -20,7 +20,7 @@ class ShareBar(JSComponent):
     #: what `Keeping.state` tells
     state = param.Dict(default={})
 
-    _esm = asset_text("figure_export.js") + asset_text("share.js")
+    _esm = asset_text("figure_export.js") + asset_text("report.js") + asset_text("share.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("share.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:

@@ -97,12 +97,28 @@ class Choice:
     mode: str = ""
     unit_si: float = 1.0
 
+    @property
+    def column(self) -> str:
+        """Its name with its unit, for a table."""
+        return "_".join(filter(None, (self.name.replace(":", "_"), _UNIT_NAMES[self.unit])))
+
     def seconds(self, scene: Scene) -> float:
         """Rough cost of a scene [s]."""
         many = len(scene.active_dofs) > 2 and self.needs != STATICS
         return _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
 
 
+_UNIT_NAMES = {
+    "": "",
+    "N/m": "n_per_m",
+    "N/rad": "n_per_rad",
+    "N·m/rad": "n_m_per_rad",
+    "N": "n",
+    "Hz": "hz",
+    "m/s²": "m_per_s2",
+    "rad/s²": "rad_per_s2",
+    "°": "deg",
+}
 _LETTERS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 _WHICH = ("mean", "least", "greatest")
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -278,6 +294,11 @@ class Plane:
     y: Sweep
     values: Array
     reasons: NDArray[np.object_]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene whose fields vary."""
+        return self.question.scene
 
     @property
     def shape_words(self) -> str:

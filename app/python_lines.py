@@ -422,6 +422,44 @@ def _stability_map(script: Script, results: Results, view: Any) -> None:
     _plot(script, "plt.pcolormesh(x, y, np.minimum(found.multiplier, 1.5))", "plt.colorbar()")
 
 
+def _explore(script: Script, results: Results, view: Any) -> None:
+    found = view.found
+    if found is None:
+        _nothing_yet(script)
+        return
+    script.numpy()
+    x, y = (
+        (name, f"np.linspace({short(values[0])}, {short(values[-1])}, {values.size})")
+        for name, values in (found.x.in_si, found.y.in_si)
+    )
+    choice = found.question.choice
+    if choice.output:
+        script.part("sweep", "sweep")
+        mode = f'.sel(mode="{choice.mode}")' if choice.mode else ""
+        script.add(
+            "swept = sweep(",
+            "    scene,",
+            f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
+            f'    outputs=["{choice.output}"],',
+            ")",
+            f'values = swept["{choice.output}"]{mode}.values',
+        )
+    else:
+        script.part("sizing_error", "extent_error")
+        script.add(
+            f"x, y = {x[1]}, {y[1]}",
+            "values = np.full((y.size, x.size), np.nan)",
+            "for j, i in np.ndindex(values.shape):",
+            f'    at = scene.replace(**{{"{x[0]}": x[i], "{y[0]}": y[j]}})',
+            "    try:",
+            "        values[j, i] = np.degrees(extent_error(at).error)",
+            "    except ValueError as why:",
+            "        print(why)",
+        )
+    script.add(f'columns = {{"{choice.column}": values}}')
+    _plot(script, f"plt.pcolormesh({x[1]}, {y[1]}, values)", "plt.colorbar()")
+
+
 def _speed_run(script: Script, results: Results, view: Any) -> None:
     found = view.found
     if found is None:
@@ -519,6 +557,7 @@ _MAKERS: dict[str, Callable[[Script, Results, Any], None]] = {
     "vibration-spectrum": _vibration_spectrum,
     "orbit": _orbit,
     "stability-map": _stability_map,
+    "explore": _explore,
     "speed-run": _speed_run,
     "accuracy": _accuracy,
     "dofs": _dofs,

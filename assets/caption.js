@@ -15,12 +15,15 @@ export function render({ model }) {
   }
   const views = () => figures_on_screen(model.figures)
   const failed = (error) => console.warn("the figure could not be saved", error)
-  const pictures = model.figures.length ? [
+  const pictures = [
     button("PNG", `save the picture (${file("png")})`, () =>
       figures_as_png(views()).then((blob) => save_file(file("png"), blob), failed)),
     button("SVG", `save the picture as a drawing (${file("svg")})`, () =>
       save_file(file("svg"), figures_as_svg(views(), model.title), "image/svg+xml")),
-  ] : []
+  ]
+  const offer = () => { for (const one of pictures) one.hidden = !model.figures.length }
+  model.on("figures", offer)
+  offer()
   const numbers = button("CSV", `save the numbers (${file("csv")})`, () => model.send_msg("csv"))
   const python = button("Python", "show the lines of Python that make it", () => model.send_msg("python"))
 

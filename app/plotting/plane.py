@@ -159,6 +159,7 @@ def plane(
     news: hv.streams.Pipe | None = None,
     mark: Any = None,
     hooks: Sequence[Hook] = (),
+    each: Hook | None = None,
     responsive: bool = False,
 ) -> hv.Layout:
     """The map, a line across it each way, and a histogram in which values can be selected.
@@ -175,6 +176,8 @@ def plane(
         pointed at.
     hooks
         further HoloViews hooks for the map.
+    each
+        a hook that is called once for each of the four figures.
     responsive
         as wide as there is room, instead of as in a notebook.
     """
@@ -223,7 +226,7 @@ def plane(
             default_tools=["save"],
             xlim=x_lim["xlim"],
             ylim=y_lim["xlim"],
-            hooks=[Axes(x_axis, y_axis, axis), _Reading(x_axis, y_axis, axis), *hooks],
+            hooks=[Axes(x_axis, y_axis, axis, each), _Reading(x_axis, y_axis, axis), *hooks],
             **big,
             **shared,
         )
@@ -242,9 +245,13 @@ def plane(
             cmap=["#00000000", "#FFFFFFD0"], clim=(0, 1), colorbar=False, tools=[], **shared
         )
     )
-    across.opts(hv.opts.Curve(hooks=[Axes(x_axis, unit)], **line, **x_lim, **small, **shared))
+    across.opts(
+        hv.opts.Curve(hooks=[Axes(x_axis, unit, each=each)], **line, **x_lim, **small, **shared)
+    )
     up.opts(
-        hv.opts.Curve(hooks=[Axes(y_axis, unit)], **line, **y_lim, **{**big, **narrow}, **shared)
+        hv.opts.Curve(
+            hooks=[Axes(y_axis, unit, each=each)], **line, **y_lim, **{**big, **narrow}, **shared
+        )
     )
     histogram.opts(
         hv.opts.Histogram(
@@ -253,7 +260,7 @@ def plane(
             tools=["xbox_select"],
             default_tools=["reset"],
             title="Select values here to find them on the map",
-            hooks=[Axes(axis, many)],
+            hooks=[Axes(axis, many, each=each)],
             **{**small, **narrow},
             **{**shared, "active_tools": ["xbox_select"]},
         )

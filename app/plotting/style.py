@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import holoviews as hv
@@ -23,15 +24,22 @@ def dimension(name: str, quantity: AxisQuantity, **more: Any) -> hv.Dimension:
 
 
 class Axes:
-    """A hook that gives a figure the page's axes; lets figures of a kind be told apart by tests.
+    """A hook that gives a figure the page's look, and axes that write their own units.
 
-    HoloViews calls hooks again whenever a figure is updated; what follows by itself is done once.
+    HoloViews calls hooks again whenever a figure is updated; what follows by itself is done once,
+    as is what is to be done to `each` figure.
     """
 
-    def __init__(self, x: AxisQuantity, y: AxisQuantity, color: AxisQuantity | None = None) -> None:
-        self.x, self.y, self.color = x, y, color
+    def __init__(
+        self,
+        x: AxisQuantity,
+        y: AxisQuantity,
+        color: AxisQuantity | None = None,
+        each: Callable[[Any, Any], None] | None = None,
+    ) -> None:
+        self.x, self.y, self.color, self.each = x, y, color, each
 
-    def __call__(self, plot: Any, _: Any) -> None:
+    def __call__(self, plot: Any, element: Any) -> None:
         done = plot.handles.setdefault("house", set())
         handles = plot.handles
         for name, quantity in (("x", self.x), ("y", self.y)):
@@ -46,6 +54,8 @@ class Axes:
             self._write_bar(handles)
         if "figure" not in done:
             done.add("figure")
+            if self.each is not None:
+                self.each(plot, element)
             figure = handles["plot"]
             figure.output_backend = "canvas"
             figure.toolbar.autohide = True

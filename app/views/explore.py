@@ -8,6 +8,7 @@ library is imported then, too, off the event loop.
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 from bokeh.events import Tap
-from bokeh.models import CustomJS, Spacer
+from bokeh.models import CustomJS, Plot, Spacer
 
 from app.assets import asset_text
 from app.explore import (
@@ -46,6 +47,8 @@ if TYPE_CHECKING:
 
 REST = 0.2
 """[s] that sliders must rest before a map is refined."""
+PAUSE = 2.0
+"""Between two drawings while sliders move, in drawing times: the event loop is everybody's."""
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
@@ -97,9 +100,9 @@ class ExplorePlane(JobView[Plane]):
     _question: Question | None = None
     _refining: tuple[Question, int] | None = None
     _timer: asyncio.TimerHandle | None = None
-    _drawn: Plane | None = None
     _at: tuple[float, float] = (0.0, 0.0)
     _news: Any = None
+    _next_show = 0.0
 
     def build(self, wire: Wire) -> Any:
         self._mark = wire.source("explore_mark", "x", "y")
@@ -190,8 +193,8 @@ class ExplorePlane(JobView[Plane]):
         scene = focused(results.scene, results.focus)
         x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
         sources["explore_mark"] = {"x": np.array([x]), "y": np.array([y])}
-        if self._drawn is not None and self._plane(question)[0] is None:
-            ends = [float(v) for s in (self._drawn.question.x, self._drawn.question.y)
+        if self.found is not None and self._plane(question)[0] is None:
+            ends = [float(v) for s in (self.found.question.x, self.found.question.y)
                     for v in (s.values[0], s.values[-1])]  # fmt: skip
             names = ("left", "right", "bottom", "top", "alpha")
             sources["explore_old"] = {
@@ -205,7 +208,7 @@ class ExplorePlane(JobView[Plane]):
         question = self._asking.of(results)
         plane, why = self._plane(question)
         if plane is None:
-            faint = "What is drawn, faint, is another map. " if self._drawn is not None else ""
+            faint = "What is drawn, faint, is another map. " if self.found is not None else ""
             return faint + (why or "This output takes a while: the map is being computed.")
         return summary(plane)
 
@@ -218,7 +221,7 @@ class ExplorePlane(JobView[Plane]):
         x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
         self._at = x, y
         plane, why = self._plane(question)
-        if plane is not None:
+        if plane is not None and time.perf_counter() > self._next_show:
             self._show(plane)
         if self._refining == (question, self._asking.stride):
             return
@@ -231,16 +234,15 @@ class ExplorePlane(JobView[Plane]):
             self._timer = loop.call_later(REST, self._refine, question, plane)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        if self._drawn is None:
+        if self.found is None:
             return {}
-        found = self._drawn
+        found = self.found
         y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
         question = found.question
-        name = question.choice.name.replace(":", "_")
         return {
             question.x.quantity.name: x,
             question.y.quantity.name: y,
-            f"{name}_{_unit_name(question.choice.unit)}".rstrip("_"): found.values,
+            question.choice.column: found.values,
             "no_answer_because": found.reasons,
         }
 
@@ -257,28 +259,35 @@ class ExplorePlane(JobView[Plane]):
 
     def _show(self, plane: Plane) -> None:
         """Draw a map; its figures are made anew where it is one of something else."""
-        if plane is self._drawn:
+        if plane is self.found:
             return
         from app.plotting.plane import plane as linked_figures
 
+        started = time.perf_counter()
         field = field_of(plane, self._at)
-        before, self._drawn = self._drawn, plane
+        before, self.found = self.found, plane
         if before is not None and before.question.figure == plane.question.figure:
             self._news.send(field)
+            now = time.perf_counter()
+            self._next_show = now + PAUSE * (now - started)
             return
         import holoviews as hv
 
+        self._mark.js_property_callbacks = {}  # those of figures that are gone
         self._news = hv.streams.Pipe(data=field)
         names = [plane.question.x.quantity.name, plane.question.y.quantity.name]
+        plots: list[Plot] = []
         layout = linked_figures(
             field,
             news=self._news,
             mark=self._mark,
             hooks=[_Marks(names, self._mark, self._old)],
+            each=lambda plot, _: plots.append(plot.handles["plot"]),
             responsive=True,
         )
         pane = pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
         self._figures[:] = [pane]
+        self._caption.figures = [plot.id for plot in plots]
 
     # Refining
 
@@ -292,6 +301,8 @@ class ExplorePlane(JobView[Plane]):
 
         def work(job: Work) -> str:
             going: Job = _While(job, lambda: self._refining == asked)
+            if start is not None:
+                job.show(start)  # it may have been passed over while the slider moved
             try:
                 return refine(going, question, stride, start)
             except ValueError as error:
@@ -302,7 +313,6 @@ class ExplorePlane(JobView[Plane]):
 
     def _take(self, found: Plane) -> None:
         if found.question == self._question:
-            self.found = found
             self._show(found)
             self._draw()
 
@@ -398,9 +408,3 @@ def _place(plane: Plane, at: tuple[Any, ...]) -> str:
         for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
     ]
     return f"{shown} at {' and '.join(where)}"
-
-
-def _unit_name(unit: str) -> str:
-    """A unit as a column's name has it."""
-    names = {"": "", "°": "deg", "Hz": "hz", "N": "n", "m/s²": "m_per_s2", "rad/s²": "rad_per_s2"}
-    return names.get(unit, unit.replace("N·m", "n_m").replace("/", "_per_").replace("N", "n"))

@@ -9,12 +9,14 @@ import time
 from collections.abc import Callable
 from itertools import pairwise
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 
 from app import explore
 from app.explore import CHOICES, Plane, Question, Survey, coarse, refine
 from app.jobs import Work
+from app.python_lines import lines_of
 from app.quantities import limits_of
 from app.results import Results
 from app.scene_editor import SceneEditor
@@ -264,7 +266,7 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     words = view.sentence(results)
     assert words.startswith("9 × 7 points. kyy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
-    view._drawn = coarse(view._asking.of(results))
+    view.found = coarse(view._asking.of(results))
     assert view.data(results)[0]["explore_old"]["alpha"].size == 0
     table = view.table(results)
     assert set(table) == {"extent_deg", "fy_n", "k_yy_mean_n_per_m", "no_answer_because"}
@@ -273,7 +275,25 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     view._asking = view.asked({**FORM, "output": "acceleration_rms_y"}, editor)
     assert view.data(results)[0]["explore_old"]["alpha"] == pytest.approx([0.65])
     assert view.sentence(results).startswith("What is drawn, faint, is another map.")
-    assert summary(view._drawn) in words
+    assert summary(view.found) in words
+
+
+@pytest.mark.parametrize("output", ["k_yy_mean", "band_least:y1"])
+def test_lines_of_python_make_the_map_again(output: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("dask")
+    mpl.use("agg")
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    view = ExplorePlane(Wire())
+    small = question(output, ("extent_deg", "30", "40"), ("depth_um", "50", "60"), shape=(3, 3))
+    survey = Survey(small)
+    survey.compute(2)
+    view.found = survey.plane(2)
+    made: dict = {}
+    exec(compile(lines_of(view, Results(RIG)), "<lines>", "exec"), made)
+    mpl.pyplot.close("all")
+    table = view.table(Results(RIG))
+    ((column, values),) = made["columns"].items()
+    np.testing.assert_allclose(values, table[column], rtol=1e-9)
 
 
 def test_the_first_page_does_not_wait_for_holoviews() -> None:

@@ -1,5 +1,6 @@
 """Sizing defects: of signals made here by another code path, and of scenes drawn by seed."""
 
+import functools
 import math
 
 import numpy as np
@@ -95,8 +96,8 @@ def marched_elsewhere(scene: Scene, duration: float, rate: float) -> np.ndarray:
     return np.array([rates(t, y)[6:] for t, y in zip(marched.t, marched.y.T, strict=True)])
 
 
-@pytest.fixture(scope="module")
-def measured() -> tuple[Scene, bytes]:
+@functools.cache
+def file_from_elsewhere() -> tuple[Scene, bytes]:
     """A CSV file in g, with a clock 0.1 % off, offset, drift and hum, resampled; and its scene."""
     truth = RIG.replace(extent=math.radians(47.3), fy=-300.0, shaft_speed=2.0 * math.pi * 12.0)
     signal = marched_elsewhere(truth, 0.45, 16_000.0)
@@ -108,6 +109,11 @@ def measured() -> tuple[Scene, bytes]:
     signal += 0.05 * np.sin(2.0 * math.pi * 5.0 * time)[:, None]
     rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
     return truth, ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode()
+
+
+@pytest.fixture(scope="module")
+def measured() -> tuple[Scene, bytes]:
+    return file_from_elsewhere()
 
 
 def test_a_file_from_elsewhere_is_sized(measured):

@@ -78,9 +78,8 @@ NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
 # far from q = 0, none smaller can be had.
 ROUNDING = 4e-16
 
-# A ball that carries less than this many residuals may as well carry nothing; where even the
-# greatest stiffness is below this part of that of one ball under all of the load, rounding made it.
-FAINT, FAINT_STIFFNESS = 10.0, 1e-12
+# A ball that carries less than this many residuals may as well carry nothing.
+FAINT = 10.0
 
 # Where the centres of a loaded ball have passed each other nothing holds it along its line; nearer
 # than this part of A0 to passing, rounding decides whether they have.
@@ -517,7 +516,7 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
                     least = least_pivot(H[now], active)
                 status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
                 return now, status, residual, iteration, evaluations
-            if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
+            if not least > LEAST_PIVOT:
                 # too few balls touch: a small spring to ground stands in for the missing stiffness
                 newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
                 shift_part = max(0.1 * shift_part, 1e-10)
@@ -1093,26 +1092,6 @@ def march_flat(
     return n_steps
 
 
-@compiled
-def flat_smooth(y, start_angle, rows, tables, mi, mo, n_balls, rL, damping, sign):
-    """Turn velocities in the state y (8,) into w (sign 1), or back (sign −1), in place."""
-    S0 = 0.0
-    S1 = 0.0
-    for j in range(n_balls):
-        phi = start_angle + 2.0 * math.pi / n_balls * j
-        cj = math.cos(phi)
-        sj = math.sin(phi)
-        d, _ = fall(phi, start_angle, rows, tables)
-        delta = (y[0] - y[4]) * cj + (y[1] - y[5]) * sj - rL - d
-        if delta > 0.0:
-            S0 += delta * cj
-            S1 += delta * sj
-    y[2] += sign * damping / mi[0] * S0
-    y[3] += sign * damping / mi[1] * S1
-    y[6] -= sign * damping / mo[0] * S0
-    y[7] -= sign * damping / mo[1] * S1
-
-
 @inlined
 def rate_of_change(
     y, k, n, c, s, d, d_rate, at, cage_speed, F, active, inverse_mi, inverse_mo, ko, co,
@@ -1279,12 +1258,12 @@ def elastic_ball_loads(x, active, start_angle, turn, rows, tables, n_balls, ca, 
 
 @compiled
 def contact_tangent(
-    x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, pull, f, Kx, Kv, loaded
+    x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, f, Kx, Kv, loaded
 ):
-    """`contact_force` into f (5,) with its derivatives Kx = ∂f/∂x and Kv = ∂f/∂v, (5, 5).
+    """`contact_force` without tension into f (5,), its derivatives into Kx and Kv (5, 5).
 
-    loaded (n_balls,) tells which balls push. With p the ball's displacement (radial, axial), e the
-    direction of the contact and t across it,
+    Kx = ∂f/∂x, Kv = ∂f/∂v; loaded (n_balls,) tells which balls push. With p the ball's displacement
+    (radial, axial), e the direction of the contact and t across it,
     ∂(push e)/∂p = k1 e e' + (push/A) t t' + (c/A) (t·ṗ) e t', and ṗ depends on x and v itself.
     """
     f[:] = 0.0
@@ -1313,7 +1292,7 @@ def contact_tangent(
         rate = er * r_rate + ez * z_rate
         root = math.sqrt(delta)
         push = K * delta * root + damping * rate
-        if push <= 0.0 and not pull:
+        if push <= 0.0:
             continue
         loaded[j] = True
         k1 = 1.5 * K * root
@@ -1348,22 +1327,21 @@ def contact_tangent(
 
 @compiled
 def touch_and_leave(
-    Y, x, c, s, d, at, was, now, active, inverse_mi, inverse_mo, ca, sa, A0, rL, damping, pull
+    Y, x, c, s, d, at, was, now, active, inverse_mi, inverse_mo, ca, sa, A0, rL, damping
 ):
-    """Apply to the tangent Y what balls that touched or left during a step do to it.
+    """Apply to the tangent Y what balls that touched during a step do to it; True if any did.
 
     The damper's force jumps by c δ̇ at δ = 0. A neighbouring motion touches a little earlier or
     later; what that does to velocities is c (e·Δx) e over the mass, the rate δ̇ cancelling
-    (the saltation matrix). A law without tension leaves without a jump. True if Y has changed.
+    (the saltation matrix). Without tension balls leave without a jump.
     """
     n = active.size
     e = np.zeros(5)
     changed = False
     for j in range(c.shape[1]):
-        if was[j] == now[j] or (was[j] and not pull):
+        if was[j] or not now[j]:
             continue
         changed = True
-        kick = -damping if now[j] else damping
         cj = c[at, j]
         sj = s[at, j]
         r = x[0] * cj + x[1] * sj - rL
@@ -1385,23 +1363,23 @@ def touch_and_leave(
             for a in range(n):
                 nearer += e[active[a]] * (Y[a, column] - Y[2 * n + a, column])
             for a in range(n):
-                Y[n + a, column] += kick * inverse_mi[a] * e[active[a]] * nearer
-                Y[3 * n + a, column] -= kick * inverse_mo[a] * e[active[a]] * nearer
+                Y[n + a, column] -= damping * inverse_mi[a] * e[active[a]] * nearer
+                Y[3 * n + a, column] += damping * inverse_mo[a] * e[active[a]] * nearer
     return changed
 
 
 @compiled
 def rates_with_tangent(
     y, Y, k, kY, c, s, d, d_rate, at, cage_speed, F, active, inverse_mi, inverse_mo, ko, co,
-    ca, sa, A0, rL, K, damping, pull, x, v, f, Kx, Kv, loaded,
+    ca, sa, A0, rL, K, damping, x, v, f, Kx, Kv, loaded,
 ):
-    """`rate_of_change` into k (4 n,) and the rate of the tangent Y (4 n, 4 n) into kY."""
+    """`rate_of_change` without tension into k (4 n,), that of the tangent Y (4 n, 4 n) into kY."""
     n = active.size
     for a in range(n):
         x[active[a]] = y[a] - y[2 * n + a]
         v[active[a]] = y[n + a] - y[3 * n + a]
     contact_tangent(
-        x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, pull, f, Kx, Kv, loaded
+        x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping, f, Kx, Kv, loaded
     )
     for a in range(n):
         force = f[active[a]]
@@ -1433,9 +1411,12 @@ def rates_with_tangent(
 @compiled
 def march_with_tangent(
     y, Y, n_steps, h, start_angle, cage_speed, rows, tables, F, active, mi, mo, ko, co,
-    n_balls, ca, sa, A0, rL, K, damping, pull, history,
+    n_balls, ca, sa, A0, rL, K, damping, history,
 ):
-    """`march`, and beside it the tangent Y (4 n, 4 n): how the end changes with the beginning."""
+    """`march` without tension, and beside it the tangent Y (4 n, 4 n).
+
+    That is how the end changes with the beginning.
+    """
     n = active.size
     ball_c, ball_s = ball_circle(n_balls)
     shape = (GEOMETRY_BLOCK + 1, n_balls)
@@ -1481,7 +1462,7 @@ def march_with_tangent(
             rates_with_tangent(
                 trial, trial_Y, k[stage], kY[stage], c, s, d, d_rate, i + half_steps_on[stage],
                 cage_speed, F, active, inverse_mi, inverse_mo, ko, co,
-                ca, sa, A0, rL, K, damping, pull, x, v, f, Kx, Kv, loaded,
+                ca, sa, A0, rL, K, damping, x, v, f, Kx, Kv, loaded,
             )
             if stage == 0:
                 was[:] = now
@@ -1489,11 +1470,11 @@ def march_with_tangent(
                 # x and v are those of this instant, the end of the step before
                 if step > 0 and touch_and_leave(
                     Y, x, c, s, d, i, was, now, active, inverse_mi, inverse_mo,
-                    ca, sa, A0, rL, damping, pull,
+                    ca, sa, A0, rL, damping,
                 ):
                     rates_with_tangent(
                         y, Y, k[0], kY[0], c, s, d, d_rate, i, cage_speed, F, active,
-                        inverse_mi, inverse_mo, ko, co, ca, sa, A0, rL, K, damping, pull,
+                        inverse_mi, inverse_mo, ko, co, ca, sa, A0, rL, K, damping,
                         x, v, f, Kx, Kv, loaded,
                     )
                 for a in range(n):
@@ -1658,45 +1639,25 @@ def march_flat_with_tangent(
 # What stands above `flat_sums` holds wherever contacts point: c δ̇ e = d/dt(c δ e) − c δ ė. Where
 # contacts swivel, ė takes velocities, which follow from w and displacements. Against `march` the
 # error of a motion at the same steps is smaller by a factor of 10 to 100.
+#
+# Numbers of a scene travel packed here and in the section after the next:
+# numbers = (cage_speed, cos α0, sin α0, A0, r_L, K, contact damping, pull), and
+# bodies (5, n) = load, inverse inner and outer mass, stiffness and damping of the support.
 
 
 @inlined
-def damped_sum(x, c, s, d, at, ca, sa, A0, rL):
-    """Σ δ e over the loaded balls [m], e the direction of a contact in q."""
+def find_loaded(x, c, s, d, at, ca, sa, A0, rL, balls, contacts):
+    """Σ δ e over the loaded balls [m] and how many they are, e the direction of a contact in q.
+
+    Their numbers go into balls (n_balls,); δ, er, ez and 1/A, 0 where the centres have passed each
+    other and a contact does not swivel, into contacts (n_balls, 4).
+    """
     S0 = 0.0
     S1 = 0.0
     S2 = 0.0
     S3 = 0.0
     S4 = 0.0
-    for j in range(c.shape[1]):
-        cj = c[at, j]
-        sj = s[at, j]
-        r = x[0] * cj + x[1] * sj - rL
-        z = x[2] + x[3] * sj - x[4] * cj
-        delta, eu, ew, _ = compression(r * ca + z * sa - d[at, j], z * ca - r * sa, A0)
-        if delta > 0.0:
-            er = delta * (eu * ca - ew * sa)
-            ez = delta * (eu * sa + ew * ca)
-            S0 += er * cj
-            S1 += er * sj
-            S2 += ez
-            S3 += ez * sj
-            S4 -= ez * cj
-    return S0, S1, S2, S3, S4
-
-
-@inlined
-def smooth_force(x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, damping):
-    """Σ (Q e − c δ ė) [N]: the published law's force on the outer ring less d/dt of c Σ δ e.
-
-    e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A, t across the contact
-    and ṗ the ball's rate of displacement.
-    """
-    f0 = 0.0
-    f1 = 0.0
-    f2 = 0.0
-    f3 = 0.0
-    f4 = 0.0
+    count = 0
     for j in range(c.shape[1]):
         cj = c[at, j]
         sj = s[at, j]
@@ -1708,23 +1669,150 @@ def smooth_force(x, v, c, s, d, d_rate, at, cage_speed, ca, sa, A0, rL, K, dampi
             continue
         er = eu * ca - ew * sa
         ez = eu * sa + ew * ca
-        r_rate = v[0] * cj + v[1] * sj + cage_speed * (x[1] * cj - x[0] * sj) - ca * d_rate[at, j]
-        z_rate = (
-            v[2] + v[3] * sj - v[4] * cj + cage_speed * (x[3] * cj + x[4] * sj)
-            - sa * d_rate[at, j]
-        )
-        swivel = damping * delta * (er * z_rate - ez * r_rate) / A if A0 + m > 0.0 else 0.0
+        balls[count] = j
+        contacts[count, 0] = delta
+        contacts[count, 1] = er
+        contacts[count, 2] = ez
+        contacts[count, 3] = 1.0 / A if A0 + m > 0.0 else 0.0
+        count += 1
+        er *= delta
+        ez *= delta
+        S0 += er * cj
+        S1 += er * sj
+        S2 += ez
+        S3 += ez * sj
+        S4 -= ez * cj
+    return S0, S1, S2, S3, S4, count
+
+
+@inlined
+def smooth_force(
+    x, v, c, s, d_rate, at, cage_speed, ca, sa, K, damping, balls, contacts, count, smooth
+):
+    """Σ (Q e − c δ ė) [N]: the published law's force on the outer ring less d/dt of c Σ δ e.
+
+    e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A, t across the contact
+    and ṗ the ball's rate of displacement. Where not `smooth`: Σ (Q + c δ̇) e, the force itself.
+    """
+    u0 = v[0] + cage_speed * x[1]  # the turning of the balls, moved over to the rings
+    u1 = v[1] - cage_speed * x[0]
+    u2 = v[2]
+    u3 = v[3] + cage_speed * x[4]
+    u4 = v[4] - cage_speed * x[3]
+    f0 = 0.0
+    f1 = 0.0
+    f2 = 0.0
+    f3 = 0.0
+    f4 = 0.0
+    for i in range(count):
+        j = balls[i]
+        delta = contacts[i, 0]
+        er = contacts[i, 1]
+        ez = contacts[i, 2]
+        cj = c[at, j]
+        sj = s[at, j]
+        r_rate = u0 * cj + u1 * sj - ca * d_rate[at, j]
+        z_rate = u2 + u3 * sj - u4 * cj - sa * d_rate[at, j]
         Q = K * delta * math.sqrt(delta)
-        along_r = Q * er + swivel * ez
-        along_z = Q * ez - swivel * er
-        turn_r = damping * delta * cage_speed * er
-        turn_z = damping * delta * cage_speed * ez
-        f0 += along_r * cj + turn_r * sj
-        f1 += along_r * sj - turn_r * cj
-        f2 += along_z
-        f3 += along_z * sj - turn_z * cj
-        f4 -= along_z * cj + turn_z * sj
+        if smooth:
+            damped = damping * delta
+            swivel = damped * (er * z_rate - ez * r_rate) * contacts[i, 3]
+            along_r = Q * er + swivel * ez
+            along_z = Q * ez - swivel * er
+            turn_r = damped * cage_speed * er
+            turn_z = damped * cage_speed * ez
+            f0 += along_r * cj + turn_r * sj
+            f1 += along_r * sj - turn_r * cj
+            f2 += along_z
+            f3 += along_z * sj - turn_z * cj
+            f4 -= along_z * cj + turn_z * sj
+        else:
+            push = Q + damping * (er * r_rate + ez * z_rate)
+            f0 += push * er * cj
+            f1 += push * er * sj
+            f2 += push * ez
+            f3 += push * ez * sj
+            f4 -= push * ez * cj
     return f0, f1, f2, f3, f4
+
+
+@compiled
+def turn_smooth(y, sign, angle, n_balls, numbers, bodies, active, rows, tables):
+    """Turn velocities in the state y (4 n,) into w (sign 1), or back (sign −1), in place."""
+    n = active.size
+    _, ca, sa, A0, rL, _, damping, _ = numbers
+    ball_c, ball_s = ball_circle(n_balls)
+    c = np.empty((1, n_balls))
+    s = np.empty((1, n_balls))
+    d = np.zeros((1, n_balls))
+    d_rate = np.zeros((1, n_balls))
+    lay_out_balls(angle, 0.0, 1, 1.0, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+    x = np.zeros(5)
+    S = np.zeros(5)
+    balls = np.empty(n_balls, dtype=np.int64)
+    contacts = np.empty((n_balls, 4))
+    for a in range(n):
+        x[active[a]] = y[a] - y[2 * n + a]
+    S[0], S[1], S[2], S[3], S[4], _ = find_loaded(
+        x, c, s, d, 0, ca, sa, A0, rL, balls, contacts
+    )
+    for a in range(n):
+        y[n + a] += sign * damping * bodies[1, a] * S[active[a]]
+        y[3 * n + a] -= sign * damping * bodies[2, a] * S[active[a]]
+
+
+@inlined
+def smooth_rates(
+    y, k, c, s, d, d_rate, at, numbers, bodies, active, x, v, f, balls, contacts
+):
+    """dy/dt of the smooth variables into k (4 n,); returns how many balls are loaded.
+
+    x, v, f (5,), balls and contacts are work space; x and v are left as the relative displacement
+    and velocity of the rings, balls and contacts as `find_loaded` has them.
+    """
+    n = active.size
+    w, ca, sa, A0, rL, K, damping, _ = numbers
+    for a in range(n):
+        x[active[a]] = y[a] - y[2 * n + a]
+    f[0], f[1], f[2], f[3], f[4], loaded = find_loaded(
+        x, c, s, d, at, ca, sa, A0, rL, balls, contacts
+    )
+    for a in range(n):
+        k[a] = y[n + a] - damping * bodies[1, a] * f[active[a]]
+        k[2 * n + a] = y[3 * n + a] + damping * bodies[2, a] * f[active[a]]
+        v[active[a]] = k[a] - k[2 * n + a]
+    f[0], f[1], f[2], f[3], f[4] = smooth_force(
+        x, v, c, s, d_rate, at, w, ca, sa, K, damping, balls, contacts, loaded, True
+    )
+    for a in range(n):
+        force = f[active[a]]
+        k[n + a] = (bodies[0, a] - force) * bodies[1, a]
+        k[3 * n + a] = (
+            force - bodies[3, a] * y[2 * n + a] - bodies[4, a] * k[2 * n + a]
+        ) * bodies[2, a]
+    return loaded
+
+
+@inlined
+def smooth_record(
+    history, step, y, k, c, s, d_rate, at, numbers, bodies, active, x, v, f, balls, contacts, loaded
+):
+    """Displacements, velocities and accelerations (Eq. 18) after `smooth_rates` has been there."""
+    n = active.size
+    w, ca, sa, _, _, K, damping, _ = numbers
+    f[0], f[1], f[2], f[3], f[4] = smooth_force(
+        x, v, c, s, d_rate, at, w, ca, sa, K, damping, balls, contacts, loaded, False
+    )
+    for a in range(n):
+        force = f[active[a]]
+        xo = y[2 * n + a]
+        vo = k[2 * n + a]
+        history[step, 0, a] = y[a]
+        history[step, 1, a] = k[a]
+        history[step, 2, a] = (bodies[0, a] - force) * bodies[1, a]
+        history[step, 3, a] = xo
+        history[step, 4, a] = vo
+        history[step, 5, a] = (force - bodies[3, a] * xo - bodies[4, a] * vo) * bodies[2, a]
 
 
 @compiled
@@ -1734,8 +1822,8 @@ def march_smooth(
     """`march` under the published law in variables that do not jump, in any directions.
 
     As in `march_flat`, w_i = v_i + (c/m_i) Σ δ e and w_o = v_o − (c/m_o) Σ δ e are marched instead
-    of velocities. y (4 n,) goes in and comes out with velocities; history and what is returned: as
-    `march`; numbers and bodies: as below, where other ways to march begin.
+    of velocities: y (4 n,) holds them (see `turn_smooth`) and is moved to the end. history holds
+    velocities; it and what is returned are as in `march`.
     """
     n = active.size
     ball_c, ball_s = ball_circle(n_balls)
@@ -1749,8 +1837,9 @@ def march_smooth(
     x = np.zeros(5)
     v = np.zeros(5)
     f = np.zeros(5)
-    S = np.zeros(5)
-    w, ca, sa, A0, rL, K, damping, _ = numbers
+    balls = np.empty(n_balls, dtype=np.int64)
+    contacts = np.empty((n_balls, 4))
+    w = numbers[0]
     half_turn = 0.5 * h * w
     for step in range(n_steps + 1):
         i = (2 * step) % GEOMETRY_BLOCK
@@ -1766,65 +1855,209 @@ def march_smooth(
             part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
             for r in range(4 * n):
                 trial[r] = y[r] + (part * k[stage - 1, r] if stage > 0 else 0.0)
-            for a in range(n):
-                x[active[a]] = trial[a] - trial[2 * n + a]
-            S[0], S[1], S[2], S[3], S[4] = damped_sum(x, c, s, d, at, ca, sa, A0, rL)
-            if step == 0 and stage == 0:
-                for a in range(n):
-                    y[n + a] += damping * bodies[1, a] * S[active[a]]
-                    y[3 * n + a] -= damping * bodies[2, a] * S[active[a]]
-                    trial[n + a] = y[n + a]
-                    trial[3 * n + a] = y[3 * n + a]
-            for a in range(n):
-                k[stage, a] = trial[n + a] - damping * bodies[1, a] * S[active[a]]
-                k[stage, 2 * n + a] = trial[3 * n + a] + damping * bodies[2, a] * S[active[a]]
-                v[active[a]] = k[stage, a] - k[stage, 2 * n + a]
+            loaded = smooth_rates(
+                trial, k[stage], c, s, d, d_rate, at, numbers, bodies, active, x, v, f,
+                balls, contacts,
+            )
             if stage == 0:
-                f[0], f[1], f[2], f[3], f[4] = contact_force(
-                    x, v, c, s, d, d_rate, at, w, ca, sa, A0, rL, K, damping, True
+                smooth_record(
+                    history, step, y, k[0], c, s, d_rate, at, numbers, bodies, active, x, v, f,
+                    balls, contacts, loaded,
                 )
-                for a in range(n):
-                    force = f[active[a]]
-                    xo = y[2 * n + a]
-                    vo = k[0, 2 * n + a]
-                    history[step, 0, a] = y[a]
-                    history[step, 1, a] = k[0, a]
-                    history[step, 2, a] = (bodies[0, a] - force) * bodies[1, a]
-                    history[step, 3, a] = xo
-                    history[step, 4, a] = vo
-                    history[step, 5, a] = (
-                        force - bodies[3, a] * xo - bodies[4, a] * vo
-                    ) * bodies[2, a]
                 if step == n_steps:
                     break
-            f[0], f[1], f[2], f[3], f[4] = smooth_force(
-                x, v, c, s, d, d_rate, at, w, ca, sa, A0, rL, K, damping
-            )
-            for a in range(n):
-                force = f[active[a]]
-                k[stage, n + a] = (bodies[0, a] - force) * bodies[1, a]
-                k[stage, 3 * n + a] = (
-                    force - bodies[3, a] * trial[2 * n + a] - bodies[4, a] * k[stage, 2 * n + a]
-                ) * bodies[2, a]
         if step == n_steps:
             break
         for r in range(4 * n):
             y[r] += h / 6.0 * (k[0, r] + 2.0 * (k[1, r] + k[2, r]) + k[3, r])
-    for a in range(n):
-        y[n + a] = history[n_steps, 1, a]
-        y[3 * n + a] = history[n_steps, 4, a]
     for r in range(4 * n):
         if not math.isfinite(y[r]):
             return max(n_steps - GEOMETRY_BLOCK // 2, 0)
     return n_steps
 
 
+@compiled
+def smooth_tangent(
+    x, v, c, s, d_rate, at, numbers, balls, contacts, loaded, e, t, e_turn, t_turn, Sx, Px, Pv
+):
+    """How Σ δ e and the force of `smooth_force` change with x and v: Sx, Px and Pv (5, 5).
+
+    With e along a contact and t across it, in q, and e_turn and t_turn their derivatives with the
+    cage's turning: de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A.
+    e, t, e_turn, t_turn (5,) are work space.
+    """
+    w, ca, sa, _, _, K, damping, _ = numbers
+    for a in range(5):
+        for b in range(5):
+            Sx[a, b] = 0.0
+            Px[a, b] = 0.0
+            Pv[a, b] = 0.0
+    e_turn[2] = 0.0
+    t_turn[2] = 0.0
+    for i in range(loaded):
+        j = balls[i]
+        delta = contacts[i, 0]
+        er = contacts[i, 1]
+        ez = contacts[i, 2]
+        bend = contacts[i, 3]
+        cj = c[at, j]
+        sj = s[at, j]
+        r_rate = v[0] * cj + v[1] * sj + w * (x[1] * cj - x[0] * sj) - ca * d_rate[at, j]
+        z_rate = v[2] + v[3] * sj - v[4] * cj + w * (x[3] * cj + x[4] * sj) - sa * d_rate[at, j]
+        e[0] = er * cj
+        e[1] = er * sj
+        e[2] = ez
+        e[3] = ez * sj
+        e[4] = -ez * cj
+        t[0] = -ez * cj
+        t[1] = -ez * sj
+        t[2] = er
+        t[3] = er * sj
+        t[4] = -er * cj
+        e_turn[0] = -er * sj
+        e_turn[1] = er * cj
+        e_turn[3] = ez * cj
+        e_turn[4] = ez * sj
+        t_turn[0] = ez * sj
+        t_turn[1] = -ez * cj
+        t_turn[3] = er * cj
+        t_turn[4] = er * sj
+        root = math.sqrt(delta)
+        k1 = 1.5 * K * root
+        k2 = K * delta * root * bend
+        sigma = bend * (er * z_rate - ez * r_rate)
+        along = er * r_rate + ez * z_rate
+        damped = damping * delta * bend
+        for b in range(5):
+            # of swivel = c δ σ, which pushes along −t
+            swivel = (
+                damping * sigma * (1.0 - delta * bend) * e[b]
+                + damped * (w * t_turn[b] - along * bend * t[b])
+            )
+            for a in range(5):
+                Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
+                Px[a, b] += (
+                    k1 * e[a] * e[b] + (k2 * t[a] + damped * sigma * e[a]) * t[b] - t[a] * swivel
+                    - w * (damping * e_turn[a] * e[b] + damped * t_turn[a] * t[b])
+                )
+                Pv[a, b] -= damped * t[a] * t[b]
+
+
+@compiled
+def smooth_tangent_rates(Y, kY, k_rows, bodies, active, damping, Sx, Px, Pv):
+    """Rate of the tangent Y (4 n, 4 n) into kY; k_rows (2 n, 4 n) is work space."""
+    n = active.size
+    size = 4 * n
+    for a in range(n):
+        for column in range(size):
+            k_rows[a, column] = 0.0
+    for a in range(n):
+        for b in range(n):
+            stiff = damping * Sx[active[a], active[b]]
+            for column in range(size):
+                k_rows[a, column] += stiff * (Y[b, column] - Y[2 * n + b, column])
+    for a in range(n):
+        for column in range(size):
+            kY[a, column] = Y[n + a, column] - bodies[1, a] * k_rows[a, column]
+            kY[2 * n + a, column] = Y[3 * n + a, column] + bodies[2, a] * k_rows[a, column]
+            k_rows[n + a, column] = 0.0
+    for a in range(n):
+        for b in range(n):
+            kx = Px[active[a], active[b]]
+            kv = Pv[active[a], active[b]]
+            for column in range(size):
+                k_rows[n + a, column] += kx * (Y[b, column] - Y[2 * n + b, column]) + kv * (
+                    kY[b, column] - kY[2 * n + b, column]
+                )
+    for a in range(n):
+        for column in range(size):
+            force = k_rows[n + a, column]
+            kY[n + a, column] = -force * bodies[1, a]
+            kY[3 * n + a, column] = bodies[2, a] * (
+                force - bodies[3, a] * Y[2 * n + a, column] - bodies[4, a] * kY[2 * n + a, column]
+            )
+
+
+@compiled
+def march_smooth_with_tangent(
+    y, Y, n_steps, h, start_angle, n_balls, numbers, bodies, active, rows, tables, history
+):
+    """`march_smooth`, and beside it the tangent Y (4 n, 4 n).
+
+    That is how the end changes with the beginning. In smooth variables nothing jumps as balls
+    touch: the steps of the tangent are the derivative of those of the motion, without corrections.
+    """
+    n = active.size
+    ball_c, ball_s = ball_circle(n_balls)
+    shape = (GEOMETRY_BLOCK + 1, n_balls)
+    c = np.empty(shape)
+    s = np.empty(shape)
+    d = np.zeros(shape)
+    d_rate = np.zeros(shape)
+    k = np.zeros((4, 4 * n))
+    kY = np.zeros((4, 4 * n, 4 * n))
+    trial = np.zeros(4 * n)
+    trial_Y = np.zeros((4 * n, 4 * n))
+    k_rows = np.zeros((2 * n, 4 * n))
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    directions = np.zeros((4, 5))
+    Sx = np.zeros((5, 5))
+    Px = np.zeros((5, 5))
+    Pv = np.zeros((5, 5))
+    balls = np.empty(n_balls, dtype=np.int64)
+    contacts = np.empty((n_balls, 4))
+    w = numbers[0]
+    half_turn = 0.5 * h * w
+    for step in range(n_steps + 1):
+        i = (2 * step) % GEOMETRY_BLOCK
+        if i == 0:
+            count = min(GEOMETRY_BLOCK, 2 * (n_steps - step)) + 1
+            angle = start_angle + 2 * step * half_turn
+            lay_out_balls(angle, half_turn, count, w, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+            for r in range(4 * n):
+                if not math.isfinite(y[r]):
+                    return max(step - GEOMETRY_BLOCK // 2, 0)
+        for stage in range(4):
+            at = i + (stage + 1) // 2
+            part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
+            before = max(stage - 1, 0)
+            for r in range(4 * n):
+                trial[r] = y[r] + part * k[before, r]
+                for column in range(4 * n):
+                    trial_Y[r, column] = Y[r, column] + part * kY[before, r, column]
+            loaded = smooth_rates(
+                trial, k[stage], c, s, d, d_rate, at, numbers, bodies, active, x, v, f,
+                balls, contacts,
+            )
+            if stage == 0:
+                smooth_record(
+                    history, step, y, k[0], c, s, d_rate, at, numbers, bodies, active, x, v, f,
+                    balls, contacts, loaded,
+                )
+                if step == n_steps:
+                    return n_steps
+            smooth_tangent(
+                x, v, c, s, d_rate, at, numbers, balls, contacts, loaded,
+                directions[0], directions[1], directions[2], directions[3], Sx, Px, Pv,
+            )
+            smooth_tangent_rates(trial_Y, kY[stage], k_rows, bodies, active, numbers[6], Sx, Px, Pv)
+        for r in range(4 * n):
+            y[r] += h / 6.0 * (k[0, r] + 2.0 * (k[1, r] + k[2, r]) + k[3, r])
+            for column in range(4 * n):
+                Y[r, column] += h / 6.0 * (
+                    kY[0, r, column]
+                    + 2.0 * (kY[1, r, column] + kY[2, r, column])
+                    + kY[3, r, column]
+                )
+    return n_steps
+
+
 # -------------------------------------------------- other ways to march, to compare with the above
 #
 # These are measured beside the marches above (bearingcore.precision); of them only the adaptive one
-# is also used, for contacts without tension. Numbers of a scene travel packed here:
-# numbers = (cage_speed, cos α0, sin α0, A0, r_L, K, contact damping, pull), and
-# bodies (5, n) = load, inverse inner and outer mass, stiffness and damping of the support.
+# is also used, for contacts without tension. Numbers of a scene travel packed as above.
 
 
 @compiled

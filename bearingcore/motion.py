@@ -232,31 +232,45 @@ def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[
 
     history (steps + 1, 6, nd) is filled. Returns the number of steps after which all was finite.
     """
-    dofs = scene.active_dofs
     n_steps = len(history) - 1
-    active = np.array([DOF_NAMES.index(name) for name in dofs])
-    bodies = body_numbers(scene, dofs)
-    paths = path_tables(scene.defects, scene.bearing)
-    common = (y, n_steps, h, 0.0, scene.cage_speed, *paths)
-    n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
-    c = contact_damping(scene)
-    if is_flat(scene):
-        masses = (bodies.inner_mass, bodies.outer_mass)
-        kernels.flat_smooth(y, 0.0, *paths, *masses, n_balls, rL, c, 1.0)
-        return int(kernels.march_flat(*common, *bodies, n_balls, rL, K, c, history))
+    packed = packed_numbers(scene, scene.active_dofs)
     if scene.contact_law == "published":
-        numbers = np.array([scene.cage_speed, ca, sa, A0, rL, K, c, 1.0])
-        inverse = (1.0 / bodies.inner_mass, 1.0 / bodies.outer_mass)
-        packed = np.array([bodies.force, *inverse, bodies.stiffness, bodies.damping])
-        done = kernels.march_smooth(
-            y, n_steps, h, 0.0, n_balls, numbers, packed, active, *paths, history
-        )
-        return int(done)
-    force, *others = bodies
-    done = kernels.march(
-        *common, force, active, *others, n_balls, ca, sa, A0, rL, K, c, False, history
+        kernels.turn_smooth(y, 1.0, 0.0, *packed)
+        if not is_flat(scene):
+            return int(kernels.march_smooth(y, n_steps, h, 0.0, *packed, history))
+    n_balls, numbers, _, active, *paths = packed
+    _, ca, sa, A0, rL, K, c, _ = numbers.tolist()
+    force, *others = body_numbers(scene, scene.active_dofs)
+    common = (y, n_steps, h, 0.0, scene.cage_speed, *paths, force)
+    if is_flat(scene):
+        return int(kernels.march_flat(*common, *others, n_balls, rL, K, c, history))
+    contact = (n_balls, ca, sa, A0, rL, K, c, False)
+    return int(kernels.march(*common, active, *others, *contact, history))
+
+
+class PackedNumbers(NamedTuple):
+    """A scene as `kernels.march_smooth` and those after it take it."""
+
+    n_balls: int
+    numbers: NDArray[np.float64]
+    bodies: NDArray[np.float64]
+    active: NDArray[np.int64]
+    rows: NDArray[np.float64]
+    tables: NDArray[np.float64]
+
+
+def packed_numbers(scene: Scene, dofs: tuple[str, ...]) -> PackedNumbers:
+    """What the kernels need of a scene that moves along `dofs`."""
+    n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
+    pull = 1.0 if scene.contact_law == "published" else -1.0
+    force, inner, outer, stiffness, damping = body_numbers(scene, dofs)
+    return PackedNumbers(
+        n_balls,
+        np.array([scene.cage_speed, ca, sa, A0, rL, K, contact_damping(scene), pull]),
+        np.array([force, 1.0 / inner, 1.0 / outer, stiffness, damping]),
+        np.array([DOF_NAMES.index(name) for name in dofs]),
+        *path_tables(scene.defects, scene.bearing),
     )
-    return int(done)
 
 
 def is_flat(scene: Scene) -> bool:

@@ -19,17 +19,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import checks, kernels
-from bearingcore.defect import path_tables
-from bearingcore.modes import contact_damping, highest_natural_frequency
+from bearingcore.modes import highest_natural_frequency
 from bearingcore.motion import (
     body_numbers,
     default_step_rate,
     hermite_weights,
     is_flat,
     length_units,
+    packed_numbers,
     static_start,
 )
-from bearingcore.scene import DOF_NAMES, Scene
+from bearingcore.scene import Scene
 from bearingcore.spectrum import Spectrum
 
 STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START = (
@@ -256,32 +256,31 @@ def common_ball_passes(scene: Scene) -> int | None:
 class _Shooting:
     """What a period does to a state, with and without the tangent.
 
-    States are those of `kernels.march`, or in smooth variables those of `kernels.march_flat`.
+    States are those of `kernels.march_smooth`, without tension those of `kernels.march`.
     """
 
     def __init__(self, scene: Scene, dofs: tuple[str, ...], period: float, steps: int) -> None:
         self.steps = steps
         self.calls = 0
-        self._smooth = is_flat(scene)
-        self._bodies = body_numbers(scene, dofs)
-        self._paths = path_tables(scene.defects, scene.bearing)
-        self._damping = contact_damping(scene)
-        force, *others = self._bodies
+        self._smooth = scene.contact_law == "published"
+        self._packed = packed_numbers(scene, dofs)
+        n_balls, numbers, _, active, *paths = self._packed
+        w, ca, sa, A0, rL, K, c, _ = numbers.tolist()
+        force, *others = body_numbers(scene, dofs)
         h = period / steps
-        motion = (steps, h, 0.0, scene.cage_speed, *self._paths)
-        n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
+        motion = (steps, h, 0.0, w, *paths, force)
         self.history = np.empty((steps + 1, 6, len(dofs)))
         self._arguments: tuple[Any, ...]
-        if self._smooth:
+        if is_flat(scene):
             self._plain, self._tangent = kernels.march_flat, kernels.march_flat_with_tangent
-            self._arguments = (*motion, force, *others, n_balls, rL, K, self._damping, self.history)
+            self._arguments = (*motion, *others, n_balls, rL, K, c, self.history)
+        elif self._smooth:
+            self._plain, self._tangent = kernels.march_smooth, kernels.march_smooth_with_tangent
+            self._arguments = (steps, h, 0.0, *self._packed, self.history)
         else:
-            self._plain, self._tangent = kernels.march, kernels.march_with_tangent
-            active = np.array([DOF_NAMES.index(name) for name in dofs])
-            pull = scene.contact_law == "published"
-            contact = (n_balls, ca, sa, A0, rL, K, self._damping, pull, self.history)
-            self._arguments = (*motion, force, active, *others, *contact)
-        self._bearing = scene.bearing
+            self._plain, self._tangent = _march_without_tension, kernels.march_with_tangent
+            contact = (n_balls, ca, sa, A0, rL, K, c)
+            self._arguments = (*motion, active, *others, *contact, self.history)
         # velocities count over the highest natural frequency, so that all of y are lengths
         omega = 2.0 * math.pi * highest_natural_frequency(scene)
         self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(dofs))
@@ -290,10 +289,7 @@ class _Shooting:
         """A state of displacements and velocities in the variables that are marched."""
         own = y.copy()
         if self._smooth:
-            kernels.flat_smooth(
-                own, 0.0, *self._paths, self._bodies.inner_mass, self._bodies.outer_mass,
-                self._bearing.n_balls, self._bearing.radial_clearance, self._damping, 1.0,
-            )  # fmt: skip
+            kernels.turn_smooth(own, 1.0, 0.0, *self._packed)
         return own
 
     def marched(self, y: NDArray[np.float64], periods: int = 1) -> NDArray[np.float64]:
@@ -319,6 +315,12 @@ class _Shooting:
         if not (np.all(np.isfinite(end)) and size > 0.0):
             return math.inf
         return float(np.linalg.norm((end - y) * self.scale) / size)
+
+
+def _march_without_tension(*arguments: Any) -> None:
+    """`kernels.march` with the arguments of its tangent."""
+    *others, history = arguments
+    kernels.march(*others, False, history)
 
 
 def _newton(

@@ -90,6 +90,7 @@ def _runge_kutta(
     n_steps = _steps(step_rate, duration)
     history = np.empty((n_steps + 1, 6, len(problem.dofs)))
     y = problem.start.copy()
+    kernels.turn_smooth(y, 1.0, *problem.packed)
     if not problem.flat:
         done = kernels.march_smooth(y, n_steps, 1.0 / step_rate, *problem.packed, history)
         return March(history, step_rate, 4 * n_steps, _told(done, n_steps, step_rate))
@@ -98,7 +99,6 @@ def _runge_kutta(
     paths = (problem.rows, problem.tables)
     force, _, _, stiffness, damping = problem.bodies
     inner, outer = _masses(problem)
-    kernels.flat_smooth(y, 0.0, *paths, inner, outer, n_balls, rL, c, 1.0)
     done = kernels.march_flat(
         y, n_steps, 1.0 / step_rate, 0.0, cage_speed, *paths, force, inner, outer, stiffness,
         damping, n_balls, rL, K, c, history,

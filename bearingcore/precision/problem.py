@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from bearingcore import checks, kernels
 from bearingcore.cage_angles import path_kinks
-from bearingcore.defect import path_tables
 from bearingcore.equilibrium import equilibrium
-from bearingcore.modes import contact_damping, highest_natural_frequency
-from bearingcore.motion import body_numbers, is_flat, static_start
-from bearingcore.scene import DOF_NAMES, Scene
+from bearingcore.modes import highest_natural_frequency
+from bearingcore.motion import body_numbers, is_flat, packed_numbers, static_start
+from bearingcore.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -112,8 +111,6 @@ def motion_problem(
         where there is no static state to start from.
     """
     dofs = scene.active_dofs
-    active = np.array([DOF_NAMES.index(name) for name in dofs])
-    force, inner, outer, stiffness, damping = body_numbers(scene, dofs)
     rest = static_start(scene, dofs)
     if rest is None:
         reason = equilibrium(scene, [0.0], dofs).reason(0)
@@ -122,15 +119,11 @@ def motion_problem(
     start = rest.reshape(4, n)
     if offset is not None:
         start[0] += offset
-    load = float(np.linalg.norm(force)) or 1.0
+    load = float(np.linalg.norm(body_numbers(scene, dofs).force)) or 1.0
     compression = (load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
     turning = 2.0 * math.pi * (highest_natural_frequency(scene) or 1000.0)
     scale = compression * np.repeat([1.0, turning, 1.0, turning], n)
     if still:
         scene = scene.replace(shaft_speed=0.0)
-    _, ca, sa, A0, rL, K = scene.bearing.contact_numbers
-    pull = 1.0 if scene.contact_law == "published" else -1.0
-    numbers = np.array([scene.cage_speed, ca, sa, A0, rL, K, contact_damping(scene), pull])
-    bodies = np.array([force, 1.0 / inner, 1.0 / outer, stiffness, damping])
-    rows, tables = path_tables(scene.defects, scene.bearing)
-    return MotionProblem(scene, dofs, start.ravel(), scale, numbers, bodies, active, rows, tables)
+    packed = packed_numbers(scene, dofs)
+    return MotionProblem(scene, dofs, start.ravel(), scale, *packed[1:])

@@ -56,10 +56,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
-    import panel as pn
-
     from app.lessons import faults_in
     from app.page import TABS, page
+    from app.serving import make_server
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
@@ -68,25 +67,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     bearingcore.warm(report=_say)
 
-    server_options: dict[str, Any] = {}
-    if chosen.allow_websocket_origin:
-        server_options["websocket_origin"] = chosen.allow_websocket_origin
-    if chosen.root_path:
-        server_options["prefix"] = chosen.root_path
     # With several processes this one only waits for them, inside `serve`.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     try:
-        server = pn.serve(
-            {"/": lambda: page(chosen.lessons)},
+        server = make_server(
+            page=lambda: page(chosen.lessons),
             port=chosen.port,
             address=chosen.address,
-            title="Bearing explorer",
-            show=False,
-            start=False,
-            liveness=True,
-            verbose=False,
+            origins=chosen.allow_websocket_origin or (),
+            root_path=chosen.root_path,
             num_procs=chosen.num_procs,
-            **server_options,
         )
     except OSError as error:
         _say(f"Cannot listen on {chosen.address} port {chosen.port}: {error.strerror}.")

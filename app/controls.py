@@ -11,9 +11,9 @@ from dataclasses import asdict
 from typing import Any, ClassVar
 
 import param
-from panel.custom import JSComponent
 
 from app.assets import asset_text
+from app.live import LiveComponent
 from app.quantity_list import CAGE_ANGLE, QUANTITY_LIST, SCENE_GROUPS
 from bearingcore import preset_notes, presets
 
@@ -131,7 +131,7 @@ def preset_options() -> dict[str, tuple[str, str]]:
     }
 
 
-class Rows(JSComponent):
+class Rows(LiveComponent):
     """Sliders, numbers and choices. `tell` moves them, `asked` hears of them.
 
     `asked` gets messages of the browser as they come, from strangers too: judge them.

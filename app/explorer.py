@@ -121,7 +121,7 @@ class Picture:
 
     drawings: list[Drawing]
     status: dict[str, Any]
-    limits: list[dict[str, Any]]
+    limits: list[dict[str, Any]] | None
 
 
 class Explorer:
@@ -169,13 +169,13 @@ class Explorer:
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
         tab = self.keeping.tab
         self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self._on_screen = ""
         self.tabs = Tabs(
             self._tab_asked,
             names=[[section.name, section.title, section.group] for section in sections],
             active=self._shown,
         )
         self.main = pn.Column(sizing_mode="stretch_width", margin=0)
-        self._bring(self._shown)
 
     @property
     def inputs(self) -> Inputs:
@@ -412,6 +412,10 @@ class Explorer:
             self._tell_share()
             self.draw()
 
+    def _make(self, name: str) -> list[View]:
+        """The views of a section. For any thread: they are in no document yet."""
+        return [view(self.wire) for view in self._sections[name].views]
+
     def _bring(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first asked for.
 
@@ -419,8 +423,7 @@ class Explorer:
         must know a figure before it hears of its numbers.
         """
         if name not in self._containers:
-            views = [view(self.wire) for view in self._sections[name].views]
-            self._views[name] = views
+            views = self._views[name]
             for view in views:
                 if isinstance(view, ControlView):
                     view.listen(self._asked, self.editor.state())
@@ -441,30 +444,42 @@ class Explorer:
         for other, container in self._containers.items():
             shown = "on-screen" if other == name else "off-screen"
             container.css_classes = ["section", f"section-{other}", shown]
-        self.tabs.active = name
+        self.tabs.active = self._on_screen = name
 
     # Drawing: off the event loop to compute, on it to assign.
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
-        results = inputs.results
-        if self.tabs.active != self._shown:
-            await one_message(self._doc, lambda: self._bring(self._shown))
-        views = self._views[self._shown]
+        if self._on_screen != self._shown:
+            shown = self._shown
+            if shown not in self._views:
+                self._views[shown] = await in_thread(self._make, shown, slow=True)
+            await one_message(self._doc, lambda: self._bring(shown), new_models=True)
+        views = self._views[self._on_screen]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
         if self._worker.waiting and self._slow_cost > _HEAVY:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
-            picture = await in_thread(_picture, results, quick, started)
+            inputs, results, picture = await in_thread(self._quick_picture, inputs, quick, started)
             await self._assign(results, picture, None if slow else inputs.mark)
+        else:
+            results = inputs.results
         if slow:
             before = time.perf_counter()
-            picture = await in_thread(_picture, results, slow, started)
+            picture = await in_thread(_picture, results, slow, started, slow=True)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
+
+    def _quick_picture(
+        self, inputs: Inputs, views: Sequence[View], started: float
+    ) -> tuple[Inputs, Results, Picture]:
+        """A picture of the newest inputs. In a thread, for which others may have waited too."""
+        inputs = self._worker.newest(inputs)
+        results = inputs.results
+        return inputs, results, _picture(results, views, started, not self._worker.waiting)
 
     async def _assign(self, results: Results, picture: Picture, mark: int | None) -> None:
         """Send a picture; `mark` where with it all of these inputs is drawn."""
@@ -480,9 +495,10 @@ class Explorer:
             self.wire.send(sources, ranges, self._drawn_mark)
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
-            self.status.line = picture.status
+            self.status.put(line=picture.status)
             self.plan.show(results)
-            self.limits.rows = picture.limits
+            if picture.limits is not None:
+                self.limits.put(rows=picture.limits)
 
         await one_message(self._doc, change)
 
@@ -492,17 +508,22 @@ class Explorer:
 
         def change() -> None:
             self.wire.send({}, {}, self._drawn_mark)
-            self.status.line = {"mood": "bad", "words": _BROKEN, "details": []}
+            self.status.put(line={"mood": "bad", "words": _BROKEN, "details": []})
 
         await one_message(self._doc, change)
 
 
-def _picture(results: Results, views: Sequence[View], started: float) -> Picture:
-    """Compute what the views need and have them say it. Runs in a worker thread."""
+def _picture(
+    results: Results, views: Sequence[View], started: float, at_rest: bool = True
+) -> Picture:
+    """Compute what the views need and have them say it. Runs in a worker thread.
+
+    The limits of the model wait until no newer inputs do: `at_rest`.
+    """
     drawings = [_drawing(results, view) for view in views]
     shown = frozenset[str]().union(*(view.needs for view in views))
     status = status_of(results, time.perf_counter() - started, shown)
-    return Picture(drawings, status, rows_of(results.limits))
+    return Picture(drawings, status, rows_of(results.limits) if at_rest else None)
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:

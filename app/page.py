@@ -14,6 +14,7 @@ from app import compiling
 from app.assets import asset_text
 from app.explorer import Explorer, Section
 from app.lessons import Tabs, lessons_in, own_folder
+from app.template import PageTemplate
 from app.views.accuracy import Accuracy
 from app.views.bearing import BearingDrawing
 from app.views.bearing_editor import BearingEditor
@@ -72,12 +73,12 @@ TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTI
 """Names of the tabs and of their views, as lessons speak of them."""
 
 
-def page(lessons: Path | None = None) -> pn.Template:
+def page(lessons: Path | None = None) -> PageTemplate:
     """The page of a new session; `lessons` is a folder with somebody's own."""
     compiling.begin()
     known = lessons_in(lessons or own_folder(), TABS)
     explorer = Explorer(SECTIONS, address=address(), lessons=known)
-    template = pn.Template(asset_text("page.html"))
+    template = PageTemplate(asset_text("page.html"))
     template.add_variable("style", asset_text("page.css") + dark_properties())
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())

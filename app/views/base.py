@@ -23,9 +23,9 @@ import numpy as np
 import panel as pn
 import param
 from bokeh.models import Plot, SaveTool
-from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.live import LiveComponent
 from app.python_lines import lines_of
 from app.wire import Wire
 
@@ -38,7 +38,7 @@ Sources = dict[str, dict[str, np.ndarray]]
 Ranges = dict[str, tuple[float, float]]
 
 
-class Caption(JSComponent):
+class Caption(LiveComponent):
     """Head of a view: its title, what it shows, and buttons that save it."""
 
     title = param.String()
@@ -54,7 +54,7 @@ class Caption(JSComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
 
-class Sentence(JSComponent):
+class Sentence(LiveComponent):
     """One live sentence: text that screen readers announce, set without a layout pass."""
 
     text = param.String()
@@ -126,9 +126,9 @@ class View:
         Without results the last ones stay, as the last picture does.
         """
         self._results = results or self._results
-        self._sentence.text = sentence
+        self._sentence.put(text=sentence)
         if results is not None and self.compares:
-            self._caption.pinned = results.pinned.name if results.pinned else ""
+            self._caption.put(pinned=results.pinned.name if results.pinned else "")
 
     @property
     def compares(self) -> bool:

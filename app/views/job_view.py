@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Generic, TypeVar
 
 import param
-from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
 from app.jobs import Jobs, JobState, Work
+from app.live import LiveComponent
 from app.scene_editor import SceneEditor
 from app.views.base import View
 
@@ -18,7 +18,7 @@ Found = TypeVar("Found")
 _LONGEST_TEXT = 60  # characters of what a field says
 
 
-class JobPanel(JSComponent):
+class JobPanel(LiveComponent):
     """Fields, a button that starts a job, another that cancels it, a bar and a live sentence.
 
     `asked` gets messages of the browser as they come, from strangers too: judge them.

@@ -6,16 +6,16 @@ import math
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import param
-from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.live import LiveComponent
 from app.views import figures
 
 if TYPE_CHECKING:
     from bearingcore import Limit
 
 
-class LimitsStrip(JSComponent):
+class LimitsStrip(LiveComponent):
     """What is crossed, in a sentence each; on demand all that is looked at."""
 
     #: rows of `rows_of`

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import param
-from panel.custom import JSComponent
 
 from app import compiling
 from app.assets import asset_path, asset_text
+from app.live import LiveComponent
 from app.planning import CHOICES, by_hand, chosen, sentence_of
 from bearingcore.plan import SETTLED
 
@@ -25,7 +25,7 @@ TITLES = {
 """What plans are for, as the page calls it."""
 
 
-class PlanChoice(JSComponent):
+class PlanChoice(LiveComponent):
     """A button beside the status line, and what opens above it: plans, and choices by hand.
 
     `asked` gets {name: value} of CHOICES, or {"own": true} for the program's own choices, of the
@@ -59,5 +59,4 @@ class PlanChoice(JSComponent):
             "chosen": chosen(results.settings),
             "by_hand": by_hand(results.settings),
         }
-        if state != self.state:
-            self.state = state
+        self.put(state=state)

@@ -7,16 +7,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 import param
-from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.live import LiveComponent
 from app.planning import by_hand, sentence_of
 from app.results import Results
 
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 
 
-class StatusLine(JSComponent):
+class StatusLine(LiveComponent):
     """Converged or not, residual, degrees of freedom, time taken, or what was planned."""
 
     #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
@@ -26,7 +26,7 @@ class StatusLine(JSComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("status.css")]
 
 
-class Tabs(JSComponent):
+class Tabs(LiveComponent):
     """Which section of the page is on screen."""
 
     names = param.List(default=[])  # [[name, title], ...]

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 import param
-from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.live import LiveComponent
 
 
-class StepChoice(JSComponent):
+class StepChoice(LiveComponent):
     """Says which steps motions are marched with, and lets them be chosen or reset.
 
     `asked` gets {"use": text} of the browser, from strangers too: judge it.

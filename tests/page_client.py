@@ -1,0 +1,272 @@
+"""A client that acts like the page, without a browser: for benchmarks, fuzzing and serving tests.
+
+It opens the page, its websocket, takes the document, says that it is ready, and then speaks as the
+scripts of the page do: a message carries a mark, and packets of the wire come back with the mark
+of the newest change that is drawn. Packets are cut into sources and ranges as the page cuts them.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.websocket import WebSocketClientConnection, websocket_connect
+
+_TOKEN = re.compile(rb'"token":"([^"]+)"')
+LARGEST = 200 * 2**20  # bytes of a message that a client takes
+
+
+class PageClient:
+    """One person at the page. `on_packet(mark, seconds)` hears of each packet of the wire."""
+
+    def __init__(self, url: str, on_packet: Callable[[int, float], None] | None = None) -> None:
+        self.url = url if url.endswith("/") else url + "/"
+        self.on_packet = on_packet
+        self.mark = 0
+        self.drawn = 0
+        self.sources: dict[str, dict[str, np.ndarray]] = {}
+        self.ranges: dict[str, tuple[float, float]] = {}
+        self.messages: list[Any] = []  # of the server to the page's own components
+        self.errors: list[str] = []  # what the server said about messages it could not take
+        self.words: dict[str, Any] = {}  # newest value of sentences and the status line, by id
+        self.bytes_received = 0
+        self.ids: dict[str, str] = {}
+        self._known_sources: dict[int, tuple[str, list[str]]] = {}
+        self._known_ranges: dict[int, str] = {}
+        self._names: dict[str, str] = {}
+        self._socket: WebSocketClientConnection | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._replies: dict[str, asyncio.Future[Any]] = {}
+        self._news = asyncio.Event()
+        self._count = 0
+        self._welcome = False
+
+    # Coming and going
+
+    async def open_page(self) -> int:
+        """Ask for the page; return the status. The token for the websocket is kept."""
+        request = HTTPRequest(self.url, request_timeout=120.0)
+        response = await AsyncHTTPClient(max_clients=1000).fetch(request, raise_error=False)
+        found = _TOKEN.search(response.body or b"")
+        self.token = found.group(1).decode() if found else ""
+        self.body = response.body or b""
+        return int(response.code)
+
+    async def connect(self) -> None:
+        """Open the websocket, take the document, say that the page is up."""
+        await self.open_socket()
+        reply = await self.request("PULL-DOC-REQ")
+        self._learn(reply["doc"])
+        ready = {"type": "event", "name": "document_ready", "values": {"type": "map"}}
+        await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready})
+
+    async def open_socket(self, origin: str | None = None) -> None:
+        """The websocket alone."""
+        address = re.sub("^http", "ws", self.url) + "ws"
+        request = HTTPRequest(address, headers={"Origin": origin} if origin else None)
+        self._socket = await websocket_connect(
+            request, subprotocols=["bokeh", self.token], max_message_size=LARGEST
+        )
+        self._task = asyncio.get_running_loop().create_task(self._read())
+        while not self._welcome and not self.closed:
+            await self.news(60.0)
+
+    async def close(self) -> None:
+        """Leave, as a closed tab does."""
+        if self._socket is not None:
+            self._socket.close()
+        if self._task is not None:
+            await asyncio.wait({self._task}, timeout=5.0)
+            self._task.cancel()
+
+    @property
+    def closed(self) -> bool:
+        """Whether the connection is over."""
+        return self._task is None or self._task.done()
+
+    # Speaking
+
+    async def send_frames(self, *frames: str | bytes) -> None:
+        """Raw frames."""
+        assert self._socket is not None
+        for frame in frames:
+            await self._socket.write_message(frame, binary=isinstance(frame, bytes))
+
+    async def request(self, kind: str, content: Any = None, seconds: float = 60.0) -> Any:
+        """Send a message and wait for its answer."""
+        self._count += 1
+        name = f"c{self._count}"
+        future = self._replies[name] = asyncio.get_running_loop().create_future()
+        header = {"msgid": name, "msgtype": kind}
+        await self.send_frames(json.dumps(header), "{}", json.dumps(content or {}))
+        return await asyncio.wait_for(future, seconds)
+
+    async def patch(self, *events: dict[str, Any]) -> None:
+        """Send events of the document, not waiting for an answer."""
+        self._count += 1
+        header = {"msgid": f"c{self._count}", "msgtype": "PATCH-DOC"}
+        await self.send_frames(json.dumps(header), "{}", json.dumps({"events": list(events)}))
+
+    async def say(self, component: str, data: Any) -> None:
+        """A message of one of the page's components, as `model.send_msg` sends it.
+
+        `component` is the name of its class.
+        """
+        values = _map({"model": {"id": self.ids[component]}, "data": data})
+        event = {"type": "event", "name": "data_event", "values": values}
+        await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event})
+
+    async def ask(self, component: str = "Controls", **message: Any) -> int:
+        """Ask for a change; return its mark."""
+        self.mark += 1
+        await self.say(component, {"mark": self.mark, **message})
+        return self.mark
+
+    async def until_drawn(self, mark: int | None = None, seconds: float = 20.0) -> bool:
+        """Wait until `mark` is drawn, the newest by default; whether it was."""
+        wanted = self.mark if mark is None else mark
+        end = time.perf_counter() + seconds
+        while self.drawn < wanted or not self.sources:
+            left = end - time.perf_counter()
+            if left <= 0 or self.closed:
+                return False
+            await self.news(left)
+        return True
+
+    async def news(self, seconds: float) -> None:
+        """Wait until something comes, but not longer than this."""
+        self._news.clear()
+        try:
+            await asyncio.wait_for(self._news.wait(), seconds)
+        except TimeoutError:
+            return
+
+    # Listening
+
+    async def _read(self) -> None:
+        assert self._socket is not None
+        while (text := await self._socket.read_message()) is not None:
+            header = json.loads(text)
+            await self._socket.read_message()
+            content = json.loads(await self._socket.read_message() or "{}")
+            buffers: dict[str, bytes] = {}
+            for _ in range(header.get("num_buffers", 0)):
+                name = json.loads(await self._socket.read_message() or "{}")["id"]
+                buffers[name] = await self._socket.read_message()  # type: ignore[assignment]
+                self.bytes_received += len(buffers[name])
+            self._take(header, content, buffers)
+            self._news.set()
+        self._news.set()
+
+    def _take(self, header: dict[str, Any], content: Any, buffers: dict[str, bytes]) -> None:
+        kind = header["msgtype"]
+        reply = self._replies.pop(header.get("reqid", ""), None)
+        if reply is not None and not reply.done():
+            reply.set_result(content)
+        self._welcome |= kind == "ACK"
+        if kind == "ERROR":
+            self.errors.append(json.dumps(content))
+        if kind == "PATCH-DOC":
+            for event in content["events"]:
+                self._event(event, buffers)
+
+    def _event(self, event: dict[str, Any], buffers: dict[str, bytes]) -> None:
+        kind, model = event["kind"], event.get("model", {}).get("id")
+        if kind == "MessageSent":
+            self.messages.append(event.get("msg_data"))
+        if kind == "ModelChanged":
+            self._look(event["new"])
+            if model == self.ids["unpack"] and event["attr"] == "args":
+                self._learn_wire(_plain(event["new"]))
+            if event["attr"] in ("text", "line", "active"):
+                self.words[model] = _plain(event["new"])
+        data = event.get("data" if kind == "ColumnDataChanged" else "new")
+        if model == self.ids["packet"] and event.get("attr") == "data":
+            array = dict(data["entries"])["packed"]["array"]
+            raw = buffers[array["data"]["id"]]
+            self._packet(np.frombuffer(raw, np.float32))
+
+    def _packet(self, packed: np.ndarray) -> None:
+        n_sources, n_ranges = int(packed[1]), int(packed[2])
+        heads = packed[3 : 3 + 3 * (n_sources + n_ranges)].reshape(-1, 3)
+        body = 3 + heads.size
+        for source, columns, length in heads[:n_sources].astype(int):
+            name, names = self._known_sources[source]
+            assert len(names) == columns
+            block = packed[body : body + columns * length].reshape(columns, length)
+            self.sources[name] = dict(zip(names, block, strict=True))
+            body += columns * length
+        for index, start, end in heads[n_sources:]:
+            self.ranges[self._known_ranges[int(index)]] = (float(start), float(end))
+        self.drawn = int(packed[0])
+        if self.on_packet is not None:
+            self.on_packet(self.drawn, time.perf_counter())
+
+    # What is where in the document
+
+    def _learn(self, doc: Any) -> None:
+        self._look(doc)
+        for made in _models(doc):
+            attributes = made.get("attributes", {})
+            if made["name"] == "ColumnDataSource" and "packed" in str(attributes.get("data"))[:200]:
+                self.ids["packet"] = made["id"]
+            if made["name"] == "CustomJS" and "__mark" in attributes.get("code", ""):
+                self.ids["unpack"] = made["id"]
+                self._learn_wire(_plain(attributes["args"]))
+            shown = attributes.get("data")
+            if isinstance(shown, dict) and shown.get("type") == "object":
+                self.ids[shown["name"].rstrip("0123456789")] = made["id"]
+
+    def _look(self, value: Any) -> None:
+        """Names of the sources and the ranges, which the callback of the wire lists by id."""
+        for made in _models(value):
+            name = made.get("attributes", {}).get("name")
+            if name:
+                self._names[made["id"]] = name
+
+    def _learn_wire(self, args: dict[str, Any]) -> None:
+        columns = args["columns"]
+        for index, source in enumerate(args["sources"]):
+            name = self._names.get(source["id"], source["id"])
+            self._known_sources[index] = (name, columns[index])
+        for index, moved in enumerate(args["ranges"]):
+            self._known_ranges[index] = moved["id"]
+
+
+def _map(value: Any) -> Any:
+    """Plain data as the page's scripts write it: objects are maps."""
+    if isinstance(value, dict) and set(value) != {"id"}:
+        return {"type": "map", "entries": [[k, _map(v)] for k, v in value.items()]}
+    if isinstance(value, list):
+        return [_map(item) for item in value]
+    return value
+
+
+def _plain(value: Any) -> Any:
+    """The other way round."""
+    if isinstance(value, dict) and value.get("type") == "map":
+        return {key: _plain(item) for key, item in value.get("entries", [])}
+    if isinstance(value, list):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _models(value: Any) -> list[dict[str, Any]]:
+    """All models that are written out in a piece of a document."""
+    found: list[dict[str, Any]] = []
+    left = [value]
+    while left:
+        item = left.pop()
+        if isinstance(item, dict):
+            if item.get("type") == "object" and "id" in item:
+                found.append(item)
+            left.extend(item.values())
+        elif isinstance(item, list):
+            left.extend(item)
+    return found

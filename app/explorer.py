@@ -496,7 +496,7 @@ class Explorer:
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
             self.status.put(line=picture.status)
-            self.plan.show(results)
+            self.plan.show(results, self.tabs.active)
             if picture.limits is not None:
                 self.limits.put(rows=picture.limits)
 

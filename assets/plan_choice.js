@@ -48,8 +48,9 @@ export function render({ model }) {
     }
   })
   const write = () => {
-    const { plans: made, resting, compiling, chosen, by_hand } = model.state
-    window.__resting = resting
+    const { tab, plans: made, resting, compiling, chosen, by_hand } = model.state
+    window.__resting = resting  // for tests and benchmarks, as is the mark of the wire
+    window.__tab = tab
     wait.hidden = !compiling
     back.hidden = by_hand.length === 0
     more.dataset.overruled = String(by_hand.length > 0)

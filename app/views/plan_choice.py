@@ -33,8 +33,8 @@ class PlanChoice(LiveComponent):
     """
 
     spec = param.Dict(default={})
-    #: {"plans": [[title, sentence]], "resting": bool, "compiling": bool, "chosen": {name: value},
-    #: "by_hand": [words]}
+    #: {"tab": name, "plans": [[title, sentence]], "resting": bool, "compiling": bool,
+    #: "chosen": {name: value}, "by_hand": [words]}
     state = param.Dict(default={"plans": [], "resting": False, "chosen": {}, "by_hand": []})
 
     _esm = asset_path("plan_choice.js")
@@ -50,9 +50,10 @@ class PlanChoice(LiveComponent):
         super().__init__(spec=spec, margin=0, **params)
         self.on_msg(lambda event: asked(event.data))
 
-    def show(self, results: Results) -> None:
-        """What these results are drawn by. On the event loop only."""
+    def show(self, results: Results, tab: str) -> None:
+        """What these results, drawn on a tab, are drawn by. On the event loop only."""
         state = {
+            "tab": tab,
             "plans": [[TITLES[view], sentence_of(made)] for view, made in results.plans.items()],
             "resting": not results.moving,
             "compiling": not compiling.ready(),

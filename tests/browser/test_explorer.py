@@ -34,9 +34,8 @@ def open_page(page: Page, server: Server, tab: str = "load") -> None:
 
 
 def show(page: Page, tab: str) -> None:
-    frames = page.evaluate("window.__frames")
     page.locator(f".tab-{tab}").click()
-    page.wait_for_function(f"window.__frames > {frames}", timeout=60000)
+    page.wait_for_function(f"window.__tab == '{tab}'", timeout=60000)  # it is drawn
     settle(page)
 
 

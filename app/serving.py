@@ -417,6 +417,7 @@ def make_server(
     frame_ancestors: Sequence[str] = (),
     bounds: Limits | None = None,
     page: Callable[[], Any],
+    longest_header: int = 65536,
 ) -> Any:
     """The server, listening but not running yet. OSError where the port is taken."""
     global limits
@@ -447,7 +448,7 @@ def make_server(
         include_cookies=[],
         websocket_max_message_size=limits.message,
         default_handler_class=Missing,
-        http_server_kwargs={"max_header_size": 65536, "max_body_size": 65536},
+        http_server_kwargs={"max_header_size": longest_header, "max_body_size": 65536},
         **options,
     )
     server._tornado.add_transform(Headers)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,6 +40,8 @@ class SpeedRun:
         least and greatest natural frequency [Hz] of each mode, which speed does not move.
     completed
         False where it was cancelled.
+    refusals
+        why there is no such motion, by the index of the speeds that are refused.
     """
 
     scene: Scene
@@ -51,6 +53,7 @@ class SpeedRun:
     from_orbit: NDArray[np.bool_]
     bands: dict[str, tuple[float, float]]
     completed: bool
+    refusals: dict[int, str] = field(default_factory=dict)
 
 
 def speed_run(
@@ -80,7 +83,8 @@ def speed_run(
     Raises
     ------
     ValueError
-        for speeds that are not above zero, or what `simulate` refuses.
+        for speeds that are not above zero, or where `simulate` refuses every speed. One that is
+        refused among others is told in `refusals`.
     """
     speeds = np.asarray(shaft_speeds, dtype=float).ravel()
     if not 1 <= speeds.size <= 1000:
@@ -95,6 +99,7 @@ def speed_run(
     inner = any(defect.race == "inner" for defect in scene.defects)
     bearing = scene.bearing
     nearby: Orbit | None = None
+    refusals: dict[int, str] = {}
     done = 0
     for i in in_turn(
         range(speeds.size),
@@ -102,18 +107,24 @@ def speed_run(
         progress,
         cancelled,
     ):
-        at = scene.replace(shaft_speed=float(speeds[i]))
-        found = orbit(at, start=nearby)
-        if found.stable:
-            density[i] = found.spectrum(sample_rate, resolution, duration).density
-            proven[i] = True
-            nearby = found
-        else:
-            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate)
-            late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
-            if np.all(np.isfinite(late)):
-                density[i] = spectrum(late, sample_rate, resolution).density
         done += 1
+        try:
+            at = scene.replace(shaft_speed=float(speeds[i]))
+            found = orbit(at, start=nearby)
+            if found.stable:
+                density[i] = found.spectrum(sample_rate, resolution, duration).density
+                proven[i] = True
+                nearby = found
+                continue
+            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate)
+        except ValueError as error:
+            refusals[i] = str(error)
+            continue
+        late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
+        if np.all(np.isfinite(late)):
+            density[i] = spectrum(late, sample_rate, resolution).density
+    if len(refusals) == speeds.size:
+        raise ValueError(refusals[0])
     passing = bearing.bpfi if inner else bearing.bpfo
     return SpeedRun(
         scene=scene,
@@ -125,4 +136,5 @@ def speed_run(
         from_orbit=proven,
         bands=modes(scene).bands(),
         completed=done == speeds.size,
+        refusals=refusals,
     )

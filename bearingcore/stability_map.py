@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +14,9 @@ from bearingcore.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, STABLE, UNSTAB
 from bearingcore.precision.points import Cancelled, Progress, in_turn
 from bearingcore.scene import Scene
 
-OUTCOMES = (STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START, "not computed")
+REFUSED = "refused"
+
+OUTCOMES = (STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START, REFUSED, "not computed")
 """What the codes of `StabilityMap.outcome` mean."""
 
 
@@ -38,6 +40,8 @@ class StabilityMap:
         "", "+1", "-1" or "pair": how an unstable orbit leaves.
     completed
         False where it was cancelled; what was not computed says so.
+    refusals
+        why there is no such scene, by (row, column) of the points that are refused.
     """
 
     scene: Scene
@@ -49,6 +53,7 @@ class StabilityMap:
     outcome: NDArray[np.int8]
     through: NDArray[np.str_]
     completed: bool
+    refusals: dict[tuple[int, int], str] = field(default_factory=dict)
 
     def count(self, outcome: str) -> int:
         """How many points ended in one of OUTCOMES."""
@@ -80,7 +85,8 @@ def stability_map(
     Raises
     ------
     ValueError
-        for unknown fields, values that the scene refuses, or two fields of one name.
+        for unknown fields, first or last values that the scene refuses, two fields of one name, or
+        where every point is refused. A point that is refused among others is an outcome.
     """
     x_field, x_values = _axis(scene, x)
     y_field, y_values = _axis(scene, y)
@@ -90,6 +96,7 @@ def stability_map(
     multiplier = np.full(shape, math.nan)
     outcome = np.full(shape, OUTCOMES.index("not computed"), dtype=np.int8)
     through = np.full(shape, "", dtype="<U4")
+    refusals: dict[tuple[int, int], str] = {}
     above: Orbit | None = None
     stopped = False
     rows = list(range(y_values.size))
@@ -101,18 +108,26 @@ def stability_map(
             if cancelled is not None and cancelled():
                 stopped = True
                 break
-            at = scene.replace(**{x_field: float(value), y_field: float(y_values[j])})
-            found = orbit(at, start=nearby, ball_passes=ball_passes)
+            done += 1
+            try:
+                at = scene.replace(**{x_field: float(value), y_field: float(y_values[j])})
+                found = orbit(at, start=nearby, ball_passes=ball_passes)
+            except ValueError as error:
+                outcome[j, i] = OUTCOMES.index(REFUSED)
+                refusals[j, i] = str(error)
+                continue
             multiplier[j, i] = found.largest_multiplier
             outcome[j, i] = OUTCOMES.index(found.status)
             through[j, i] = found.through
             nearby = found if found.status in (STABLE, UNSTABLE) else None
             above = above or nearby
-            done += 1
+    if len(refusals) == multiplier.size:
+        raise ValueError(refusals[0, 0])
     completed = not stopped and done == multiplier.size
     return StabilityMap(
-        scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, completed
-    )
+        scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, completed,
+        refusals,
+    )  # fmt: skip
 
 
 def _axis(scene: Scene, axis: tuple[str, ArrayLike]) -> tuple[str, NDArray[np.float64]]:
@@ -141,4 +156,9 @@ def regions(found: StabilityMap) -> Sequence[str]:
     lost = found.count(NOT_CONVERGED)
     if lost:
         sentences.append(f"At {lost} shooting finds no orbit; there the motion must be marched.")
+    refused = found.count(REFUSED)
+    if refused:
+        reasons = sorted(set(found.refusals.values()))
+        verb = "is" if refused == 1 else "are"
+        sentences.append(f"{refused} {verb} refused, as there is no such scene: {reasons[0]}.")
     return sentences

@@ -58,6 +58,7 @@ KINDS = (
     Kind("not converged", "", "no orbit found", "#30363D"),
     Kind("no common period", "", "no common period", "#8B929A"),
     Kind("no static state to start from", "", "no static state", "#B9BEC4"),
+    Kind("refused", "", "no such scene", "#DDE0E3"),
 )
 """In the order of their codes in the picture."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from bearingcore import orbit, presets, simulate, spectrum
 from bearingcore.orbit import STABLE, UNSTABLE
 from bearingcore.speed_run import speed_run
-from bearingcore.stability_map import OUTCOMES, regions, stability_map
+from bearingcore.stability_map import OUTCOMES, REFUSED, regions, stability_map
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 SPEEDS = 2.0 * math.pi * np.array([7.0, 20.0, 30.0, 60.0])
@@ -67,6 +68,41 @@ def test_progress_is_told_to_its_end() -> None:
 def test_impossible_maps_are_refused(x, y, words) -> None:
     with pytest.raises(ValueError, match=words):
         stability_map(RIG, x, y)
+
+
+def test_a_point_that_is_refused_does_not_stop_a_map() -> None:
+    """Balls of 9 mm fit on the greater pitch circle only, those of 5 mm on both."""
+    rig = RIG.replace(ball_diameter=5e-3)
+    sizes = ("ball_diameter", [5e-3, 9e-3])
+    found = stability_map(rig, sizes, ("pitch_diameter", [36e-3, 45e-3]))
+    assert found.completed
+    assert found.count(REFUSED) == 1
+    assert OUTCOMES[found.outcome[0, 1]] == REFUSED
+    assert np.isnan(found.multiplier).tolist() == [[False, True], [False, False]]
+    reason = found.refusals[0, 1]
+    with pytest.raises(ValueError, match=re.escape(reason)):
+        rig.replace(ball_diameter=9e-3, pitch_diameter=36e-3)
+    assert any(reason in sentence for sentence in regions(found))
+
+
+def test_a_map_of_nothing_but_refusals_is_refused() -> None:
+    with pytest.raises(ValueError, match="stiffness_z"):
+        stability_map(
+            presets["liew-lim"].replace(stiffness_z=None),
+            ("shaft_speed", SPEEDS[:2]),
+            ("depth", [4e-5, 5e-5]),
+        )
+
+
+def test_a_speed_that_is_refused_does_not_stop_a_run() -> None:
+    """At such a speed the steps that a ball needs across the defect are too many."""
+    rig = RIG.replace(extent=math.radians(0.05), depth=1e-7)
+    speeds = 2.0 * math.pi * np.array([10.0, 50000.0])
+    run = speed_run(rig, speeds, duration=0.3)
+    assert run.completed
+    assert list(run.refusals) == [1]
+    assert np.all(np.isfinite(run.density[0]))
+    assert np.all(np.isnan(run.density[1]))
 
 
 def test_a_speed_run_takes_orbits_where_they_are_stable_and_marches_elsewhere() -> None:

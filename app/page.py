@@ -54,7 +54,10 @@ SECTIONS = (
     Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
     Section("model", "Model", (ModelEditor, DofDifferences)),
 )
-"""The tabs; a group goes on until the next begins. What is not on the tab that is open is neither computed nor sent."""
+"""The tabs; a group goes on until the next begins.
+
+What is not on the tab that is open is neither computed nor sent.
+"""
 
 
 @cache

@@ -25,6 +25,31 @@ const format = (value, step) => {
     .replace("-", "\u2212")
 }
 
+// A note under the pointer that says what a quantity is; one for the whole page.
+let tip_waits = 0
+function put_tip(where, { label, symbol, unit, about, limit } = {}) {
+  clearTimeout(tip_waits)
+  const old = document.getElementById("quantity-tip")
+  if (old) old.remove()
+  if (!where) return
+  tip_waits = setTimeout(() => {
+    if (!where.isConnected) return
+    const in_unit = unit === "°" || unit === "" ? unit : `\u00a0${unit}`
+    const number = (value) => String(value).replace("-", "\u2212")
+    const tip = element("div", { id: "quantity-tip", "aria-hidden": "true", popover: "manual" },
+      element("strong", {}, label, " ", element("i", { html: symbol })),
+      element("span", {}, about),
+      element("small", {}, unit ? `In ${unit === "°" ? "degrees (°)" : unit}` : "A number",
+        limit ? `; the slider goes from ${number(limit.least)} to ${number(limit.most)}${in_unit}.` : "."))
+    document.body.append(tip)
+    tip.showPopover?.()
+    const box = where.getBoundingClientRect(), own = tip.getBoundingClientRect()
+    const below = box.bottom + 6 + own.height < innerHeight
+    tip.style.left = `${Math.max(8, Math.min(box.left, innerWidth - own.width - 8))}px`
+    tip.style.top = `${below ? box.bottom + 6 : box.top - own.height - 6}px`
+  }, 350)
+}
+
 // Rows of one panel. `told` hears of every change of a value, `touched` of the control in use.
 function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
@@ -116,14 +141,29 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     })
     const refusal = element("p", { class: "refusal", role: "alert", id: `${id}-refusal` })
     const extra = element("span", { class: "extra" })
-    const symbolic = element("i", { class: "symbol", html: symbol })
+    // What it is: under the pointer at once, and to stay by a click on its symbol.
+    const help = element("button", {
+      type: "button", class: "symbol", html: symbol || "?", "aria-expanded": "false",
+      "aria-controls": `${id}-about`, "aria-label": `About ${label.toLowerCase()}`,
+    })
+    const title = element("label", { for: id }, label)
     const head = element("div", { class: "head" },
-      element("label", { for: id, title: about }, label, " ", symbolic), extra,
+      element("span", { class: "named" }, title, help), extra,
       element("span", { class: "entry" }, number, element("span", { class: "unit" }, unit)))
     const line = element("div", { class: "line" }, slider)
-    const words = element("span", { id: `${id}-about`, hidden: "" }, about)
+    const words = element("p", { class: "note", id: `${id}-about`, hidden: "" }, about)
     const root = element("div", { class: `control control-${name}`, "data-name": name },
       head, line, refusal, words)
+    help.addEventListener("click", () => {
+      words.hidden = !words.hidden
+      help.setAttribute("aria-expanded", String(!words.hidden))
+      put_tip(null)
+    })
+    head.firstChild.addEventListener("pointerenter", (event) => {
+      if (event.pointerType === "mouse" && words.hidden)
+        put_tip(head.firstChild, { label, symbol, unit, about, limit: limits[name] })
+    })
+    head.firstChild.addEventListener("pointerleave", () => put_tip(null))
     refusal.hidden = true
     rows[name] = { asked: 0, root, slider, number, refusal, extra, unit, line, about, label, symbol }
 
@@ -140,10 +180,11 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
       if (event.key === "Escape") {
         refuse(name, "")
         number.value = format(values[name], limits[name].step)
-      } else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
+      } else if (/^(Arrow|Page)(Up|Down)$/.test(event.key)) {
         event.preventDefault()
         const { least, most, step } = limits[name]
-        const moved = (values[name] ?? least) + (event.key === "ArrowUp" ? step : -step)
+        const far = (event.key.startsWith("Page") ? 10 : 1) * step
+        const moved = (values[name] ?? least) + (event.key.endsWith("Up") ? far : -far)
         move(name, Number(Math.min(most, Math.max(least, moved)).toPrecision(12)))
       }
     })

@@ -16,8 +16,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app import lessons
+from app.__main__ import options
+from app.explorer import Explorer
 from app.lessons import Fault, Lesson, LessonError, Part, lessons_in, own_folder, read_lesson
-from app.page import SECTIONS
+from app.page import SECTIONS, TABS
 from app.results import Results
 from app.scene_editor import SceneEditor
 from bearingcore import (
@@ -36,7 +38,6 @@ from bearingcore import (
 )
 from tests import naive
 
-TABS = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
 FILES = sorted(own_folder().glob("*.md"))
 FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 RATE = 65536.0
@@ -490,6 +491,30 @@ def test_a_folder_without_lessons_is_one_fault(tmp_path: Path) -> None:
         (fault,) = lessons_in(folder, TABS)
         assert isinstance(fault, Fault)
         assert words in fault.sentence
+
+
+def test_a_teachers_folder_on_the_page(tmp_path: Path) -> None:
+    (tmp_path / "1.md").write_text(GOOD, encoding="utf-8")
+    (tmp_path / "2.md").write_text(GOOD.replace("show:maps", "show:nothing"), encoding="utf-8")
+    assert options(["--lessons", str(tmp_path)]).lessons == tmp_path
+    explorer = Explorer(SECTIONS, lessons=lessons_in(tmp_path, TABS))
+    panel = explorer.lesson
+    assert [title for title, _ in panel.titles] == ["A title", "2.md"]
+    assert panel.titles[1][1].startswith("2.md, line 13: “nothing” is not a tab")
+    asked: list[object] = []
+    explorer._asked = asked.append  # type: ignore[method-assign]
+    explorer.draw = lambda: None  # type: ignore[method-assign]
+    for nonsense in (None, "0", {"lesson": 1}, {"lesson": 7}, {"lesson": -1}, {"lesson": "0"}):
+        explorer._lesson_asked(nonsense)
+        assert panel.lesson == {}
+        assert explorer.scene == FAN
+    explorer._lesson_asked({"mark": 1, "lesson": 0})
+    assert panel.lesson["title"] == "A title"
+    assert explorer.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
+    assert asked[-1] == {"mark": 1, "lesson": 0}
+    explorer._lesson_asked({"show": "maps"})
+    assert explorer._shown == "maps"
+    assert explorer.scene.defect.edge == "chord"
 
 
 # --- strangers ------------------------------------------------------------------------------------

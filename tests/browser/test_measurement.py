@@ -1,0 +1,140 @@
+"""A measurement brought to the page in the browser: read, drawn, sized, and refused."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, expect
+from scipy.io import wavfile
+
+from app.upload import PIECE
+from bearingcore import presets, simulate
+from tests.browser.helpers import Server, Watch
+from tests.browser.test_explorer import open_page, pixels, settle, show, source, value
+
+RATE = 48_000
+EXTENT = 38.6
+
+
+@pytest.fixture(scope="module")
+def recording() -> bytes:
+    """A WAV file of more than one piece: 3 s along x and y, noise, and a channel that says nothing.
+
+    One stands for m/s².
+    """
+    scene = presets["fan-rig"].replace(extent=math.radians(EXTENT))
+    motion = simulate(scene, 3.2, float(RATE))
+    signal = motion.outer_acceleration[round(0.2 * RATE) :]
+    rng = np.random.default_rng(1)
+    signal = signal + 0.1 * signal.std(axis=0) * rng.standard_normal(signal.shape)
+    signal = np.hstack([signal, rng.standard_normal((len(signal), 1))])
+    file = io.BytesIO()
+    wavfile.write(file, RATE, signal.astype(np.float32))
+    return file.getvalue()
+
+
+def bring(page: Page, name: str, content: bytes) -> None:
+    page.locator("#measurement-file").set_input_files(
+        {"name": name, "mimeType": "application/octet-stream", "buffer": content}
+    )
+
+
+def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
+    watch: tuple[Page, Watch], explorer: Server, recording: bytes
+) -> None:
+    page, _ = watch
+    assert len(recording) > 1.5 * PIECE
+    open_page(page, explorer, "sizing")
+    said = page.locator(".view-measurement p.words")
+    expect(said).to_contain_text("No signal yet")
+    assert page.locator(".view-measured-spectrum canvas:visible").count() == 0
+
+    # broken, before there is anything
+    bring(page, "broken.wav", recording[:2000])
+    expect(said).to_contain_text("broken.wav cannot be used", timeout=20000)
+    expect(page.locator(".measurement")).to_have_attribute("data-mood", "bad")
+
+    # three channels: which are x and y must be said
+    bring(page, "fan.wav", recording)
+    expect(said).to_contain_text("fan.wav: 3 s along y at 48\u202f000 Hz", timeout=30000)
+    for direction, channel in (("x", "0"), ("y", "1")):
+        page.locator(f"#measurement-{direction}").select_option(channel)
+        settle(page)
+    expect(said).to_contain_text("along x and y")
+    expect(page.locator(".view-measured-envelope")).to_contain_text(re.compile(r"is (\d×)?BPFO\."))
+    page.wait_for_function(
+        "Bokeh.documents[0].get_model_by_name('measured_spectrum_measured').data.dB.length > 50"
+    )
+    measured = source(page, "measured_spectrum_measured")
+    assert 0.0 < measured["frequency"][1] < 40.0
+    assert page.locator(".view-measured-spectrum canvas:visible").count() >= 1
+    before = pixels(page, "measured-spectrum")
+    page.locator(".view-measured-spectrum label", has_text="linear").click()
+    page.wait_for_timeout(600)
+    assert pixels(page, "measured-spectrum") != before
+
+    # a refusal beside its field leaves what is drawn
+    page.locator("#measurement-sample_rate").fill("quick")
+    page.locator("#measurement-sample_rate").press("Tab")
+    expect(page.locator("#measurement-sample_rate-refusal")).to_contain_text("must be a number")
+    assert source(page, "measured_spectrum_measured") == measured
+    page.locator("#measurement-sample_rate").fill(str(RATE))
+    page.locator("#measurement-sample_rate").press("Tab")
+    expect(page.locator("#measurement-sample_rate-refusal")).to_have_text("")
+
+    # the size: the scene says 12.9°, the signal knows better
+    assert value(page, "extent_deg") == pytest.approx(12.9)
+    page.get_by_role("button", name="Find the size").click()
+    expect(page.locator(".view-sizing form .words")).to_contain_text("was tried", timeout=90000)
+    candidates = page.locator(".view-sizing li")
+    expect(candidates.first).to_be_visible()
+    assert candidates.count() >= 4
+    best = page.locator(".view-sizing li.looked")
+    expect(best.locator(".extent")).to_have_text(re.compile(r"38\.[4-8]°"))
+    expect(best.locator(".percent")).to_have_text("> 99 %")
+    assert page.locator(".view-sizing .truth").count() == 0
+    settle(page)
+    assert len(source(page, "measurement_events")["time"]) >= 7
+    waveform = source(page, "sizing_pass_candidate_y")["size"]
+
+    # another candidate's curves, over the same measured ones
+    other = candidates.nth(0)
+    other.hover()
+    expect(other).to_have_class(re.compile("looked"))
+    expect(best).to_have_count(1)
+    page.wait_for_function(
+        """was => Bokeh.documents[0].get_model_by_name("sizing_pass_candidate_y")
+                   .data.size[7] != was""",
+        arg=waveform[7],
+    )
+    # by the keyboard as well
+    candidates.nth(1).locator(".seen").focus()
+    expect(candidates.nth(1)).to_have_class(re.compile("looked"))
+
+    page.get_by_role("button", name=re.compile(r"Take 38\.\d° into the scene")).click()
+    settle(page)
+    assert value(page, "extent_deg") == pytest.approx(EXTENT, abs=0.3)
+
+    # a broken file now leaves it all as it is
+    bring(page, "broken.csv", b"x,y\n1,2\nhello,3")
+    expect(said).to_contain_text("broken.csv cannot be used", timeout=20000)
+    expect(said).to_contain_text("The signal before it stays.")
+    assert candidates.count() >= 4
+    show(page, "load")
+    show(page, "sizing")
+    expect(said).to_contain_text("broken.csv cannot be used")
+    assert candidates.count() >= 4
+
+    # those who have no file simulate one, and see the truth marked
+    page.get_by_role("button", name="Simulate a signal").click()
+    expect(said).to_contain_text("Simulated, noise 20 dB below", timeout=20000)
+    expect(page.locator(".view-sizing")).to_contain_text("has not been looked for yet")
+    expect(candidates.first).to_be_hidden()
+    page.get_by_role("button", name="Find the size").click()
+    expect(page.locator(".view-sizing .truth")).to_have_text(
+        re.compile(r"true 38\.\d°"), timeout=90000
+    )

@@ -57,6 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
     from app.lessons import faults_in
+    from app.long_addresses import LONGEST_HEADER, send_on
     from app.page import TABS, page
     from app.serving import make_server
 

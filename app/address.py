@@ -42,6 +42,7 @@ from functools import cache, lru_cache
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from app.long_addresses import TOO_LONG
 from app.quantities import (
     DEFECT_FIELDS,
     QUANTITIES,
@@ -271,6 +272,8 @@ def _read(given: dict[str, str]) -> Place:
     version = given.pop("v", None)
     if version is None:
         raise ValueError("It does not say its version (v=1).")
+    if version == TOO_LONG:
+        raise ValueError("It is far too long.")
     if version != VERSION:
         raise ValueError(
             f"It is of version “{_shown(version)}”, and this program knows version {VERSION} only."

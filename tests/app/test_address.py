@@ -176,6 +176,7 @@ def bomb() -> str:
     ("text", "words"),
     [
         ("v=2", "version “2”"),
+        ("v=too-long", "far too long"),
         ("v=1.0", "version “1.0”"),
         ("extent_deg=30", "version"),
         ("v=1&preset=../../etc/passwd", "no bearing"),

@@ -78,7 +78,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             origins=chosen.allow_websocket_origin or (),
             root_path=chosen.root_path,
             num_procs=chosen.num_procs,
+            longest_header=LONGEST_HEADER,
         )
+        send_on(server)
     except OSError as error:
         _say(f"Cannot listen on {chosen.address} port {chosen.port}: {error.strerror}.")
         return 1

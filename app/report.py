@@ -132,8 +132,9 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         "</section>",
         *parts,
         "<section><h2>All numbers</h2>",
-        *_numbers(scene),
-        "</section>",
+        "<div class='numbers'>",
+        *(f"<div>{part}</div>" for part in _numbers(scene)),
+        "</div></section>",
     ]
     return (
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"

@@ -163,7 +163,7 @@ export function render({ model }) {
     if (sentence) for (const { panel } of [share, keeping, download]) panel.hidePopover()
   }
 
-  const bar = make("div", { class: "bar", role: "toolbar", "aria-label": "Steps and files" },
+  const bar = make("div", { class: "bar", role: "group", "aria-label": "Steps and files" },
     undo, redo, reset, make("i", { class: "gap", "aria-hidden": "true" }),
     share.opener, keeping.opener, download.opener)
   const root = make("div", { class: "share" }, bar, notice, share.panel, keeping.panel, download.panel)

@@ -458,7 +458,9 @@ class Explorer:
         views = self._views[self._on_screen]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
-        if self._worker.waiting and self._slow_cost > _HEAVY:
+        # where nothing else follows the hand there is nothing to hold up
+        held_up = any(view.needs for view in quick)
+        if held_up and self._worker.waiting and self._slow_cost > _HEAVY:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:

@@ -14,15 +14,15 @@ export function render({ model }) {
     clearTimeout(timer)
     timer = setTimeout(() => model.send_msg({ look: index }), 40)  // not for what a pointer crosses
   }
-  const row = ({ extent, extent_deg, turns, probability, percent, explains, fitted, truth }, index) => {
+  const row = ({ extent, extent_deg, made_of, probability, percent, explains, fitted, truth }, index) => {
     const filled = make("i")
     filled.style.width = `${Math.max(100*probability, 0.4)}%`
     const name = make("span", { class: "extent" }, extent)
     const bar = make("span", { class: "bar" }, filled)
     const mark = truth ? [make("span", { class: "truth" }, `true ${truth}`)] : []
     const seen = make("button", { type: "button", class: "seen", "aria-describedby": `candidate-${index}` },
-      name, make("span", { class: "turns" }, turns), bar, make("span", { class: "percent" }, percent), ...mark)
-    const take = make("button", { type: "button", class: "take" }, "Take into the scene")
+      name, make("span", { class: "turns" }, made_of), bar, make("span", { class: "percent" }, percent), ...mark)
+    const take = make("button", { type: "button", class: "take" }, "Take into scene")
     take.setAttribute("aria-label", `Take ${extent} into the scene`)
     take.addEventListener("click", () => window.dispatchEvent(
       new CustomEvent("explorer-typed", { detail: { extent_deg } })))

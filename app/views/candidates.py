@@ -31,6 +31,7 @@ class CandidateList(JSComponent):
 def rows(sized: Sized) -> list[dict[str, Any]]:
     """The candidates as the browser lists them."""
     candidates = sized.sizing.candidates
+    spacing = sized.scene.bearing.ball_spacing
     truth = sized.measured.true_extent
     nearest = None
     if truth is not None:
@@ -39,7 +40,7 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
         {
             "extent": in_degrees(candidate.extent),
             "extent_deg": round(math.degrees(candidate.extent), 2),
-            "turns": f"k = {candidate.turns}",
+            "made_of": made_of(candidate, spacing),
             "probability": candidate.probability,
             "percent": percent(candidate.probability),
             "explains": "explains "
@@ -50,6 +51,12 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
         }
         for index, candidate in enumerate(candidates)
     ]
+
+
+def made_of(candidate: Candidate, spacing: float) -> str:
+    """How many whole ball spacings [rad] an extent holds, and the rest."""
+    rest = candidate.extent - candidate.turns * spacing
+    return f"{candidate.turns} × {in_degrees(spacing)} + {in_degrees(rest)}"
 
 
 def fitted(candidate: Candidate) -> str:

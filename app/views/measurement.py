@@ -93,8 +93,13 @@ class MeasuredSignal(MeasuredView):
         self._all, self._close = StickyRange(-1.0, 1.0), StickyRange(-1.0, 1.0)
         plots = [self._plot(wire, "all"), self._plot(wire, "close")]
         self._mark_events(wire, plots[1])
-        self.hidden = pn.Row(*plots, sizing_mode="stretch_width", margin=0, visible=False)
-        return pn.Column(self.form, self.hidden, sizing_mode="stretch_width", margin=0)
+        wide: dict[str, Any] = {
+            "sizing_mode": "stretch_width",
+            "margin": 0,
+            "stylesheets": [figures.WRAPPED],
+        }
+        self.hidden = pn.Row(*plots, visible=False, **wide)
+        return pn.Column(self.form, self.hidden, **wide)
 
     def _plot(self, wire: Wire, part: str) -> figure:
         plot = figures.house_figure(

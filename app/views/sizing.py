@@ -83,24 +83,25 @@ class DefectSize(JobView[Sized], MeasuredView):
         events = wire.source("sizing_events", "time", "exit", "row", "shift")
         knocks = wire.source("sizing_knocks", "time", "shift")
         self._rows = {}
+        wide: dict[str, Any] = {
+            "sizing_mode": "stretch_width",
+            "margin": 0,
+            "stylesheets": [figures.WRAPPED],
+        }
         for dof in SHOWN:
             self._rows[dof] = pn.Row(
                 self._pass_plot(wire, dof, seconds, events, knocks),
                 self._spectrum_plot(wire, dof, frequency),
-                sizing_mode="stretch_width",
-                margin=0,
+                **wide,
             )
         self._answer_part = pn.Column(
             self.status,
             self.candidates,
             *self._rows.values(),
-            sizing_mode="stretch_width",
-            margin=0,
             visible=False,
+            **wide,
         )
-        self.hidden = pn.Column(
-            self.job, self._answer_part, sizing_mode="stretch_width", margin=0, visible=False
-        )
+        self.hidden = pn.Column(self.job, self._answer_part, visible=False, **wide)
         return self.hidden
 
     def _pass_plot(

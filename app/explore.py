@@ -58,6 +58,7 @@ _SIZING = "sizing"
 _SECONDS = {**SECONDS, _SIZING: 0.6}
 _MANY_DIRECTIONS = 10.0  # times the cost, for all but statics
 _CHUNK = 0.1  # [s] between two looks at whether to go on
+_SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
 
 _REASONS = {
@@ -342,7 +343,8 @@ class Survey:
         if start is not None:
             columns, rows = question.level(start.stride)
             at = np.ix_(rows, columns)
-            self._values[at], self._reasons[at], self._known[at] = start.values, start.reasons, True
+            self._values[at], self._reasons[at] = start.values, start.reasons
+            self._known[at] = start.reasons != NOT_COMPUTED
 
     @property
     def seconds(self) -> float:
@@ -368,8 +370,10 @@ class Survey:
     def compute(self, stride: int, job: Job | None = None, last: int | None = None) -> bool:
         """Find what is missing of a level; False where it was cancelled.
 
-        The level `last` is where the work is to end, for the progress.
+        The level `last` is where the work is to end, for the progress. Where there is no picture
+        before, what is known so far is shown from time to time.
         """
+        shown_at = time.perf_counter()
         left = self.missing(stride if last is None else last)
         whole = self._computed + left
         for at in self._chunks(stride):
@@ -382,8 +386,12 @@ class Survey:
                 return False
             self._seconds += time.perf_counter() - started
             self._computed += at[0].size * at[1].size
-            if job is not None:
-                job.progress(self._computed / whole)
+            if job is None:
+                continue
+            job.progress(self._computed / whole)
+            if stride == self.question.first_stride and started - shown_at > _SHOW_EVERY:
+                shown_at = started
+                job.show(self.plane(stride))
         return True
 
     def plane(self, stride: int) -> Plane:
@@ -548,7 +556,9 @@ def refine(job: Job, question: Question, finest: int, start: Plane | None = None
 
 def _found(shown: Plane | None, survey: Survey) -> str:
     if shown is None:
-        return "Nothing is shown yet."
+        first = survey.question.first_stride
+        known = survey.question.count(first) - survey.missing(first)
+        return f"{known} of {_size_words(survey.question, first)} after {survey.spent:.1f} s."
     spent = f" after {survey.spent:.1f} s" if survey.spent else ""
     return f"{shown.shape_words}{spent}."
 

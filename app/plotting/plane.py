@@ -190,6 +190,7 @@ def plane(
         first.value,
     )
     many = AxisQuantity("Points", "", "")
+    stacked = _Stacked(each) if responsive else each
     unit = dataclasses.replace(axis, name="", symbol="")  # their titles say of what
     selection = hv.streams.BoundsX(boundsx=None)
     picture = hv.DynamicMap(_image, streams=[news])
@@ -210,7 +211,7 @@ def plane(
             words=f"{axis.words} at {place.words}", unit=_spaced(place.unit), mark=mark,
         )  # fmt: skip
     big, small = (
-        ({"responsive": True, "height": 306}, {"responsive": True, "height": 170})
+        ({"responsive": True, "height": 292}, {"responsive": True, "height": 160})
         if responsive
         else ({"width": 470, "height": 340}, {"width": 470, "height": 190})
     )
@@ -226,7 +227,7 @@ def plane(
             default_tools=["save"],
             xlim=x_lim["xlim"],
             ylim=y_lim["xlim"],
-            hooks=[Axes(x_axis, y_axis, axis, each), _Reading(x_axis, y_axis, axis), *hooks],
+            hooks=[Axes(x_axis, y_axis, axis, stacked), _Reading(x_axis, y_axis, axis), *hooks],
             **big,
             **shared,
         )
@@ -246,11 +247,11 @@ def plane(
         )
     )
     across.opts(
-        hv.opts.Curve(hooks=[Axes(x_axis, unit, each=each)], **line, **x_lim, **small, **shared)
+        hv.opts.Curve(hooks=[Axes(x_axis, unit, each=stacked)], **line, **x_lim, **small, **shared)
     )
     up.opts(
         hv.opts.Curve(
-            hooks=[Axes(y_axis, unit, each=each)], **line, **y_lim, **{**big, **narrow}, **shared
+            hooks=[Axes(y_axis, unit, each=stacked)], **line, **y_lim, **{**big, **narrow}, **shared
         )
     )
     histogram.opts(
@@ -260,7 +261,7 @@ def plane(
             tools=["xbox_select"],
             default_tools=["reset"],
             title="Select values here to find them on the map",
-            hooks=[Axes(axis, many, each=each)],
+            hooks=[Axes(axis, many, each=stacked)],
             **{**small, **narrow},
             **{**shared, "active_tools": ["xbox_select"]},
         )
@@ -270,6 +271,21 @@ def plane(
         .cols(2)
         .opts(merge_tools=False, toolbar=None)
     )
+
+
+class _Stacked:
+    """A hook: figures stand one below the other where two beside each other would be too narrow."""
+
+    STYLE = "@media (max-width: 820px) { :host { grid-area: auto / 1 / auto / -1 !important; } }"
+
+    def __init__(self, also: Hook | None) -> None:
+        self._also = also
+
+    def __call__(self, plot: Any, element: Any) -> None:
+        figure = plot.handles["plot"]
+        figure.stylesheets = [*figure.stylesheets, self.STYLE]
+        if self._also is not None:
+            self._also(plot, element)
 
 
 def _hatched(plot: Any, _: Any) -> None:

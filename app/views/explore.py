@@ -87,9 +87,9 @@ class ExplorePlane(JobView[Plane]):
     name = "explore"
     title = "Explore a plane"
     about = (
-        "Any output over any two quantities; all else as the sliders have it. The curves follow "
-        "the pointer; click on the map to go there; select a part of the histogram to see where "
-        "such values lie. Hatched: no answer, point at it to see why. Ring: this scene."
+        "Any output over two quantities, all else as the sliders have it. Point at the map to move "
+        "the curves, click to go there; select values in the histogram to find them on it. "
+        "Hatched: no answer. Ring: this scene."
     )
     needs = frozenset()
     start = "Compute the map"
@@ -109,7 +109,7 @@ class ExplorePlane(JobView[Plane]):
         self._old = wire.source("explore_old", "left", "right", "bottom", "top", "alpha")
         # the browser must know the sources before there is a figure that draws them
         anchor = Spacer(width=0, height=0, visible=False, tags=[self._mark, self._old])
-        self._figures = pn.Column(min_height=490, sizing_mode="stretch_width", margin=0)
+        self._figures = pn.Column(min_height=460, sizing_mode="stretch_width", margin=0)
         return pn.Column(
             self.job,
             self._figures,
@@ -334,7 +334,7 @@ class _Marks:
         plot.handles["marks"] = True
         figure = plot.handles["plot"]
         figure.name = "explore_map"
-        figure.stylesheets = [":host { cursor: crosshair; }"]
+        figure.stylesheets = [*figure.stylesheets, ":host { cursor: crosshair; }"]
         figure.quad(
             "left", "right", "top", "bottom", source=self._old, fill_color=figures.PAPER,
             fill_alpha="alpha", line_color=None, level="overlay",

@@ -53,6 +53,8 @@ BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 TEXT_SIZE = "12px"
+WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
+"""Style of rows that stand below one another where there is little room."""
 SMALL_TEXT_SIZE = "11px"
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}

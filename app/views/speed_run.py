@@ -111,7 +111,7 @@ class SpeedRunSpectra(JobView[Found]):
         )
         return pn.Column(
             self.job,
-            pn.Row(switch, toggle, margin=0),
+            pn.Row(switch, toggle, margin=0, stylesheets=[figures.WRAPPED]),
             *(plot for plot, _ in plot_parts.values()),
             sizing_mode="stretch_width",
             margin=0,

@@ -1,0 +1,375 @@
+"""Lessons on the page; keyboard, screen readers, contrast, light and dark, small screens."""
+
+from __future__ import annotations
+
+import re
+from importlib.resources import files
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, ViewportSize, expect
+
+from app.lessons import Lesson, lessons_in, own_folder
+from app.page import SECTIONS, TABS
+from app.scene_editor import SceneEditor
+from app.views.theme import DARK_COLORS
+from tests.browser.helpers import Server, Watch
+
+NAMES = [section.name for section in SECTIONS]
+
+LAPTOP: ViewportSize = {"width": 1366, "height": 768}
+PHONE: ViewportSize = {"width": 390, "height": 844}
+PAPERS = {"light": {"#FFFFFF", "WHITE"}, "dark": {DARK_COLORS["#FFFFFF"]}}
+"""Grounds of the figures."""
+
+#: elements inside shadows, too
+DEEP = """
+window.deep = function* (where, selector) {
+  for (const element of where.querySelectorAll('*')) {
+    if (element.matches(selector)) yield element
+    if (element.shadowRoot) yield* deep(element.shadowRoot, selector)
+  }
+}
+window.focused = () => {
+  let at = document.activeElement
+  while (at?.shadowRoot?.activeElement) at = at.shadowRoot.activeElement
+  return at
+}
+"""
+
+
+def open_page(page: Page, server: Server) -> None:
+    page.goto(server.url)
+    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.evaluate(DEEP)
+
+
+def settle(page: Page) -> None:
+    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)", timeout=60000)
+    page.evaluate("() => new Promise(done => setTimeout(done, 60))")
+
+
+def show(page: Page, name: str) -> None:
+    """Open a tab in either of the ways there are, and wait until it stands."""
+    frames = page.evaluate("window.__frames")
+    select = page.get_by_role("combobox", name="What to look at")
+    if select.is_visible():
+        select.select_option(name)
+    else:
+        page.locator(f".tab-{name}").click()
+    section = page.locator(f".section-{name}.on-screen")
+    expect(section).to_be_visible(timeout=30000)
+    page.wait_for_function(f"window.__frames > {frames}", timeout=60000)
+    settle(page)
+
+
+def findings(page: Page, where: str, *rules: str) -> list[str]:
+    """What axe finds serious or critical in a part of the page."""
+    found = page.evaluate(
+        """async ([where, rules]) => {
+             const options = { preload: false, resultTypes: ['violations'] }
+             if (rules.length) options.runOnly = { type: 'rule', values: rules }
+             const { violations } = await axe.run(where, options)
+             return violations.map(({ id, impact, nodes }) => [impact, `${id}: ` +
+               JSON.stringify(nodes.slice(0, 3).map(n => [n.target, n.failureSummary]))])
+           }""",
+        [where, list(rules)],
+    )
+    return [words for impact, words in found if impact in ("serious", "critical")]
+
+
+def colors(page: Page) -> set[str]:
+    """Grounds of the figures on screen."""
+    found = page.evaluate(
+        """() => Object.values(Bokeh.index.roots ?? []).flatMap(view => {
+             const plots = []
+             for (const model of view.model.document._all_models.values())
+               if (model.type === 'Figure') plots.push(model.background_fill_color)
+             return plots
+           }).map(c => c?.value ?? c)"""
+    )
+    return {str(color).upper() for color in found if color is not None}
+
+
+def test_every_tab_in_light_in_dark_and_on_a_phone(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    """One walk through the tabs, as opening them is what takes the time."""
+    page, _ = watch
+    page.emulate_media(color_scheme="light")
+    open_page(page, explorer)
+    page.evaluate((files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"))
+    root = page.locator("html")
+    button = page.get_by_role("button", name="Dark colours")
+    for number, name in enumerate(NAMES):
+        show(page, name)
+        # what is hidden is looked at when it is shown, and would only be waded through here
+        page.evaluate("[...deep(document, '.off-screen')].forEach(section => section.remove())")
+        where = "main" if number else "html"
+        assert findings(page, where) == [], f"{name}, {root.get_attribute('data-theme')}"
+        button.click()
+        theme = "light" if number % 2 else "dark"
+        expect(root).to_have_attribute("data-theme", theme)
+        assert findings(page, where, "color-contrast") == [], f"{name}, {theme}"
+        assert colors(page) <= PAPERS[theme], name
+        assert silent_figures(page) == [], name
+        assert sideways(page) == [], name
+        page.set_viewport_size(PHONE)
+        for _ in range(20):  # figures take their time to follow
+            if not sideways(page):
+                break
+            page.wait_for_timeout(100)
+        assert sideways(page) == [], f"{name} on a phone"
+        page.set_viewport_size(LAPTOP)
+    page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
+
+
+def silent_figures(page: Page) -> list[str]:
+    """Figures on screen without a title or a sentence for screen readers."""
+    return page.evaluate(
+        """() => [...deep(document.querySelector('main'), '.on-screen')].flatMap(section =>
+             [...deep(section.shadowRoot, '.view')]).filter(view => {
+               const words = [...deep(view.shadowRoot, '[role=status]')].map(e => e.textContent)
+               const title = [...deep(view.shadowRoot, 'h2')]
+               return title.length !== 1 || !words.some(text => text.trim())
+             }).map(view => view.className)"""
+    )
+
+
+def sideways(page: Page) -> list[str]:
+    """What would have to be scrolled sideways, or is cut by the edge of the page."""
+    return page.evaluate(
+        """() => {
+          const odd = []
+          const main = document.querySelector('main')
+          if (document.documentElement.scrollWidth > innerWidth) odd.push('the page')
+          if (main.scrollWidth > main.clientWidth) odd.push('main')
+          for (const view of deep(main, '.view'))
+            if (view.getBoundingClientRect().right > innerWidth) odd.push(view.className)
+          const boxes = ['.brand', 'nav', '.tools'].map(name =>
+            document.querySelector(name).getBoundingClientRect())
+          boxes.forEach((box, i) => {
+            const next = boxes[i + 1]
+            if (next && box.right > next.left + 0.5) odd.push('parts of the head overlap')
+          })
+          for (const button of deep(document.querySelector('.top'), 'button, select'))
+            if (button.getBoundingClientRect().right > innerWidth + 0.5)
+              odd.push(button.textContent)
+          return odd
+        }"""
+    )
+
+
+def test_a_phone_has_room_for_figures_and_lessons(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    page.set_viewport_size(PHONE)
+    open_page(page, explorer)
+    expect(page.get_by_role("tab", name="Load")).to_be_hidden()
+    show(page, "stiffness")
+    main = page.locator("main").bounding_box()
+    assert main is not None
+    assert main["height"] > 380  # the figures have the larger part
+    page.get_by_role("button", name="Lessons").click()
+    expect(page.locator(".lesson h2")).to_be_visible()
+    settle(page)
+    assert sideways(page) == []
+
+
+# --- keyboard -------------------------------------------------------------------------------------
+
+
+def slider(page: Page, name: str) -> Locator:
+    return page.locator(f"#control-{name}")
+
+
+def value(page: Page, name: str) -> float:
+    return float(slider(page, name).input_value())
+
+
+def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    extent = slider(page, "extent_deg")
+    extent.focus()
+    for key, expected in (
+        ("ArrowRight", 13.0), ("ArrowLeft", 12.9), ("PageUp", 24.9), ("PageDown", 12.9),
+        ("End", 120.0), ("Home", 0.0),
+    ):  # fmt: skip
+        extent.press(key)
+        assert value(page, "extent_deg") == pytest.approx(expected), key
+    settle(page)
+    expect(extent).to_have_attribute("aria-valuetext", "0 °")
+    field = page.locator(".control-extent_deg .number")
+    field.focus()
+    field.press("PageUp")
+    expect(field).to_have_value("1")
+    # space plays, also from a slider, and not where somebody types
+    extent.focus()
+    page.keyboard.press("Space")
+    stop = page.get_by_role("button", name="Stop turning")
+    expect(stop).to_be_visible()
+    page.wait_for_function("document.activeElement !== null")
+    page.keyboard.press("Space")
+    expect(page.get_by_role("button", name="Turn the bearing")).to_be_visible()
+    field.focus()
+    page.keyboard.press("Space")
+    expect(stop).to_have_count(0)
+    field.press("Escape")
+    # tabs
+    page.locator(".tab-load").focus()
+    page.keyboard.press("ArrowRight")
+    expect(page.locator(".tab-stiffness")).to_be_focused()
+    expect(page.locator(".section-stiffness.on-screen")).to_be_visible()
+    page.keyboard.press("Home")
+    expect(page.locator(".section-load.on-screen")).to_be_visible()
+    settle(page)
+    # from the top of the page: where the focus is can be seen, wherever it is
+    skip = page.get_by_role("link", name="To the figures")
+    skip.focus()
+    expect(skip).to_be_in_viewport(ratio=1)
+    seen = []
+    for _ in range(45):
+        page.keyboard.press("Tab")
+        seen.append(
+            page.evaluate(
+                """() => {
+                  const at = focused(), style = getComputedStyle(at)
+                  const ring = style.outlineStyle !== 'none' && parseFloat(style.outlineWidth) >= 1
+                  const box = at.getBoundingClientRect()
+                  const name = at.id || at.getAttribute('aria-label') || at.textContent
+                  return [name, ring || at.type === 'range', box.width > 0 && box.height > 0]
+                }"""
+            )
+        )
+    assert len({name for name, _, _ in seen}) > 25, seen
+    assert [name for name, ring, _ in seen if not ring] == []
+    assert [name for name, _, there in seen if not there] == []
+    # a slider shows it on its thumb
+    extent.scroll_into_view_if_needed()
+    box = extent.bounding_box()
+    assert box is not None
+    clip: Any = {key: box[key] for key in ("x", "y", "width", "height")}
+    page.locator(".tab-load").focus()
+    before = page.screenshot(clip=clip)
+    extent.focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowLeft")
+    settle(page)
+    assert page.screenshot(clip=clip) != before
+
+
+def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    helps = page.locator("aside .control .symbol")
+    assert helps.count() >= 10
+    page.locator(".control-depth_um label").hover()
+    tip = page.locator("#quantity-tip")
+    expect(tip).to_contain_text("How deep its floor lies.")
+    expect(tip).to_contain_text("In µm; the slider goes from 0 to 500 µm.")
+    page.locator(".tab-load").hover()
+    expect(tip).to_have_count(0)
+    about = page.get_by_role("button", name="About depth")
+    note = page.locator("#control-depth_um-about")
+    expect(note).to_be_hidden()
+    about.press("Enter")
+    expect(note).to_be_visible()
+    expect(about).to_have_attribute("aria-expanded", "true")
+    assert "Eq" not in note.inner_text()
+    missing = page.evaluate(
+        """() => [...deep(document, '.control')].filter(control =>
+             !control.querySelector('[id$=-about]')?.textContent.trim()).map(c => c.className)"""
+    )
+    assert missing == []
+
+
+# --- light and dark -------------------------------------------------------------------------------
+
+
+def test_dark_follows_the_system_until_somebody_chooses(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, watching = watch
+    page.emulate_media(color_scheme="dark")
+    open_page(page, explorer)
+    page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
+    page.reload()
+    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.evaluate(DEEP)
+    settle(page)
+    root, button = page.locator("html"), page.get_by_role("button", name="Dark colours")
+    dark = PAPERS["dark"]
+    assert colors(page) == dark
+    sent = watching.frames_sent
+    page.emulate_media(color_scheme="light")
+    expect(root).to_have_attribute("data-theme", "light")
+    assert colors(page) <= PAPERS["light"]
+    button.click()
+    expect(root).to_have_attribute("data-theme", "dark")
+    page.emulate_media(color_scheme="dark")
+    page.emulate_media(color_scheme="light")
+    expect(root).to_have_attribute("data-theme", "dark")
+    assert watching.frames_sent == sent, "colours are the browser's business alone"
+    show(page, "modes")  # a figure that comes later comes dark
+    assert colors(page) == dark
+    page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
+
+
+# --- lessons --------------------------------------------------------------------------------------
+
+
+def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    page.get_by_role("button", name="Lessons").click()
+    panel = page.locator(".lesson")
+    for number, lesson in enumerate(lessons_in(own_folder(), TABS)):
+        assert isinstance(lesson, Lesson)
+        expect(panel.locator("h2")).to_have_text(lesson.title)
+        expect(page.locator(f".section-{lesson.tab}.on-screen")).to_be_visible(timeout=30000)
+        settle(page)
+        assert sideways(page) == []
+        # the scene
+        editor = SceneEditor("6205")
+        lesson.begin(editor)
+        for name in lesson.drag:
+            if name in editor.values:
+                assert value(page, name) == pytest.approx(editor.values[name], abs=0.5), name
+            else:
+                expect(page.locator(f"#choice-{name}")).to_be_visible()
+        # the controls it speaks of and no others
+        shown = page.locator("aside .control:visible, aside .choice:visible")
+        assert shown.count() == len(lesson.drag), lesson.title
+        for view in lesson.watch:
+            expect(page.locator(f".view-{view}")).to_have_class(re.compile("watched"))
+        # the answer
+        answer = panel.locator(".answer")
+        expect(answer).to_be_hidden()
+        panel.locator(".reveal").click()
+        expect(answer).to_be_visible()
+        for formula in panel.locator("math").all():
+            box = formula.bounding_box()
+            assert box is not None
+            assert box["height"] > 5
+        if number == 5:
+            panel.get_by_role("button", name="chord").click()
+            settle(page)
+            expect(page.locator("#choice-edge")).to_have_value("chord")
+            sentence = page.locator(".view-maps p[role=status]")
+            expect(sentence).to_contain_text("Fewest balls carry load at an extent of 62°")
+            panel.get_by_role("button", name="published").click()
+            settle(page)
+            expect(sentence).to_contain_text("Fewest balls carry load at an extent of 63°")
+        if number < 8:
+            panel.get_by_role("button", name="Next lesson").click()
+    expect(panel.get_by_role("button", name="Next lesson")).to_be_disabled()
+    panel.get_by_role("button", name="No load at all").click()
+    expect(page.locator("footer .status [role=status]")).to_contain_text("No answer")
+    page.get_by_role("button", name="All controls").click()
+    expect(slider(page, "fx_n")).to_be_visible()
+    page.get_by_role("button", name="Close the lessons").click()
+    expect(panel).to_be_hidden()
+    expect(page.locator(".watched")).to_have_count(0)
+    expect(slider(page, "center_deg")).to_be_visible()

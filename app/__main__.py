@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import logging
 import os
 import signal
 import sys
@@ -11,6 +10,8 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+from app.log import LEVELS, begin
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -39,6 +40,40 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         "--root-path", default="", help="path in front of the page behind a proxy, such as /lab"
     )
     parser.add_argument(
+        "--frame-ancestor",
+        action="append",
+        metavar="ORIGIN",
+        help="another site that may show the page in a frame, such as https://lms.example.org; "
+        "repeatable",
+    )
+    parser.add_argument(
+        "--max-sessions",
+        type=_positive,
+        default=100,
+        metavar="N",
+        help="people at once in a process (100); whoever comes later is asked to come back",
+    )
+    parser.add_argument(
+        "--max-message-mb",
+        type=_positive,
+        default=16,
+        metavar="N",
+        help="megabytes that a browser may send in one message (16)",
+    )
+    parser.add_argument(
+        "--idle-minutes",
+        type=_positive,
+        default=60,
+        metavar="N",
+        help="after which a page that nobody touches is closed (60)",
+    )
+    parser.add_argument(
+        "--log-level",
+        choices=LEVELS,
+        default="warning",
+        help="info writes a line for each update, with session, scene, view and milliseconds",
+    )
+    parser.add_argument(
         "--lessons",
         type=Path,
         metavar="DIR",
@@ -47,19 +82,24 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
+def _positive(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{value} is out of range; allowed: at least 1")
+    return value
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     chosen = options(arguments)
-    logging.basicConfig(
-        stream=sys.stderr, level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s"
-    )
+    begin(chosen.log_level)
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
     from app.lessons import faults_in
     from app.long_addresses import LONGEST_HEADER, send_on
     from app.page import TABS, page
-    from app.serving import make_server
+    from app.serving import MEGABYTE, Limits, make_server
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
@@ -79,6 +119,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             root_path=chosen.root_path,
             num_procs=chosen.num_procs,
             longest_header=LONGEST_HEADER,
+            frame_ancestors=chosen.frame_ancestor or (),
+            bounds=Limits(
+                sessions=chosen.max_sessions,
+                message=chosen.max_message_mb * MEGABYTE,
+                idle=60.0 * chosen.idle_minutes,
+            ),
         )
         send_on(server)
     except OSError as error:

@@ -14,12 +14,13 @@ from typing import Any, TypeVar
 import panel as pn
 
 from app import compiling
+from app import log as write
 from app.assets import asset_text
 from app.controls import Controls, Rows
 from app.jobs import Jobs
 from app.keeping import Keeping, asked_for, read_asked
 from app.lessons import Fault, Lesson
-from app.live import LatestWins, in_thread, one_message, send_at_once
+from app.live import LatestWins, good_byes, in_thread, one_message, send_at_once
 from app.measurement import Measurement
 from app.planning import Rest, with_choices
 from app.quantities import Values
@@ -203,10 +204,13 @@ class Explorer:
     def start(self) -> None:
         """The page is up: draw."""
         send_at_once(self._doc)
+        if self._doc is not None:
+            good_byes[self._doc] = self.say_good_bye
         self.draw()
 
     def stop(self) -> None:
         """The session is over."""
+        good_byes.pop(self._doc, None)
         self._worker.stop()
         self._rest.end()
         self.jobs.stop()
@@ -474,6 +478,7 @@ class Explorer:
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
+        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
 
     def _quick_picture(
         self, inputs: Inputs, views: Sequence[View], started: float
@@ -504,8 +509,14 @@ class Explorer:
 
         await one_message(self._doc, change)
 
+    async def say_good_bye(self, words: str) -> None:
+        """The last words of a session, on its page."""
+        line = {"mood": "bad", "words": words, "details": []}
+        await one_message(self._doc, lambda: self.status.put(line=line))
+
     async def _failed(self, error: Exception) -> None:
         """Something no view expected: say so, answer the mark, keep the last good picture."""
+        write.trouble("failed", self._doc, scene=write.scene_name(self.scene), view=self._shown)
         self._drawn_mark = self._mark
 
         def change() -> None:

@@ -46,6 +46,10 @@ async def in_thread(function: Callable[..., Result], *args: object, slow: bool =
     return await asyncio.get_running_loop().run_in_executor(threads, function, *args)
 
 
+#: how to say a last word on the page of a document whose session ends
+good_byes: dict[Any, Callable[[str], Awaitable[None]]] = {}
+
+
 class LiveComponent(JSComponent):
     """A component that hears and says much, at a tenth of what Panel's own ways cost.
 

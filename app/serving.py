@@ -11,7 +11,6 @@ from __future__ import annotations
 import asyncio
 import html
 import json
-import logging
 import os
 import secrets
 import time
@@ -28,9 +27,8 @@ from tornado.ioloop import PeriodicCallback
 from tornado.web import OutputTransform, RequestHandler
 
 from app import live
+from app import log as write
 from app.assets import asset_text
-
-log = logging.getLogger(__name__)
 
 MEGABYTE = 2**20
 
@@ -56,9 +54,10 @@ limits = Limits()
 
 # What a browser may say
 
-#: properties that the page's figures tell of themselves, or that a hand moves
 _LONGEST_VALUE = 20_000  # characters of a changed property, written out
 _PLAIN = (str, int, float, bool, type(None))
+#: what says what a model does, and how the server finds it again
+_NEVER = {"code", "args", "esm", "tags", "name", "js_property_callbacks", "js_event_callbacks"}
 _EVENTS = {"document_ready", "data_event", "dom_event"}
 
 
@@ -79,6 +78,8 @@ def welcome(event: Any, known: Any = None) -> bool:
         return False
     model, attribute = event.get("model"), event.get("attr")
     if not (isinstance(model, dict) and set(model) == {"id"} and isinstance(attribute, str)):
+        return False
+    if attribute in _NEVER:
         return False
     if known is not None and not _may_change(known, model["id"], attribute):
         return False
@@ -102,7 +103,7 @@ def _may_change(known: Any, name: Any, attribute: str) -> bool:
     model = known.get(name) if isinstance(name, str) else None
     if model is None or model.__class__.__name__ in ("CustomJS", "CustomJSHover"):
         return False
-    return attribute not in ("tags", "name", "code", "js_property_callbacks", "js_event_callbacks")
+    return attribute in type(model).properties()
 
 
 def _is_plain(value: Any) -> bool:
@@ -173,17 +174,22 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
     async def _async_open(self, token: str) -> None:
         if full(self.application_context) and not self._knows(token):
-            log.warning("a browser is turned away: %d sessions", limits.sessions)
+            write.trouble("full", sessions=limits.sessions)
             self.close(1013, "All places are taken.")
             return
         self._heard = time.monotonic()
         try:
             await super()._async_open(token)
         except Exception as error:
-            log.warning("a browser could not be let in: %s", type(error).__name__)
+            write.trouble("refused", why=type(error).__name__)
             self.close(1008, "The session is not known.")
             return
         sockets.add(self)
+        write.happened("came", self._document, sessions=len(sockets))
+
+    @property
+    def _document(self) -> Any:
+        return self.connection.session.document if self.connection is not None else None
 
     def _knows(self, token: str) -> bool:
         from bokeh.util.token import get_session_id
@@ -195,7 +201,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         try:
             super().open(*arguments, **named)
         except Exception as error:
-            log.warning("a browser could not be let in: %s", type(error).__name__)
+            write.trouble("refused", why=type(error).__name__)
             self.close(1008, "The session is not known.")
 
     async def on_message(self, fragment: str | bytes) -> None:
@@ -219,7 +225,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         try:
             await self._act(message)
         except Exception as error:
-            log.warning("a message was not taken: %s", type(error).__name__, exc_info=True)
+            write.trouble("not-taken", self._document, why=type(error).__name__)
+            write.log.debug("a message was not taken", exc_info=True)
             self._refuse("it could not be read")
 
     async def _act(self, message: Any) -> None:
@@ -256,7 +263,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             await asyncio.sleep(-self._credit / rate)
 
     def _refuse(self, why: str) -> None:
-        log.warning("a message was refused: %s", why)
+        write.trouble("refused", self._document, why=repr(why))
         self.close(1008, "This message was not understood.")
 
     async def send_message(self, message: Any) -> None:
@@ -265,12 +272,10 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             await super().send_message(message)
 
     def on_close(self) -> None:
-        sockets.discard(self)
+        if self in sockets:
+            sockets.discard(self)
+            write.happened("left", self._document, sessions=len(sockets))
         super().on_close()
-
-    def on_ws_connection_close(self, *arguments: Any, **named: Any) -> None:
-        sockets.discard(self)
-        super().on_ws_connection_close(*arguments, **named)
 
 
 class _ById:
@@ -372,9 +377,8 @@ class Headers(OutputTransform):
         headers["Permissions-Policy"] = PERMISSIONS
         headers["Cross-Origin-Opener-Policy"] = "same-origin"
         headers["Cross-Origin-Resource-Policy"] = "same-origin"
-        if self.frame_ancestors in (("'self'",), ("'none'",)):
-            mine = self.frame_ancestors == ("'self'",)
-            headers["X-Frame-Options"] = "SAMEORIGIN" if mine else "DENY"
+        if len(self.frame_ancestors) == 1:  # it has no way to name others
+            headers["X-Frame-Options"] = "SAMEORIGIN"
         for told in ("Server", "Access-Control-Allow-Origin"):
             if told in headers:
                 del headers[told]
@@ -422,7 +426,7 @@ def make_server(
     """The server, listening but not running yet. OSError where the port is taken."""
     global limits
     limits = bounds or limits
-    Headers.frame_ancestors = tuple(frame_ancestors) or ("'self'",)
+    Headers.frame_ancestors = ("'self'", *frame_ancestors)
     per_app_patterns[:] = [(r"/ws", LiveSocket), (r"/?", PageHandler)]
     live.visit_quickly()
     settings.perform_document_validation = False  # the tests do it
@@ -452,7 +456,7 @@ def make_server(
         **options,
     )
     server._tornado.add_transform(Headers)
-    PeriodicCallback(_end_idle, 5000.0).start()
+    PeriodicCallback(_end_idle, min(5000.0, 250.0 * limits.idle)).start()
     return server
 
 
@@ -466,10 +470,8 @@ def _end_idle() -> None:
 
 async def _say_good_bye(socket: LiveSocket) -> None:
     document = socket.connection.session.document
-    for say in documents_words.get(id(document), ()):
+    write.happened("idle", document)
+    say = live.good_byes.get(document)
+    if say is not None:
         await say(_IDLE_WORDS.format(limits.idle / 60.0))
     socket.close(1001, "The session was idle.")
-
-
-#: how to say something on the pages of documents
-documents_words: dict[int, list[Any]] = {}

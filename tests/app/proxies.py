@@ -1,0 +1,57 @@
+"""A reverse proxy of a few lines, as operators have them in front of the explorer."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+
+
+class Proxy:
+    """Hands on all below `under`; with `strip` without that part of the path."""
+
+    def __init__(self, port: int, under: str, strip: bool) -> None:
+        self._port, self._under, self._strip = port, under, strip
+        self.port = 0
+        self._server: asyncio.Server | None = None
+
+    async def start(self) -> None:
+        """Listen on a free port."""
+        self._server = await asyncio.start_server(self._serve, "127.0.0.1", 0)
+        self.port = self._server.sockets[0].getsockname()[1]
+
+    async def stop(self) -> None:
+        """Listen no more."""
+        assert self._server is not None
+        self._server.close()
+
+    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        try:
+            head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
+            method, path, version = head.split("\r\n", 1)[0].split(" ")
+            if not path.startswith(self._under):
+                writer.write(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
+                return
+            if self._strip:
+                path = "/" + path[len(self._under) :]
+            rest = head.split("\r\n", 1)[1]
+            if "upgrade: websocket" not in head.lower():
+                rest = re.sub(r"(?im)^connection:.*\r\n", "", rest)
+                rest = "Connection: close\r\n" + rest
+            there, back = await asyncio.open_connection("127.0.0.1", self._port)
+            back.write(f"{method} {path} {version}\r\n{rest}".encode("latin-1"))
+            await asyncio.gather(_pipe(reader, back), _pipe(there, writer))
+        except (OSError, asyncio.IncompleteReadError):
+            pass
+        finally:
+            writer.close()
+
+
+async def _pipe(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    try:
+        while data := await reader.read(65536):
+            writer.write(data)
+            await writer.drain()
+    except OSError:
+        pass
+    finally:
+        writer.close()

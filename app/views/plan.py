@@ -9,9 +9,9 @@ import numpy as np
 import panel as pn
 import param
 from bokeh.models import CustomJSTickFormatter, FixedTicker, Range1d
-from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.live import LiveComponent
 from app.views import figures
 from app.views.base import Ranges, Sources, View
 from app.views.plan_choice import TITLES
@@ -36,7 +36,7 @@ HEADS = (
 )
 
 
-class PlanTable(JSComponent):
+class PlanTable(LiveComponent):
     """Plans as rows, with remarks beneath."""
 
     #: {"heads": [words], "rows": [[words]], "remarks": [sentences], "stale": bool}
@@ -60,6 +60,7 @@ class PlanInFull(View):
     plans = (*CURVES, SETTLED)
 
     def build(self, wire: Wire) -> Any:
+        self._rows: dict[str, Any] = {"heads": list(HEADS), "rows": [], "remarks": []}
         self._table = PlanTable(sizing_mode="stretch_width", margin=0)
         plot = figures.house_figure(
             figures.CAGE_ANGLE,
@@ -115,16 +116,13 @@ class PlanInFull(View):
         super().say(results, sentence)
         if results is None:
             return
-        made = results.plans
-        if not made:
-            self._table.shown = {**self._table.shown, "stale": True}
-            return
-        self._table.shown = {
-            "heads": list(HEADS),
-            "rows": [row_of(plan) for plan in made.values()],
-            "remarks": [words for plan in made.values() for words in remarks_of(plan)],
-            "stale": False,
-        }
+        if made := results.plans:
+            self._rows = {
+                "heads": list(HEADS),
+                "rows": [row_of(plan) for plan in made.values()],
+                "remarks": [words for plan in made.values() for words in remarks_of(plan)],
+            }
+        self._table.put(shown={**self._rows, "stale": not made})
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         made = list(results.plans.values())

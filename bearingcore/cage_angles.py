@@ -139,6 +139,10 @@ def swings(values: Array) -> Array:
     return np.where(swing > 0.0, swing, 1.0)
 
 
+TOUCH, PASSING = 0, 1
+"""What is watched of each ball: its compression, and whether its groove centres pass each other."""
+
+
 class _Nodes:
     """Solved cage angles in rising order."""
 
@@ -148,20 +152,25 @@ class _Nodes:
         self.scene, self.curves, self.dofs, self.kinks = scene, curves, dofs, kinks
         self.solved = 0
         self.jumps: list[Array] = []
+        self.passings: list[Array] = []
         self.angles, self.values, self.gaps = self.solve(angles)
         self.touch = np.zeros(angles.size, dtype=bool)
         load = float(np.linalg.norm(scene.load.vector[:3])) or 1.0
         self.compression = (load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
 
     def solve(self, angles: Array) -> tuple[Array, Array, Array]:
-        """Angles, curves (n, m) and compressions (n, N_b), gaps negative [m]."""
+        """Angles, curves (n, m) and `gaps_at` (n, 2, N_b) [m]."""
         state, gaps = self.gaps_at(angles)
         values = curves_of(state, self.curves)
         values[~state.converged] = math.nan
         return angles, values, gaps
 
     def gaps_at(self, angles: Array) -> tuple[Equilibrium, Array]:
-        """The static states and compressions (n, N_b), gaps negative [m]."""
+        """The static states, and what changes sign at events (n, 2, N_b) [m].
+
+        That is the compression of each ball, negative for a gap, and the part of the distance of
+        its groove centres along the unloaded line of contact.
+        """
         state = equilibrium(self.scene, angles, self.dofs)
         self.solved += angles.size
         bearing = self.scene.bearing
@@ -172,8 +181,9 @@ class _Nodes:
         radial = x * c + y * s - rL
         axial = z + rx * s - ry * c
         drop = ball_drop(self.scene, phi, angles[:, None])
-        along = np.maximum(A0 + radial * ca + axial * sa - drop, 0.0)
-        gaps: Array = np.hypot(along, axial * ca - radial * sa) - A0
+        along = A0 + radial * ca + axial * sa - drop
+        distance = np.hypot(np.maximum(along, 0.0), axial * ca - radial * sa)
+        gaps: Array = np.stack([distance - A0, along], axis=1)
         gaps[~state.converged] = math.nan
         return state, gaps
 
@@ -195,7 +205,7 @@ class _Nodes:
 
         There its gap has an extremum near zero; the parabola through three nodes tells where.
         """
-        a, g = self.angles, self.gaps
+        a, g = self.angles, self.gaps[:, 0]
         left, right = np.diff(a)[:-1, None], np.diff(a)[1:, None]
         with np.errstate(invalid="ignore", divide="ignore"):
             before, after = np.diff(g, axis=0)[:-1] / left, np.diff(g, axis=0)[1:] / right
@@ -214,13 +224,38 @@ class _Nodes:
 
     def find_touches(self) -> bool:
         """Find where a ball touches or lets go between two nodes and put nodes there."""
+        found = self._sign_changes(TOUCH, np.True_)
+        if found.size:
+            self.insert(found, touch=True)
+        return bool(found.size)
+
+    def find_passings(self, least: float) -> bool:
+        """Put two nodes, `least` apart, where a loaded ball's groove centres pass each other.
+
+        Stiffness jumps there, and too little for a test point beside it to notice.
+        """
+        wide = np.diff(self.angles)[:, None] > 1.01 * least
+        loaded = np.maximum(self.gaps[:-1, TOUCH], self.gaps[1:, TOUCH]) > 0.0
+        found = self._sign_changes(PASSING, wide & loaded)
+        if found.size:
+            self.passings.append(found)
+            both = np.concatenate([found - 0.5 * least, found + 0.5 * least])
+            inside = (both > self.angles[0]) & (both < self.angles[-1])
+            self.insert(np.setdiff1d(both[inside], self.angles), touch=False)
+        return bool(found.size)
+
+    def _sign_changes(self, kind: int, among: NDArray[np.bool_] | np.bool_) -> Array:
+        """Cage angles, rising, at which TOUCH or PASSING changes sign.
+
+        `among` tells in which intervals and of which balls (n − 1, N_b) to look for it.
+        """
         seen = TOUCH_SEEN * self.compression
         with np.errstate(invalid="ignore"):
-            before, after = self.gaps[:-1], self.gaps[1:]
+            before, after = self.gaps[:-1, kind], self.gaps[1:, kind]
             change = (before * after < 0.0) & (np.abs(before) > seen) & (np.abs(after) > seen)
-        row, ball = np.nonzero(change)
+        row, ball = np.nonzero(change & among)
         if not row.size:
-            return False
+            return np.zeros(0)
         left, right = self.angles[row].copy(), self.angles[row + 1].copy()
         g_left, g_right = before[row, ball].copy(), after[row, ball].copy()
         best = np.where(np.abs(g_left) < np.abs(g_right), left, right)
@@ -230,7 +265,7 @@ class _Nodes:
             best = right - g_right * (right - left) / (g_right - g_left)
             order = np.argsort(best, kind="stable")
             gaps = np.empty(best.size)
-            gaps[order] = self.gaps_at(best[order])[1][np.arange(best.size), ball[order]]
+            gaps[order] = self.gaps_at(best[order])[1][np.arange(best.size), kind, ball[order]]
             if not np.all(np.isfinite(gaps)) or np.all(
                 np.abs(gaps) <= TOUCH_FOUND * self.compression
             ):
@@ -242,8 +277,7 @@ class _Nodes:
             g_left = np.where(moved, gaps, np.where(again, 0.5, 1.0) * g_left)
             left = np.where(moved, best, left)
             right = np.where(moved, right, best)
-        self.insert(np.unique(best), touch=True)
-        return True
+        return np.unique(best)
 
     def suspects(self, budget: float) -> NDArray[np.bool_]:
         """Intervals whose neighbours say that the curve bends more than a test point showed.
@@ -353,17 +387,20 @@ def place(
     error = math.inf
     nodes.look_for_grazes()
     nodes.find_touches()
+    least = LEAST_INTERVAL * spacing
+    nodes.find_passings(least)
     for _ in range(4):
         nodes.jumps.clear()
-        error = nodes.bend(AIM * budget, LEAST_INTERVAL * spacing)
+        error = nodes.bend(AIM * budget, least)
         nodes.look_for_grazes()
-        if not nodes.find_touches():
+        more = nodes.find_touches()
+        if not nodes.find_passings(least) and not more:
             break
     return CageAngles(
         nodes.angles,
         kinks,
         nodes.angles[nodes.touch],
-        np.sort(np.concatenate([*nodes.jumps, np.zeros(0)])),
+        np.unique(np.concatenate([*nodes.jumps, *nodes.passings, np.zeros(0)])),
         AFTER_SPLIT * error,
         nodes.solved,
         error <= AIM * budget,

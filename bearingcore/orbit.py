@@ -11,6 +11,7 @@ eigenvalues of Φ                                      | μ      | multipliers  
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
@@ -172,6 +173,7 @@ def orbit(
     ball_passes: int | None = None,
     step_rate: float | None = None,
     most_iterations: int = 25,
+    give_up: Callable[[], bool] | None = None,
 ) -> Orbit:
     """The periodic motion of `scene`, by Newton's method on P(y) = y (shooting).
 
@@ -193,6 +195,9 @@ def orbit(
         least number of steps [Hz]; the period takes a whole number of them. None as in `simulate`.
     most_iterations
         Newton steps before giving up.
+    give_up
+        asked after every period that was integrated; True ends the search, which has then not
+        converged unless the orbit was just found.
 
     Raises
     ------
@@ -219,20 +224,20 @@ def orbit(
         return nothing
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
     rate = step_rate or default_step_rate(scene, 65536.0, highest_natural_frequency(scene))
-    shooting = _Shooting(scene, dofs, period, max(math.ceil(period * rate), 8))
+    shooting = _Shooting(scene, dofs, period, max(math.ceil(period * rate), 8), give_up)
     y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)
     if y is None:
         return replace(nothing, status=NO_START, period=period)
     y = shooting.own(y)
     if start is not None:
         found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != NOT_CONVERGED:
+        if found.status != NOT_CONVERGED or shooting.given_up:
             return found
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.marched(y, periods)
         found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != NOT_CONVERGED:
+        if found.status != NOT_CONVERGED or shooting.given_up:
             break
     return found
 
@@ -259,9 +264,18 @@ class _Shooting:
     States are those of `kernels.march_smooth`, without tension those of `kernels.march`.
     """
 
-    def __init__(self, scene: Scene, dofs: tuple[str, ...], period: float, steps: int) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        dofs: tuple[str, ...],
+        period: float,
+        steps: int,
+        give_up: Callable[[], bool] | None = None,
+    ) -> None:
         self.steps = steps
         self.calls = 0
+        self.given_up = False
+        self._give_up = give_up
         self._smooth = scene.contact_law == "published"
         self._packed = packed_numbers(scene, dofs)
         n_balls, numbers, _, active, *paths = self._packed
@@ -296,8 +310,10 @@ class _Shooting:
         """P(y), or P of P, or more."""
         end = y.copy()
         for _ in range(periods):
+            if self.given_up:
+                break
             self._plain(end, *self._arguments)
-            self.calls += 4 * self.steps
+            self._count()
         return end
 
     def with_tangent(
@@ -306,8 +322,12 @@ class _Shooting:
         """P(y) and its derivative."""
         end, tangent = y.copy(), np.eye(y.size)
         self._tangent(end, tangent, *self._arguments)
-        self.calls += 4 * self.steps
+        self._count()
         return end, tangent
+
+    def _count(self) -> None:
+        self.calls += 4 * self.steps
+        self.given_up = self.given_up or (self._give_up is not None and self._give_up())
 
     def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
         """|P(y) − y| over the size of the motion between."""
@@ -329,7 +349,7 @@ def _newton(
     end, tangent = shooting.with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
-    while miss > CLOSED and iterations < most and math.isfinite(miss):
+    while miss > CLOSED and iterations < most and math.isfinite(miss) and not shooting.given_up:
         iterations += 1
         try:
             step = np.linalg.solve(tangent - np.eye(y.size), y - end)
@@ -340,7 +360,7 @@ def _newton(
             trial = y + part * step
             trial_end, trial_tangent = shooting.with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
-            if trial_miss < miss:
+            if trial_miss < miss or shooting.given_up:
                 break
             part *= 0.4
         else:

@@ -294,7 +294,7 @@ class _Way(NamedTuple):
     """A way to march.
 
     Steps a second [Hz] for fixed ones, a tolerance for those that choose themselves, the other
-    NaN; its predicted error [dB], and calls and time for each second of motion (of an orbit: calls
+    NaN; its predicted error [dB], and calls and time for each second of motion (of an orbit: both
     in all).
     """
 
@@ -324,20 +324,15 @@ def _motion(
     if view == SETTLED:
         drop = settling_time(scene)
         if not march:
-            limit = way.cost * (drop + duration) if way.error <= budget else math.inf
+            # where no march that was tried is good enough an orbit may take its time
+            limit = way.cost * (drop + duration) if way.error <= budget else ORBIT_PATIENCE
             found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit)
     length = drop + duration
     seconds, calls = way.cost * length, way.calls * length
     if found is not None and orbital is not None:
-        start = time.perf_counter()
-        orbit(scene, step_rate=orbital.step_rate)
-        taken = time.perf_counter() - start
-        if taken < seconds or way.error > budget:
-            way, seconds, calls = orbital, taken, orbital.calls
-            drop = dying_time(found)
-            length = drop + duration
-        else:
-            found, note = None, f"marched, as the orbit takes longer: {_duration(taken)}"
+        way, seconds, calls = orbital, orbital.cost, orbital.calls
+        drop = dying_time(found)
+        length = drop + duration
     planned = time.perf_counter()
     full_calls = 4.0 * FULL_RATE * length
     full = pilot.fixed(FULL_RATE) if 2.5 * pilot.highest <= FULL_RATE else fixed
@@ -386,32 +381,48 @@ def _stable_orbit(
 
     Its spectrum is held against that of the same orbit in half the steps: where its acceleration
     jumps, an orbit is off by what lies between two steps. None either where a march takes no
-    longer: `limit` [s].
+    longer: `limit` [s]. The search ends there, so that no scene costs more to plan than that.
     """
     rate = asked or default_step_rate(scene, pilot.sample_rate, pilot.highest)
     time_ = np.arange(round(PILOT * pilot.sample_rate)) / pilot.sample_rate
-    start = time.perf_counter()
-    found = orbit(scene, step_rate=rate)
-    taken = time.perf_counter() - start
-    if taken > limit:
-        return None, None, f"marched, as an orbit takes longer: {_duration(taken)}"
+
+    def searched(start: Orbit | None, step_rate: float, left: float) -> tuple[Orbit, float]:
+        """The orbit and the time [s] it took; given up when that is more than is left.
+
+        Of the processor, as one look at a clock on the wall tells how busy others are.
+        """
+        began = time.thread_time()
+        found = orbit(
+            scene,
+            start=start,
+            step_rate=step_rate,
+            give_up=lambda: time.thread_time() - began > left,
+        )
+        return found, time.thread_time() - began
+
+    found, taken = searched(None, rate, limit)
     for _ in range(1 if asked else ORBIT_DOUBLINGS):
+        if taken > limit:
+            return None, None, f"marched, as an orbit takes longer than {_duration(limit)}"
         if not found.stable:
             through = f", through {found.through}" if found.through else ""
             return None, None, f"marched, as there is no stable orbit: {found.status}{through}"
-        finer = orbit(scene, start=found, step_rate=2.0 * rate)
+        finer, more = searched(found, 2.0 * rate, max(limit, taken))
         apart = math.inf
         if finer.stable:
             coarse, fine = found.outer_acceleration(time_), finer.outer_acceleration(time_)
             apart = ORBIT_SAFETY * spectra_apart(coarse, fine, pilot.sample_rate, pilot.band)
         if apart <= pilot.budget or asked:
-            return found, _Way(rate, math.nan, apart, found.right_hand_side_calls, math.nan), ""
-        found, rate = finer, 2.0 * rate
+            return found, _Way(rate, math.nan, apart, found.right_hand_side_calls, taken), ""
+        found, rate, taken = finer, 2.0 * rate, taken + more
     return None, None, "marched, as the steps of an orbit would have to be very short"
 
 
 ORBIT_SAFETY = 2.5
 """The same for orbits: what is compared is all there is, and half the steps leave at most half."""
+
+ORBIT_PATIENCE = 1.0
+"""[s] that are spent on an orbit where marching is no alternative."""
 
 ORBIT_DOUBLINGS = 3
 """How often the steps of an orbit are halved before it is given up for a march."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
 import pytest
 
-from bearingcore import equilibrium, presets
-from bearingcore.cage_angles import path_kinks, place
+from bearingcore import equilibrium, orbit, presets
+from bearingcore.cage_angles import curves_of, path_kinks, place, swings
+from bearingcore.orbit import NOT_CONVERGED
 from bearingcore.passes import ball_drop
 from bearingcore.plan import BUDGETS, SETTLED, VIBRATION, VIEWS, plan
 from tests.benchmarks.plans import held_curves, held_motion, random_scenes
@@ -50,6 +52,20 @@ def test_nodes_stand_where_balls_touch() -> None:
     dense = equilibrium(FAN_RIG, np.linspace(0.0, FAN_RIG.bearing.ball_spacing, 5001))
     changes = np.diff(dense.ball_load > 0.0, axis=0).any(axis=1)
     assert nodes.touches.size >= int(changes.sum()) > 0
+
+
+@pytest.mark.parametrize(("seed", "view", "k"), [(1, "modes", 129), (3, "stiffness", 67)])
+def test_stiffness_jumps_where_groove_centres_pass_under_load(seed: int, view: str, k: int) -> None:
+    """Too little for a test point beside the jump to notice, and more than the budget."""
+    (scene,) = itertools.islice(random_scenes(k + 1, seed), k, None)
+    held = held_curves(scene, view)
+    assert held.error < 0.5 * held.plan.error_budget
+    placed = place(scene, view, held.plan.error_budget)
+    assert placed.jumps.size
+    swing = swings(curves_of(equilibrium(scene, placed.angles), view))
+    around = np.sort(np.concatenate([placed.jumps - 1e-9, placed.jumps + 1e-9]))
+    jump = np.abs(np.diff(curves_of(equilibrium(scene, around), view), axis=0)[::2])
+    assert (jump / swing).max() > held.plan.error_budget
 
 
 def test_a_tighter_budget_takes_more_nodes() -> None:
@@ -97,6 +113,15 @@ def test_an_unstable_orbit_is_not_taken() -> None:
     assert slow.orbit is not None
     assert slow.orbit.stable
     assert slow.seconds < 0.5 * slow.full_seconds
+
+
+def test_the_search_for_an_orbit_ends_where_a_march_is_cheaper() -> None:
+    """No scene takes much longer to plan than to march, whatever its orbits are like."""
+    asked: list[int] = []
+    hard = FAN_RIG.replace(shaft_speed=2.0 * math.pi * 34.0, contact_damping=0.0)
+    found = orbit(hard, give_up=lambda: bool(asked.append(1)) or len(asked) == 5)
+    assert found.status == NOT_CONVERGED
+    assert len(asked) == 5
 
 
 def test_only_directions_that_move() -> None:

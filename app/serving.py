@@ -349,6 +349,15 @@ class Missing(RequestHandler):
         self.finish(message_page("There is no such page", "The explorer is one page up."))
 
 
+class Icon(RequestHandler):
+    """The logo as the page's icon, also under a path in front of the page."""
+
+    def get(self) -> None:
+        self.set_header("Content-Type", "image/svg+xml")
+        self.set_header("Cache-Control", "max-age=86400")
+        self.write(asset_text("logo.svg"))
+
+
 # Headers
 
 PERMISSIONS = (
@@ -452,6 +461,7 @@ def make_server(
         include_cookies=[],
         websocket_max_message_size=limits.message,
         default_handler_class=Missing,
+        extra_patterns=[(r"/favicon.ico", Icon)],
         http_server_kwargs={"max_header_size": longest_header, "max_body_size": 65536},
         **options,
     )

@@ -13,6 +13,7 @@ class Proxy:
         self._port, self._under, self._strip = port, under, strip
         self.port = 0
         self._server: asyncio.Server | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
         """Listen on a free port."""
@@ -23,8 +24,14 @@ class Proxy:
         """Listen no more."""
         assert self._server is not None
         self._server.close()
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
 
     async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        task = asyncio.current_task()
+        assert task is not None
+        self._tasks.add(task)
         try:
             head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
             method, path, version = head.split("\r\n", 1)[0].split(" ")
@@ -40,9 +47,10 @@ class Proxy:
             there, back = await asyncio.open_connection("127.0.0.1", self._port)
             back.write(f"{method} {path} {version}\r\n{rest}".encode("latin-1"))
             await asyncio.gather(_pipe(reader, back), _pipe(there, writer))
-        except (OSError, asyncio.IncompleteReadError):
+        except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError):
             pass
         finally:
+            self._tasks.discard(task)
             writer.close()
 
 

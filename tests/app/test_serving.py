@@ -335,6 +335,7 @@ def test_behind_a_proxy_under_a_path(strip: bool) -> None:
         ):
             assert not path.startswith("/"), f"{path} does not know where the page is"
             assert (await get(client.url + path)).code == 200, path
+        assert (await get(client.url + "favicon.ico")).code == 200
         await client.connect()
         await client.ask(set={"extent_deg": 25.0})
         assert await client.until_drawn()

@@ -1,0 +1,71 @@
+"""The page in a real browser behind a proxy, and what a browser shows when there is no room."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from playwright.sync_api import Page, expect
+
+from tests.app.proxies import Proxy
+from tests.browser.helpers import Server, Watch, drag, explorer_server, serving
+
+
+@contextmanager
+def proxied(port: int, under: str) -> Iterator[str]:
+    """A proxy on a loop of its own; where the page is behind it."""
+    loop = asyncio.new_event_loop()
+    thread = threading.Thread(target=loop.run_forever)
+    thread.start()
+    proxy = Proxy(port, under, strip=False)
+    asyncio.run_coroutine_threadsafe(proxy.start(), loop).result(5)
+    try:
+        yield f"http://localhost:{proxy.port}{under}"
+    finally:
+        asyncio.run_coroutine_threadsafe(proxy.stop(), loop).result(5)
+        loop.call_soon_threadsafe(loop.stop)
+        thread.join(5)
+
+
+def with_limits() -> Server:
+    server = explorer_server(
+        *("--root-path", "/bearing", "--max-sessions", "2", "--allow-websocket-origin", "*")
+    )
+    server.path = "/bearing/liveness"  # waiting for the page itself would take a place
+    return server
+
+
+def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
+    watch: tuple[Page, Watch],
+) -> None:
+    page, watching = watch
+    missing: list[str] = []
+    page.on("response", lambda one: missing.append(one.url) if one.status == 404 else None)
+    with serving(with_limits()) as server, proxied(server.port, "/bearing/") as url:
+        answer = page.goto(url)
+        assert answer is not None
+        assert "unsafe-eval" in answer.headers["content-security-policy"]
+        page.wait_for_function("window.__mark !== undefined", timeout=60_000)
+        drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
+        page.wait_for_function("window.__asked > 3 && window.__mark === window.__asked")
+        page.locator(".tab-stiffness").click()
+        expect(page.locator(".view-stiffness canvas").first).to_be_visible()
+        outside = [
+            one for one in watching.requests if "/bearing/" not in one and "blob:" not in one
+        ]
+        assert not outside, f"asked for beside the path of the proxy: {outside}"
+
+        second = page.context.new_page()
+        second.goto(url)
+        second.wait_for_function("window.__mark !== undefined", timeout=60_000)
+        third = page.context.new_page()
+        answer = third.goto(url)
+        assert answer is not None
+        assert answer.status == 503
+        expect(third.get_by_role("heading")).to_have_text("All places are taken")
+        expect(third.locator("p").first).to_contain_text("Try again in a minute")
+        second.close()
+        third.close()
+    assert "Traceback" not in server.log

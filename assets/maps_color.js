@@ -1,10 +1,18 @@
-// Colour the maps: whole numbers of 16 bits to pixels. See app/views/maps.py.
+// Colour the maps: whole numbers of 16 bits to pixels. See app/views/maps.py. A map is coloured anew
+// when the page turns from light to dark.
+const numbers = cb_obj
+window.__maps_colored ??= new WeakSet()
+if (!window.__maps_colored.has(numbers)) {
+  window.__maps_colored.add(numbers)
+  window.addEventListener("explorer-theme", () => numbers.properties.data.change.emit())
+}
+const of_theme = (name) => scales instanceof Map ? scales.get(name) : scales[name]
 const floats = cb_obj.data.bits
 const p = new Uint16Array(floats.buffer, floats.byteOffset, 2*floats.length)
 if (p.length > head) {
   const rows = p[0], columns = p[1], levels = p[2 + n]
   const Pixels = images.data.image[0].constructor
-  const palettes = scales.map((colors) => Uint32Array.from(colors))
+  const palettes = of_theme(document.documentElement.dataset.theme ?? "light").map((colors) => Uint32Array.from(colors))
   const maps = [], bars = []
   let at = head
   for (let i = 0; i < n; i++) {

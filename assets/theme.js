@@ -21,7 +21,10 @@
   }
   const translated = (value, table) => {
     if (typeof value === "string") return table.colors[value.toUpperCase()]
-    if (Array.isArray(value)) return table.palettes.get(name(value))
+    if (Array.isArray(value)) {
+      const items = value.map((item) => typeof item === "string" && table.colors[item.toUpperCase()])
+      return table.palettes.get(name(value)) ?? (items.every(Boolean) && items.length ? items : undefined)
+    }
     if (value !== null && typeof value === "object" && typeof value.value === "string"
         && Object.getPrototypeOf(value) === Object.prototype) {
       const inner = translated(value.value, table)

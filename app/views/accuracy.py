@@ -108,7 +108,7 @@ class Accuracy(JobView[Found]):
             active=0,
             syncable=False,
             margin=(2, 5, 6, 5),
-            stylesheets=[f":host .bk-btn {{ font-family: {figures.FONT}; font-size: 13px }}"],
+            stylesheets=[figures.BUTTONS],
         )
         switch.js_on_change(
             "active",

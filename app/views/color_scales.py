@@ -1,7 +1,8 @@
 """Colour scales for maps: perceptually even, and told apart by colour-blind eyes.
 
 `SEQUENTIAL` for numbers of one sign, from dark to light; `DIVERGING` for numbers of both signs,
-blue below zero and orange above it, as light as paper at zero and equally dark at both ends.
+blue below zero and orange above it, as light as paper at zero and equally dark at both ends;
+`DIVERGING_DARK` the same on a dark page, as dark as that at zero and equally light at both ends.
 """
 
 from __future__ import annotations
@@ -29,24 +30,27 @@ def _from_oklab(lab: np.ndarray) -> np.ndarray:
     return np.rint(255.0 * coded).astype(int)
 
 
-def _arm(hue_deg: float, chroma: float, share: np.ndarray) -> np.ndarray:
-    """From paper white (share 0) to a deep colour (share 1); lightness falls evenly."""
-    lightness = 0.975 - 0.495 * share
+def _arm(hue_deg: float, chroma: float, share: np.ndarray, ends: tuple[float, float]) -> np.ndarray:
+    """From paper (share 0) to a strong colour (share 1); lightness goes evenly between `ends`."""
+    lightness = ends[0] + (ends[1] - ends[0]) * share
     strength = chroma * np.sin(0.5 * np.pi * np.minimum(1.25 * share, 1.0))
     hue = np.radians(hue_deg)
     return np.stack([lightness, strength * np.cos(hue), strength * np.sin(hue)], axis=1)
 
 
-def _diverging() -> np.ndarray:
+def _diverging(*ends: float) -> np.ndarray:
     share = (np.arange(STEPS // 2) + 0.5) / (STEPS // 2)
-    blue, orange = _arm(250.0, 0.13, share), _arm(48.0, 0.14, share)
+    between = (ends[0], ends[1])
+    blue, orange = _arm(250.0, 0.13, share, between), _arm(48.0, 0.14, share, between)
     return _from_oklab(np.concatenate([blue[::-1], orange]))
 
 
 SEQUENTIAL = np.array([_from_hex(color) for color in Viridis256])
 """(256, 3) sRGB, dark to light."""
-DIVERGING = _diverging()
+DIVERGING = _diverging(0.975, 0.48)
 """(256, 3) sRGB, blue to white to orange."""
+DIVERGING_DARK = _diverging(0.27, 0.78)
+"""(256, 3) sRGB, blue to black to orange."""
 
 
 def packed(scale: np.ndarray) -> list[int]:

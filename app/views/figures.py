@@ -55,6 +55,17 @@ FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, s
 TEXT_SIZE = "12px"
 WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
 """Style of rows that stand below one another where there is little room."""
+BUTTONS = f"""
+:host {{
+  --default: var(--card); --default-hover: var(--track-soft); --default-active: var(--accent-paper);
+  --default-border: var(--line); --default-hover-border: var(--line);
+  --default-active-border: var(--accent); --color: var(--ink); color: var(--ink);
+  font-family: {FONT}; font-size: 13px;
+}}
+:host .bk-btn {{ font-family: {FONT}; font-size: 13px; }}
+:host .bk-btn.bk-active {{ color: var(--accent); }}
+"""
+"""Style of Bokeh's own buttons and boxes to tick, light and dark."""
 SMALL_TEXT_SIZE = "11px"
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}

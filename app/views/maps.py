@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from app.assets import asset_text
 from app.results import Results
 from app.views.base import Ranges, Sources, View
-from app.views.color_scales import DIVERGING, SEQUENTIAL, packed
+from app.views.color_scales import DIVERGING, DIVERGING_DARK, SEQUENTIAL, packed
 from app.views.figures import (
     DEFECT,
     FAINT_INK,
@@ -375,7 +375,10 @@ def _images(plot: figure, points: ColumnDataSource) -> None:
         syncable=False,
     )
     plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
-    scales = [packed(SEQUENTIAL), packed(DIVERGING), packed(SEQUENTIAL), packed(DIVERGING)]
+    one, *both = (packed(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
+    scales = {
+        theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
+    }
     color = CustomJS(
         args={"images": images, "scales": scales, "n": _N, "head": _HEAD, "none": NO_ANSWER},
         code=asset_text("maps_color.js"),

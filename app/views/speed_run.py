@@ -84,20 +84,19 @@ class SpeedRunSpectra(JobView[Found]):
     def build(self, wire: Wire) -> Any:
         frequency = wire.range("speed_run_frequency", 0.0, HIGHEST)
         plot_parts = {dof: self._plot(wire, frequency, dof) for dof in SHOWN}
-        font = f"font-family: {figures.FONT}; font-size: 13px"
         switch = RadioButtonGroup(
             labels=[f"Along {dof}" for dof in SHOWN],
             active=1,
             syncable=False,
             margin=(2, 5, 6, 5),
-            stylesheets=[f":host .bk-btn {{ {font} }}"],
+            stylesheets=[figures.BUTTONS],
         )
         toggle = CheckboxGroup(
             labels=["Mark bands and ball-pass harmonics"],
             active=[0],
             syncable=False,
             margin=(8, 5, 6, 12),
-            stylesheets=[f":host {{ {font} }}"],
+            stylesheets=[figures.BUTTONS],
         )
         plots = [[plot] for plot, _ in plot_parts.values()]
         switch.js_on_change("active", CustomJS(args={"parts": plots}, code=_SWITCH))

@@ -144,13 +144,21 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     by_hand = how.step_rate
     rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
     if by_hand is None and how.coarse:
-        highest = COARSE_STEPS * highest_natural_frequency(scene)
-        rate = default_step_rate(scene, how.sample_rate, highest)
+        rate = _coarse_step_rate(scene, how.sample_rate)
     duration = how.duration
     if rate is not None:
         duration = _affordable(duration, rate, by_hand is not None)
     motion = core.simulate(scene, duration, how.sample_rate, step_rate=rate)
     return Moved(motion, 0.5 * duration)
+
+
+def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
+    return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
+
+
+def _orbit(scene: Scene, how: Marching) -> Orbit:
+    rate = _coarse_step_rate(scene, how.sample_rate) if how.coarse else None
+    return core.orbit(scene, step_rate=rate)
 
 
 def _affordable(duration: float, rate: float, by_hand: bool) -> float:
@@ -249,7 +257,7 @@ step_rates = ComputedOnce(_step_rate, 512)
 excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
 late_spectra = ComputedOnce(_late_spectra, 64)
-orbits = ComputedOnce(core.orbit, 256)
+orbits = ComputedOnce(_orbit, 256)
 plans = ComputedOnce(_plan, 128)
 
 
@@ -298,7 +306,9 @@ class Results:
     )
 
     #: attributes that are made of a simulated motion
-    moving_ones = frozenset({"motion", "excerpt", "spectra", "late_spectra", "dof_comparison"})
+    moving_ones = frozenset(
+        {"motion", "excerpt", "spectra", "late_spectra", "orbit", "dof_comparison"}
+    )
 
     def __init__(
         self,
@@ -584,7 +594,9 @@ class Results:
     @cached_property
     def orbit(self) -> Orbit | None:
         """The motion that repeats itself; None where it takes too many ball passes to look for."""
-        return None if (self.ball_passes or 0) > LONGEST_ORBIT else orbits(self.scene)
+        if (self.ball_passes or 0) > LONGEST_ORBIT:
+            return None
+        return orbits(self.scene, self._marching)
 
     @cached_property
     def orbit_spectra(self) -> dict[str, Spectrum]:

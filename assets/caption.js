@@ -29,7 +29,7 @@ export function render({ model }) {
 
   // The lines, to be copied or saved
   const code = make("pre", { tabindex: "0", "aria-label": "Lines of Python" })
-  const said = make("span", { role: "status" })
+  const said = make("span", { "aria-live": "polite" })
   const copy = make("button", { type: "button" }, "Copy")
   copy.addEventListener("click", async () => {
     if (await copy_text(code.textContent)) said.textContent = "Copied."

@@ -131,7 +131,7 @@ def test_a_link_opens_what_it_stands_for_and_a_bad_one_says_so(
         opened(page, explorer, text)
         expect(page.locator(".share .notice")).to_contain_text(words)
         assert value(page, "extent_deg") == 12.9
-    assert "Traceback" not in explorer.log
+    assert "address.py" not in explorer.log
 
     connection = http.client.HTTPConnection("localhost", explorer.port, timeout=10)
     connection.request("GET", "//elsewhere.example/?" + "x" * 1_000_000)

@@ -33,6 +33,16 @@ HIGHEST_SHARE = 0.4
 """Of the sample rate: above, the filter of a recorder may have worked."""
 
 
+@dataclass(frozen=True)
+class Origin:
+    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit]."""
+
+    file: str
+    columns: tuple[int, ...]
+    unit: str
+    full_scale: float
+
+
 @dataclass(frozen=True, eq=False)
 class Measured:
     """A recording, and what it was measured on as far as the page knows.
@@ -45,11 +55,14 @@ class Measured:
         [rad/s] at the measurement.
     true_extent
         [rad] of the defect where the signal is a simulated one, else None.
+    origin
+        the file, where it comes from one.
     """
 
     recording: Recording
     shaft_speed: float
     true_extent: float | None = None
+    origin: Origin | None = None
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False
@@ -93,13 +106,17 @@ class Measured:
             _put(self._bands, (column, passing), found)
         return self._bands[column, passing]
 
+    def envelope_resolution(self, top: float) -> float:
+        """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
+        return max(1.0 / self.recording.duration, top / ENVELOPE_LINES)
+
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum:
         """Envelope spectrum of a band [Hz] along a direction, to be drawn up to `top` [Hz]."""
         column = self.directions.index(direction)
         key = (column, *band, top)
         if key not in self._envelopes:
             recording = self.recording
-            resolution = max(1.0 / recording.duration, top / ENVELOPE_LINES)
+            resolution = self.envelope_resolution(top)
             signal = recording.acceleration[:, column] - self._middle[column]
             found = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
             _put(self._envelopes, key, found)

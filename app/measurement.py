@@ -178,7 +178,7 @@ class Measurement:
         """The file is read and could be asked about: it takes the place of the one before."""
         self._table, self._cut = found.table, found.cut
         if found.asked is not None:
-            self.measured = Measured(found.asked.recording, found.asked.shaft_speed)
+            self.measured = _measured(found.asked)
             told = "" if speed_told(found.table.scalars) else _SPEED_OF_SCENE
             words, bad = self._summary(told), False
         else:
@@ -211,7 +211,7 @@ class Measurement:
             stays = " What is drawn is the signal as it was." if self.measured else ""
             self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
             return
-        self.measured = Measured(found.recording, found.shaft_speed)
+        self.measured = _measured(found)
         self._tell(words=self._summary(), bad=False, busy=False, values=texts, refused={})
         self._draw()
 
@@ -307,6 +307,10 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
             raise ValueError(f"{name} cannot be used. {found}")
         return _Read(table, form, cut, None, found.sentences)
     return _Read(table, form, cut, found, {})
+
+
+def _measured(asked: Asked) -> Measured:
+    return Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
 
 
 def _tried(table: Table, form: Mapping[str, str]) -> Asked | FormError:

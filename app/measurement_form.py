@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from app.measured import Origin
 from bearingcore import Recording, Table
 from bearingcore.recording import UNITS
 
@@ -35,10 +36,11 @@ _SAYS_Y = {"y", "ay", "ver", "vert", "vertical", "v"}
 
 @dataclass(frozen=True)
 class Asked:
-    """The form as it is understood: a recording, and the shaft speed [rad/s] at it."""
+    """The form as it is understood: a recording, the shaft speed [rad/s] at it, its origin."""
 
     recording: Recording
     shaft_speed: float
+    origin: Origin
 
 
 class FormError(ValueError):
@@ -113,7 +115,9 @@ def understood(table: Table, form: Mapping[str, Any]) -> Asked:
         )
     except ValueError as error:
         raise FormError({next(iter(chosen)): f"These columns are no signal: {error}."}) from None
-    return Asked(recording, 2.0 * math.pi * numbers["shaft_speed"])
+    columns = tuple(int(text) for text in chosen.values())
+    origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"])
+    return Asked(recording, 2.0 * math.pi * numbers["shaft_speed"], origin)
 
 
 def _read(name: str, texts: Mapping[str, str]) -> float:

@@ -49,7 +49,7 @@ class MeasuredEnvelope(FrequencyView):
             simulated, why_not = model.envelope(direction, band, top), ""
         except ValueError as error:
             simulated, why_not = None, refusal(error)
-        resolution = max(1.0 / measured.recording.duration, top / len(spectrum.frequency))
+        resolution = measured.envelope_resolution(top)
         return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
 
     def band(self, measured: Measured, direction: str, passing: float) -> tuple[float, float]:

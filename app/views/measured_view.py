@@ -12,6 +12,7 @@ from bokeh.plotting import figure
 from panel.custom import JSComponent
 
 from app.assets import asset_path, asset_text
+from app.measured_lines import measured_lines
 from app.measurement import Measurement
 from app.views import figures
 from app.views.base import View
@@ -71,6 +72,13 @@ class MeasuredView(View):
     def measured(self) -> Measured | None:
         """The signal that is drawn, if there is one."""
         return None if self.measurement is None else self.measurement.measured
+
+    def python(self) -> str:
+        """Lines of Python that read the file and make what is drawn; empty without a signal."""
+        measured, results = self.measured, self._results
+        if measured is None or results is None:
+            return ""
+        return measured_lines(self, results, measured)
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

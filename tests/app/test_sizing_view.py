@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import math
 import re
 import time
 
+import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from scipy.io import wavfile
 
 from app.jobs import Jobs, JobState, Work
 from app.measured import Measured, Simulated
@@ -32,6 +36,8 @@ from app.wire import Wire
 from bearingcore import Recording, Spectrum, presets
 from tests.app.measuring import measuring, signal
 from tests.bearingcore.test_sizing import file_from_elsewhere
+
+mpl.use("agg")
 
 RIG = presets["fan-rig"]
 RESULTS = Results(RIG)
@@ -383,3 +389,40 @@ def test_a_single_direction_hides_the_other_s_figures():
     view.say(RESULTS, view.sentence(RESULTS))
     assert [view._rows[dof].visible for dof in ("x", "y")] == [False, True]
     assert view.csv().startswith("extent_deg,ball_spacings,probability,edge,")
+
+
+# -- lines of Python -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", [MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize])
+@pytest.mark.parametrize("from_file", [True, False])
+def test_the_lines_beside_a_figure_run_without_the_page(kind, from_file, tmp_path, monkeypatch):
+    measured = signal()
+    name = 'it\'s "a" file.wav'
+    if from_file:
+        file = io.BytesIO()
+        wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
+        (tmp_path / name).write_bytes(file.getvalue())
+        asked = read_file(name, file.getvalue(), 7.0).asked
+        measured = Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
+    view = view_of(kind, measured)
+    view.say(RESULTS, "")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    namespace: dict = {}
+    exec(compile(view.python(), "<lines>", "exec"), namespace)
+    plt.close("all")
+    columns = namespace["columns"]
+    if kind is DefectSize:
+        best = columns["extent_deg"][columns["probability"].argmax()]
+        assert best == pytest.approx(12.9, abs=0.3)
+    elif from_file and kind is not MeasuredSignal:
+        table = view.table(RESULTS)
+        for column, values in columns.items():
+            np.testing.assert_allclose(values, table[column], rtol=1e-6)
+    else:
+        assert all(len(values) > 50 for values in columns.values())
+
+
+def test_without_a_signal_there_are_no_lines():
+    assert view_of(MeasuredSpectrum).python() == ""

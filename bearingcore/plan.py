@@ -493,7 +493,9 @@ class _Pilot:
         top = min(at + 2, len(rates)) if _jumps(self.scene) else len(rates)
         found = self._at(rates[at])
         while found.error > self.budget and at + 1 < top:
-            at += 1
+            # errors fall with order 4 at best: nothing nearer can be enough
+            least = rates[at] * self._over(found) ** 0.25
+            at = next((i for i in range(at + 1, top) if rates[i] >= least), top - 1)
             found = self._at(rates[at])
         while found.error <= self.budget and at > 0:
             coarser = self._at(rates[at - 1])
@@ -508,8 +510,17 @@ class _Pilot:
         for tolerance in TOLERANCES[1:]:
             if found.error <= self.budget:
                 break
-            found = self._way("adaptive", tolerance, 1e-2 * tolerance)
+            # errors fall as fast as the tolerance at best
+            if (
+                tolerance * self._over(found) <= 1.001 * found.tolerance
+                or tolerance == TOLERANCES[-1]
+            ):
+                found = self._way("adaptive", tolerance, 1e-2 * tolerance)
         return found
+
+    def _over(self, way: _Way) -> float:
+        """How many times the budget a way errs by; 1 where that is not known."""
+        return way.error / self.budget if math.isfinite(way.error) else 1.0
 
 
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9)

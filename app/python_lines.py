@@ -542,6 +542,12 @@ def _model_editor(script: Script, results: Results, view: Any) -> None:
     )
 
 
+def _plan(script: Script, results: Results, view: Any) -> None:
+    script.part("plan", "plan")
+    views = ", ".join(f'"{name}"' for name in type(view).plans)
+    script.add(f"for view in ({views}):", "    print(view, plan(scene, view).sentence())")
+
+
 def _nothing_yet(script: Script) -> None:
     script.add("# nothing has been computed in this view yet")
 
@@ -560,6 +566,7 @@ _MAKERS: dict[str, Callable[[Script, Results, Any], None]] = {
     "explore": _explore,
     "speed-run": _speed_run,
     "accuracy": _accuracy,
+    "plan": _plan,
     "dofs": _dofs,
     "bearing-editor": _bearing_editor,
     "model-editor": _model_editor,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 
 import holoviews as hv
 
@@ -35,5 +36,10 @@ def sizing(found: Sizing, *, true_extent: float | None = None) -> hv.Overlay:
         drawn.append(line.opts(color=figures.DEFECT, line_width=2, line_dash="dashed"))
     far = max([*places, math.degrees(true_extent or 0.0)])
     return hv.Overlay(drawn).opts(
-        **curve_options(axes, title=found.status, xlim=(0.0, 1.1 * far), ylim=(0.0, 1.05))
+        **curve_options(
+            axes,
+            title=textwrap.fill(found.status, 84),
+            xlim=(0.0, 1.1 * far),
+            ylim=(0.0, 1.1),
+        )
     )

@@ -26,6 +26,7 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
+from bearingcore.sizing_error import extent_error
 
 SCENE = presets["fan-rig"].replace(extent=math.radians(38.6), depth=50e-6, fy=-100.0)
 STATE = equilibrium(SCENE)
@@ -188,6 +189,19 @@ def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:
     drawn(plotting.plane(swept))
     with pytest.raises(ValueError, match="two"):
         plotting.plane(swept.isel(fy=0))
+
+
+def test_a_sizing_shows_its_candidates_and_says_what_follows() -> None:
+    found = extent_error(SCENE).sizing
+    figure = plotting.sizing(found, true_extent=math.radians(38.6))
+    spikes = figure.get(0)
+    assert spikes["probability"].tolist() == [c.probability for c in found.candidates]
+    np.testing.assert_allclose(
+        spikes["extent_deg"], [math.degrees(c.extent) for c in found.candidates]
+    )
+    made = drawn(figure)
+    assert made.title.text.replace("\n", " ") == found.status
+    assert labels(figure) == ["Extent Δφf (°)", "Probability P"]
 
 
 def test_colours_are_light_at_zero_where_numbers_have_both_signs() -> None:

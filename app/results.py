@@ -468,7 +468,7 @@ class Results:
     def sound_modes(self) -> Modes:
         """The same without the defect."""
         if self.pinned is not None:
-            return modes(self.pinned.scene, *self.stretch)
+            return self._of_pinned(modes, self.pinned.scene, *self.stretch)
         return self._modes(self.scene.sound(), sound=True)
 
     def _modes(self, scene: Scene, sound: bool = False) -> Modes:
@@ -559,7 +559,7 @@ class Results:
     @cached_property
     def sound_motion(self) -> Motion:
         """The same without the defect, always marched."""
-        return motions(self.beside, self._marching).motion
+        return self._of_pinned(motions, self.beside, self._marching).motion
 
     @cached_property
     def excerpt(self) -> Excerpt:
@@ -584,7 +584,17 @@ class Results:
     @cached_property
     def sound_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect, always marched."""
-        return late_spectra(self.beside, self._marching)
+        return self._of_pinned(late_spectra, self.beside, self._marching)
+
+    def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
+        """Compute something of what is drawn in grey; refused, it says that it is not the scene."""
+        try:
+            return compute(*key)
+        except ValueError as error:
+            if self.pinned is None:
+                raise
+            words = f"the {self.pinned.words} cannot be shown beside it: {error}"
+            raise ValueError(words) from None
 
     @property
     def ball_passes(self) -> int | None:

@@ -7,8 +7,9 @@ import time
 import numpy as np
 import pytest
 
+from app.reference import Reference
 from app.results import MOST_STEPS, SHORTEST, ComputedOnce, Results, Settings
-from bearingcore import presets
+from bearingcore import equilibrium, presets
 
 
 def test_threads_that_ask_together_share_one_computation() -> None:
@@ -75,3 +76,29 @@ def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
         _ = Results(fast.replace(extent=1e-5)).motion
     usual = Results(presets["fan-rig"]).motion
     assert usual.time[-1] == pytest.approx(1.4, rel=1e-3)
+
+
+def test_what_is_pinned_stands_in_for_the_sound_bearing() -> None:
+    scene, other = presets["fan-rig"], presets["liew-lim"].replace(n_balls=9)
+    results = Results(scene, 0.1, pinned=Reference(other, "mine"))
+    first, last, n = results.stretch
+    angles = np.linspace(first, last, n)
+    np.testing.assert_array_equal(
+        results.sound_equilibrium.term("k_yy"), equilibrium(other, angles).term("k_yy")
+    )
+    assert results.sound_now.scene == other
+    around = results.sound_all_around.cage_angles
+    assert around[-1] == pytest.approx(2.0 * np.pi / 9)
+    assert results.sound_modes.cage_angles[-1] == last
+    alone = Results(scene, 0.1)
+    assert alone.beside == scene.sound()
+    assert alone.sound_all_around is alone.sound_equilibrium
+
+
+def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> None:
+    other = presets["liew-lim"].replace(stiffness_z=None)
+    results = Results(presets["fan-rig"], 0.1, pinned=Reference(other, "mine"))
+    for name in ("sound_modes", "sound_late_spectra"):
+        with pytest.raises(ValueError, match="pinned “mine” cannot be shown.*stiffness_z"):
+            getattr(results, name)
+    assert np.isfinite(results.modes.frequency).all()

@@ -1,6 +1,6 @@
 """Print the speeds that the program is to reach, beside what it reaches and what plain C takes.
 
-    python -m tests.benchmarks.numbers [--repeats 15]
+    python -m tests.benchmarks.numbers [--repeats 15] [--core]
 
 gcc builds the C loops of `c_loops/` at the start, every answer is compared with the other's and
 with the stored references before anything is timed, and the contenders take turns, so that all
@@ -9,7 +9,8 @@ bearingcore's public functions with everything that a caller gets: checks of the
 objects made, after a warm-up. Each repetition asks for a slightly different extent, as a dragged
 slider does, so that nothing can come out of a cache. Nothing here passes or fails.
 
-Slider to pixels and the classroom are measured by `python -m tests.benchmarks.latency`.
+Then the page: its first start where nothing has been compiled, and, by `latency` and `classroom`
+of this folder, slider to pixels and a classroom. `--core` leaves them out.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import platform
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -37,7 +39,9 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
+from bearingcore.motion import length_units, static_start
 from tests.benchmarks.yardstick import FAST_MATH, FLAGS, CMotion, CStatics
+from tests.browser.helpers import explorer_server, find_chromium
 
 REFERENCE = Path(__file__).parent.parent / "reference" / "motion_reference.npz"
 ANGLES, MAP_EXTENTS, MAP_ANGLES = 361, 91, 121
@@ -100,11 +104,11 @@ def map_curves(scene: Scene) -> None:
 
 
 def start_state(scene: Scene) -> np.ndarray:
-    """Rest at the static state of cage angle 0, as `simulate` starts."""
-    at_rest = equilibrium(scene, np.zeros(1), dofs=("x", "y")).displacement[0, :2]
-    support = scene.support
-    outer = np.array([scene.load.fx / support.stiffness_x, scene.load.fy / support.stiffness_y])
-    return np.concatenate([at_rest + outer, outer, np.zeros(4)])
+    """Rest at the static state of cage angle 0, as `simulate` starts, in the order of the C."""
+    state = static_start(scene, scene.active_dofs)
+    assert state is not None
+    inner, inner_velocity, outer, outer_velocity = state.reshape(4, -1)
+    return np.concatenate([inner, outer, inner_velocity, outer_velocity])
 
 
 def decibels(acceleration: np.ndarray, reference: np.ndarray) -> float:
@@ -148,6 +152,17 @@ def check(c_statics: CStatics, c_motion: CMotion) -> None:
         f" second,\n    {decibels(same.outer_acceleration, density):.4f} dB at {RATE:.0f};"
         f" C {decibels(march, density):.4f} dB at {RATE:.0f}"
     )
+    scene = presets["liew-lim"]
+    fine = simulate(scene, 0.2, RATE, step_rate=8.0 * RATE).outer_acceleration
+    mine = simulate(scene, 0.2, RATE, step_rate=RATE).outer_acceleration
+    damping = contact_damping(scene)
+    march = c_motion.march_tilting(scene, start_state(scene), len(mine), RATE, damping)[1]
+    march /= length_units(scene, DOF_NAMES)
+    off = [np.sqrt(np.mean((a - fine) ** 2) / np.mean(fine**2)) for a in (mine, march)]
+    print(
+        f"  five directions, error of the acceleration against eight times the steps: ours"
+        f" {off[0]:.1e}, C {off[1]:.1e} (root mean square)"
+    )
 
 
 def numbers() -> list[Number]:
@@ -160,6 +175,7 @@ def numbers() -> list[Number]:
     turn = 2.0 * np.pi / (ANGLES - 1)
     samples = round(DURATION * RATE)
     damping, start = contact_damping(fan_rig), start_state(fan_rig)
+    tilting = contact_damping(liew_lim), start_state(liew_lim)
 
     def curves(step: float) -> dict[str, Contender]:
         return {
@@ -178,6 +194,13 @@ def numbers() -> list[Number]:
     }
     marches: dict[str, Contender] = {
         name: lambda scene, loop=loop: loop.march(scene, start, samples, RATE, damping)
+        for name, loop in c_motion.items()
+    }
+
+    tilting_marches: dict[str, Contender] = {
+        name: lambda scene, loop=loop: loop.march_tilting(
+            scene, tilting[1], samples, RATE, tilting[0]
+        )
         for name, loop in c_motion.items()
     }
 
@@ -206,6 +229,8 @@ def numbers() -> list[Number]:
                {"ours": lambda scene: signal(scene, RATE), **marches}),
         Number("all states and acceleration of that, no spectra", "", fan_rig,
                {"ours": everything, **marches}),
+        Number("1.4 s of motion, 5 DOF, spectra (C: the march alone)", "", liew_lim,
+               {"ours": signal, **tilting_marches}, share=0.4),
     ]  # fmt: skip
 
 
@@ -219,6 +244,17 @@ def import_seconds(repeats: int = 5) -> list[float]:
 
     run("import bearingcore")
     return [run("import bearingcore") - run("pass") for _ in range(repeats)]
+
+
+def start_seconds(compiled: Path) -> float:
+    """From the command to the first page, with machine code kept in the folder `compiled`."""
+    begun = time.perf_counter()
+    server = explorer_server(environment={"NUMBA_CACHE_DIR": str(compiled)})
+    try:
+        server.wait(300.0)
+        return time.perf_counter() - begun
+    finally:
+        server.stop()
 
 
 def show(table: list[Number]) -> None:
@@ -242,7 +278,9 @@ def main() -> None:
     """Build, check, measure, print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0] if __doc__ else None)
     parser.add_argument("--repeats", type=int, default=15, help="of the longest measurements")
-    repeats = parser.parse_args().repeats
+    parser.add_argument("--core", action="store_true", help="leave the page out")
+    chosen = parser.parse_args()
+    repeats = chosen.repeats
     began = time.perf_counter()
     compiler = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True)
     print(f"Python {platform.python_version()}, {compiler.stdout.splitlines()[0]}, "
@@ -260,9 +298,34 @@ def main() -> None:
         f"\nMilliseconds of wall clock, median and in brackets the least of {counts} repetitions,"
         f"\ncontenders in turn, all built and run within {time.perf_counter() - began:.0f} s."
         "\nours: bearingcore's public functions from Python; C: gcc -O3 -march=native, one thread,"
-        "\nthrough ctypes; ratio: ours over C. Slider to pixels and the classroom:"
-        " python -m tests.benchmarks.latency"
+        "\nthrough ctypes; ratio: ours over C.",
+        flush=True,
     )
+    if not chosen.core:
+        page()
+
+
+def page() -> None:
+    """What takes a server, and a browser where there is one."""
+    with tempfile.TemporaryDirectory() as folder:
+        first, second = (start_seconds(Path(folder)) for _ in range(2))
+    print(
+        f"\n{'first start, nothing compiled, to the first page':54}{'20 s':>8}{first:>13.1f} s"
+        f"\n{'the next start':54}{'':>8}{second:>13.1f} s",
+        flush=True,
+    )
+    if find_chromium() is None:
+        print("no Chromium: slider to pixels and the classroom were not measured")
+        return
+    tabs = ("load", "stiffness", "modes", "maps", "vibration")
+    few = ["--steps", "10", "--seconds", "2", *(word for tab in tabs for word in ("--tab", tab))]
+    for title, command in (
+        ("Slider to pixels", ["latency", *few]),
+        ("A classroom of 30 (target: nothing lost, 95 % in 300 ms)", ["classroom"]),
+    ):
+        print(f"\n{title}:", flush=True)
+        name, *arguments = command
+        subprocess.run([sys.executable, "-m", f"tests.benchmarks.{name}", *arguments], check=False)
 
 
 if __name__ == "__main__":

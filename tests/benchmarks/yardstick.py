@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import Scene
+from bearingcore import DOF_NAMES, Scene
+from bearingcore.motion import body_numbers
 
 SOURCES = Path(__file__).parent / "c_loops"
 FLAGS = ("-O3", "-march=native")
@@ -122,7 +123,7 @@ class CStatics:
 
 
 class CMotion:
-    """Motion in x and y of both bodies by classical Runge-Kutta, one step a sample."""
+    """Motion of both bodies by classical Runge-Kutta, one step a sample."""
 
     def __init__(self, flags: tuple[str, ...] = FLAGS, nodes: int = 2048) -> None:
         self._library = build("motion", flags)
@@ -131,9 +132,30 @@ class CMotion:
     def march(
         self, scene: Scene, start: Array, samples: int, rate: float, damping: float
     ) -> tuple[Array, Array]:
-        """States (n, 8) and the outer ring's acceleration (n, 2) from the state `start` (8,)."""
+        """In x and y, from `start` (8,): states (n, 8), the outer ring's acceleration (n, 2)."""
+        numbers = self._numbers(scene, damping)
+        return self._march("motion", [_at(numbers)], start, samples, rate, 2)
+
+    def march_tilting(
+        self, scene: Scene, start: Array, samples: int, rate: float, damping: float
+    ) -> tuple[Array, Array]:
+        """In five directions, tilts times r_d: states (n, 20), the outer ring's acceleration."""
+        force, inner, outer, stiffness, support_damping = body_numbers(scene, DOF_NAMES)
+        angle = scene.bearing.contact_angle
+        tilting = np.concatenate(
+            [
+                [np.cos(angle), np.sin(angle), scene.bearing.groove_center_distance],
+                *(force, 1.0 / inner, 1.0 / outer, stiffness, support_damping),
+            ]
+        )
+        numbers = self._numbers(scene, damping)
+        pointers = [_at(numbers), _at(tilting)]
+        return self._march("motion_tilting", pointers, start, samples, rate, 5)
+
+    @staticmethod
+    def _numbers(scene: Scene, damping: float) -> Array:
         bearing, support = scene.bearing, scene.support
-        numbers = np.array(
+        return np.array(
             [
                 bearing.n_balls,
                 bearing.ball_radius,
@@ -153,10 +175,14 @@ class CMotion:
                 scene.cage_speed,
             ]
         )
-        states, acceleration = np.empty((samples, 8)), np.empty((samples, 2))
+
+    def _march(
+        self, name: str, scene: list[Any], start: Array, samples: int, rate: float, n_dofs: int
+    ) -> tuple[Array, Array]:
+        states, acceleration = np.empty((samples, 4 * n_dofs)), np.empty((samples, n_dofs))
         now = np.array(start, dtype=float)
-        status = self._library.motion(
-            _at(numbers),
+        status = getattr(self._library, name)(
+            *scene,
             _at(now),
             samples,
             ctypes.c_double(1.0 / rate),

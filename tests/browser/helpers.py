@@ -102,11 +102,11 @@ class Server:
         return int(self.process.returncode)
 
 
-def explorer_server(*options: str) -> Server:
+def explorer_server(*options: str, environment: dict[str, str] | None = None) -> Server:
     """The explorer as a person starts it."""
     port = free_port()
     command = [sys.executable, "-m", "app", "--port", str(port), "--no-browser", *options]
-    return Server(command, port)
+    return Server(command, port, environment=environment or {})
 
 
 def page_server(name: str) -> Server:

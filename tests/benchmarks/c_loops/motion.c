@@ -138,3 +138,80 @@ int motion(const Scene *p, double *restrict y, int n_samples, double step, int n
     free(table);
     return 0;
 }
+
+/* The same in x, y, z and both tilts of both bodies, tilts times the groove radius, moments over
+ * it. Balls have three more coordinates and a contact angle that follows the load: a square root
+ * and a division more for each that touches. */
+typedef struct {
+    double cos_angle, sin_angle, groove_distance; /* unloaded contact angle; A0 */
+    double load[5], inner_inverse[5], outer_inverse[5], stiffness[5], damping[5];
+} Tilting;
+
+static inline void slope_of_tilting(const Scene *p, const Tilting *q, const Geometry *g,
+                                    const double *y, double *restrict f)
+{
+    const double ca = q->cos_angle, sa = q->sin_angle, A0 = q->groove_distance;
+    const double w = p->cage_speed, k = p->load_deflection_factor;
+    double x[5], v[5], sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+    for (int i = 0; i < 5; i++) x[i] = y[i] - y[5 + i], v[i] = y[10 + i] - y[15 + i];
+    const double v0 = v[0] + w * x[1], v1 = v[1] - w * x[0];
+    const double v3 = v[3] + w * x[4], v4 = v[4] - w * x[3];
+    const int n = (int)p->n_balls;
+    for (int j = 0; j < n; j++) {
+        const double c = g->c[j], s = g->s[j];
+        const double radial = x[0] * c + x[1] * s - p->radial_clearance;
+        const double axial = x[2] + x[3] * s - x[4] * c;
+        const double along = fmax(A0 + radial * ca + axial * sa - g->d[j], 0.0);
+        const double across = axial * ca - radial * sa;
+        const double square = along * along + across * across;
+        if (square <= A0 * A0) continue;
+        const double A = sqrt(square), delta = A - A0;
+        const double eu = along / A, ew = across / A;
+        const double er = eu * ca - ew * sa, ez = eu * sa + ew * ca;
+        const double rate = er * (v0 * c + v1 * s) + ez * (v[2] + v3 * s - v4 * c)
+                            - eu * g->slope[j];
+        const double push = k * delta * sqrt(delta) + p->contact_damping * rate;
+        const double fr = push * er, fz = push * ez;
+        sum[0] += fr * c, sum[1] += fr * s, sum[2] += fz, sum[3] += fz * s, sum[4] -= fz * c;
+    }
+    for (int i = 0; i < 10; i++) f[i] = y[10 + i];
+    for (int i = 0; i < 5; i++) {
+        f[10 + i] = (q->load[i] - sum[i]) * q->inner_inverse[i];
+        f[15 + i] = (sum[i] - q->stiffness[i] * y[5 + i] - q->damping[i] * y[15 + i])
+                    * q->outer_inverse[i];
+    }
+}
+
+/* As `motion`: `y` (20), `states` (n, 20), `acceleration` (n, 5) of the outer ring. */
+int motion_tilting(const Scene *p, const Tilting *q, double *restrict y, int n_samples, double step,
+                   int nodes, double *restrict states, double *restrict acceleration)
+{
+    if (p->n_balls > LANES) return 2;
+    Geometry *table = aligned_alloc(64, (nodes + 2) * sizeof(Geometry));
+    if (!table) return 1;
+    Scene without = *p;
+    without.radial_clearance = 0.0; /* it does not lie along the line of contact */
+    tabulate(&without, nodes, table);
+    table[nodes + 1] = table[nodes];
+    const double passes_a_step = p->cage_speed * step * p->n_balls / (2.0 * M_PI);
+    Geometry start, middle, end;
+    double k1[20], k2[20], k3[20], k4[20], t[20];
+    look_up(table, nodes, 0.0, &start);
+    for (int i = 0; i < n_samples; i++) {
+        slope_of_tilting(p, q, &start, y, k1);
+        for (int m = 0; m < 20; m++) states[20L * i + m] = y[m];
+        for (int m = 0; m < 5; m++) acceleration[5L * i + m] = k1[15 + m];
+        look_up(table, nodes, (i + 0.5) * passes_a_step, &middle);
+        look_up(table, nodes, (i + 1.0) * passes_a_step, &end);
+        for (int m = 0; m < 20; m++) t[m] = y[m] + 0.5 * step * k1[m];
+        slope_of_tilting(p, q, &middle, t, k2);
+        for (int m = 0; m < 20; m++) t[m] = y[m] + 0.5 * step * k2[m];
+        slope_of_tilting(p, q, &middle, t, k3);
+        for (int m = 0; m < 20; m++) t[m] = y[m] + step * k3[m];
+        slope_of_tilting(p, q, &end, t, k4);
+        for (int m = 0; m < 20; m++) y[m] += step / 6.0 * (k1[m] + 2.0 * (k2[m] + k3[m]) + k4[m]);
+        start = end;
+    }
+    free(table);
+    return 0;
+}

@@ -13,7 +13,10 @@ export function render({ model }) {
     made.addEventListener("click", act)
     return made
   }
-  const views = () => figures_on_screen(model.figures)
+  // Bokeh's figures, or the drawing that the view has instead.
+  const views = () => model.picture
+    ? [drawing_of(find_deep(files.getRootNode().host.getRootNode(), "svg.picture"))]
+    : figures_on_screen(model.figures)
   const failed = (error) => console.warn("the figure could not be saved", error)
   const pictures = [
     button("PNG", `save the picture (${file("png")})`, () =>
@@ -21,7 +24,7 @@ export function render({ model }) {
     button("SVG", `save the picture as a drawing (${file("svg")})`, () =>
       save_file(file("svg"), figures_as_svg(views(), model.title), "image/svg+xml")),
   ]
-  const offer = () => { for (const one of pictures) one.hidden = !model.figures.length }
+  const offer = () => { for (const one of pictures) one.hidden = !(model.figures.length || model.picture) }
   model.on("figures", offer)
   offer()
   const numbers = button("CSV", `save the numbers (${file("csv")})`, () => model.send_msg("csv"))

@@ -1,12 +1,52 @@
 // Figures as files, out of what is on screen.
 
+const SVG = "http://www.w3.org/2000/svg"
+
 // The views of Bokeh's figures with these ids that have a size now, in the order of the page.
 function figures_on_screen(ids) {
   return ids.map((id) => window.Bokeh.index.find_one_by_id(id))
     .filter((view) => view && view.el.getBoundingClientRect().width > 0)
 }
 
+// A drawing that stands on the page as SVG, with the looks that its style sheets give it, in the
+// manner of a view.
+const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity",
+               "opacity", "font-family", "font-size", "font-style", "font-weight", "visibility"]
+function drawing_of(svg) {
+  const { width, height } = svg.getBoundingClientRect()
+  const draw = () => {
+    const copy = svg.cloneNode(true)
+    const here = [...svg.querySelectorAll("*")], there = [...copy.querySelectorAll("*")]
+    here.forEach((element, i) => {
+      const looks = getComputedStyle(element)
+      if (looks.display === "none") there[i].remove()
+      for (const name of LOOKS) there[i].style.setProperty(name, looks.getPropertyValue(name))
+    })
+    const paper = document.createElementNS(SVG, "rect")
+    for (const [name, value] of [["width", "100%"], ["height", "100%"]]) paper.setAttribute(name, value)
+    paper.style.fill = getComputedStyle(document.documentElement).getPropertyValue("--card") || "white"
+    copy.prepend(paper)
+    copy.setAttribute("xmlns", SVG)
+    copy.setAttribute("width", width)
+    copy.setAttribute("height", height)
+    return copy
+  }
+  return { el: svg, draw }
+}
+
+// The first element with `selector` below a node, shadows included.
+function find_deep(node, selector) {
+  const found = node.querySelector(selector)
+  if (found) return found
+  for (const element of node.querySelectorAll("*")) {
+    const deeper = element.shadowRoot && find_deep(element.shadowRoot, selector)
+    if (deeper) return deeper
+  }
+  return null
+}
+
 function svg_of(view) {
+  if (view.draw) return view.draw()
   const svg = view.export("svg", false).ctx.get_svg().cloneNode(true)
   const { width, height } = view.bbox
   svg.setAttribute("width", width)
@@ -30,8 +70,6 @@ function with_own_ids(svg, mark) {
     }
   return svg
 }
-
-const SVG = "http://www.w3.org/2000/svg"
 
 // Where figures stand beside each other, in one box around them all.
 function layout_of(views) {

@@ -47,6 +47,8 @@ class Caption(LiveComponent):
     name_of_files = param.String()
     #: what is drawn in grey, where that is a pinned scene
     pinned = param.String()
+    #: whether the view draws an SVG of the class "picture" by itself
+    picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
 
@@ -70,6 +72,8 @@ class View:
     title: ClassVar[str]
     about: ClassVar[str] = ""
     needs: ClassVar[frozenset[str]]
+    #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
+    picture: ClassVar[bool] = False
     #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
     plans: ClassVar[tuple[str, ...]] = ()
 
@@ -86,6 +90,7 @@ class View:
             about=self.about,
             name_of_files=self.name,
             figures=[plot.id for plot in self.figures],
+            picture=self.picture,
             sizing_mode="stretch_width",
             margin=0,
         )

@@ -61,6 +61,7 @@ class BearingEditor(ControlView):
         "All views follow."
     )
     needs = frozenset[str]()
+    picture = True
 
     def build(self, wire: Wire) -> Any:
         numbers = choice_spec("Given as", "", True, _NUMBERS)

@@ -99,6 +99,6 @@ def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> Non
     other = presets["liew-lim"].replace(stiffness_z=None)
     results = Results(presets["fan-rig"], 0.1, pinned=Reference(other, "mine"))
     for name in ("sound_modes", "sound_late_spectra"):
-        with pytest.raises(ValueError, match="pinned “mine” cannot be shown.*stiffness_z"):
+        with pytest.raises(ValueError, match=r"pinned “mine” cannot be shown.*stiffness_z"):
             getattr(results, name)
     assert np.isfinite(results.modes.frequency).all()

@@ -103,9 +103,10 @@ class Measurement:
         self.measured: Measured | None = None
         self.sized: Sized | None = None
         self.state = MeasurementState()
-        #: hear of news: the state, and where the next piece of a file should begin
+        #: hear of news: the state, and where the next piece of a file should begin; `of` comes
+        #: back with it, so that pieces of a file that was given up are told from those of the next
         self.show: Callable[[MeasurementState], None] = lambda _: None
-        self.want: Callable[[int], None] = lambda _: None
+        self.want: Callable[[int, int], None] = lambda begin, of: None
         self._editor = editor
         self._assign = assign
         self._draw = draw
@@ -113,6 +114,7 @@ class Measurement:
         self._cut = ""
         self._upload: Upload | None = None
         self._latest = 0  # number of what was asked for last: what it overtook is dropped
+        self._uploads = 0
         self._simulations = 0
         self._tasks: set[asyncio.Task[None]] = set()
         self._ended = False
@@ -132,7 +134,7 @@ class Measurement:
             return
         if isinstance(file := message.get("file"), dict):
             self._begin(file)
-        if "piece" in message:
+        if "piece" in message and message.get("of") == self._uploads:
             self._take_piece(message["piece"])
         if isinstance(form := message.get("form"), dict):
             self._take_form(form)
@@ -143,6 +145,7 @@ class Measurement:
 
     def _begin(self, file: Mapping[Any, Any]) -> None:
         self._latest += 1
+        self._uploads += 1
         try:
             self._upload = Upload(file.get("name"), file.get("size"))
         except ValueError as error:
@@ -150,7 +153,7 @@ class Measurement:
             self._refuse(str(error))
         else:
             self._tell(words=f"{self._upload.name} is on its way.", bad=False, busy=True)
-            self.want(0)
+            self.want(0, self._uploads)
 
     def _take_piece(self, piece: Any) -> None:
         upload = self._upload
@@ -163,7 +166,7 @@ class Measurement:
             self._refuse(str(error))
             return
         if not upload.whole:
-            self.want(upload.length)
+            self.want(upload.length, self._uploads)
             return
         self._upload = None
         self._tell(words=f"Reading {upload.name} …", bad=False, busy=True)

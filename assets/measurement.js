@@ -17,7 +17,7 @@ export function render({ model }) {
   const choose = make("label", { for: "measurement-file", class: "choose" }, "Choose a file …")
   const bar = make("div", { class: "bar", role: "progressbar", "aria-label": "File on its way",
     "aria-valuemin": "0", "aria-valuemax": "100", hidden: "" }, make("i"))
-  let sending = null
+  let sending = null, answers = 0
   const begin = (chosen) => {
     if (!chosen) return
     sending = chosen.size <= spec.most ? chosen : null
@@ -29,7 +29,9 @@ export function render({ model }) {
     bar.firstChild.style.width = `${100*share}%`
     bar.setAttribute("aria-valuenow", String(Math.round(100*share)))
   }
-  const send = async (from) => {
+  const send = async (from, of) => {
+    if (of < answers) return  // the server speaks of a file that was given up
+    answers = of
     const source = sending
     if (!source || from >= source.size) return
     let piece
@@ -42,7 +44,7 @@ export function render({ model }) {
     const sent = from + (piece?.byteLength ?? 0)
     far(sent/source.size)
     if (!piece || sent >= source.size) sending = null
-    model.send_msg({ piece })
+    model.send_msg({ piece, of })
     if (!sending) setTimeout(() => far(1), 300)
   }
   file.addEventListener("change", () => {
@@ -118,7 +120,7 @@ export function render({ model }) {
     fields.full_scale.hidden = !scaled && (values.full_scale ?? "1") === "1"
   }
   model.on("state", show)
-  model.on("msg:custom", (message) => { if (message.want !== undefined) send(message.want) })
+  model.on("msg:custom", (message) => { if (message.want !== undefined) send(message.want, message.of) })
   show()
   return root
 }

@@ -74,16 +74,23 @@ class MeasuredView(View):
         return None if self.measurement is None else self.measurement.measured
 
     def python(self) -> str:
-        """Lines of Python that read the file and make what is drawn; empty without a signal."""
+        """Lines of Python that read the file and make what is drawn."""
         measured, results = self.measured, self._results
         if measured is None or results is None:
-            return ""
+            return f"# {NOTHING}\n"
         return measured_lines(self, results, measured)
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if self.hidden is not None:
             self.hidden.visible = self.measured is not None
+        # figures that nobody sees are not to be saved as pictures
+        self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
+
+    @property
+    def drawn(self) -> bool:
+        """Whether its figures are on screen."""
+        return self.measured is not None
 
 
 class LookPanel(JSComponent):

@@ -71,9 +71,9 @@ class MeasurementPanel(JSComponent):
             "scaled": state.scaled,
         }
 
-    def want(self, begin: int) -> None:
-        """Ask for the piece of the file that begins at this byte."""
-        self._send_msg({"want": begin})
+    def want(self, begin: int, of: int) -> None:
+        """Ask for the piece of the file that begins at this byte; `of` comes back with it."""
+        self._send_msg({"want": begin, "of": of})
 
 
 class MeasuredSignal(MeasuredView):

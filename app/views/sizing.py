@@ -180,6 +180,10 @@ class DefectSize(JobView[Sized], MeasuredView):
         found = self.found
         return found if found is not None and found.measured is self.measured else None
 
+    @property
+    def drawn(self) -> bool:
+        return self.sized is not None
+
     def _looked_at(self, message: Any) -> None:
         sized = self.sized
         index = message.get("look") if isinstance(message, dict) else None

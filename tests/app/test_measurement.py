@@ -50,12 +50,12 @@ async def settled(measurement: Measurement) -> None:
 
 async def bring(measurement: Measurement, name: str, content: bytes) -> None:
     """As the browser does: the pieces that are asked for, one after the other."""
-    wanted: list[int] = []
-    measurement.want = wanted.append
+    wanted: list[tuple[int, int]] = []
+    measurement.want = lambda begin, of: wanted.append((begin, of))
     measurement.asked({"file": {"name": name, "size": len(content)}})
     while wanted:
-        begin = wanted.pop()
-        measurement.asked({"piece": content[begin : begin + PIECE]})
+        begin, of = wanted.pop()
+        measurement.asked({"piece": content[begin : begin + PIECE], "of": of})
     await settled(measurement)
 
 
@@ -268,7 +268,7 @@ def test_a_bad_file_gets_a_sentence_and_leaves_all_as_it_was(name, content, told
 def test_a_huge_file_is_refused_before_it_is_sent():
     made = measuring()
     wanted: list[int] = []
-    made.want = wanted.append
+    made.want = lambda begin, of: wanted.append(begin)
     made.asked({"file": {"name": "h.csv", "size": MOST_BYTES + 1}})
     assert "at most 24 MB" in made.state.words
     assert not wanted
@@ -278,11 +278,11 @@ def test_a_huge_file_is_refused_before_it_is_sent():
 def test_pieces_that_cannot_be_of_the_file_end_it(piece):
     made = measuring(before := signal())
     made.asked({"file": {"name": "a.csv", "size": 100}})
-    made.asked({"piece": piece})
+    made.asked({"piece": piece, "of": 1})
     assert made.state.bad
     assert "did not arrive whole" in made.state.words
     assert made.measured is before
-    made.asked({"piece": bytes(10)})  # nobody asked for it
+    made.asked({"piece": bytes(10), "of": 1})  # nobody asked for it
     assert made.measured is before
 
 
@@ -305,6 +305,8 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
         {"simulate": {"noise": [], "machine": {}}},
         {"simulate": {"noise": "20", "machine": "another"}},
         {"piece": b"abc"},
+        {"piece": b"abc", "of": 0},
+        {"piece": b"abc", "of": [1]},
     ],
 )
 def test_nonsense_from_the_browser_changes_nothing(message):
@@ -328,9 +330,10 @@ def test_what_was_asked_last_wins():
         made = measuring()
         first, second = csv_of(NOISE, "time,x,y"), csv_of(NOISE[:1000], "time,x,y")
         made.asked({"file": {"name": "first.csv", "size": len(first)}})
-        made.asked({"piece": first})  # is being read ...
+        made.asked({"piece": first, "of": 1})  # is being read ...
         made.asked({"file": {"name": "second.csv", "size": len(second)}})
-        made.asked({"piece": second})
+        made.asked({"piece": first, "of": 1})  # late
+        made.asked({"piece": second, "of": 2})
         await settled(made)
         return made
 
@@ -340,12 +343,29 @@ def test_what_was_asked_last_wins():
     assert made.state.words.startswith("second.csv")
 
 
+def test_a_form_changed_meanwhile_does_not_stop_a_file_on_its_way():
+    async def both() -> Measurement:
+        made = measuring()
+        await bring(made, "first.csv", csv_of(NOISE, "time,x,y"))
+        second = csv_of(NOISE[:1000], "time,x,y")
+        made.asked({"file": {"name": "second.csv", "size": len(second)}})
+        made.asked({"form": {**made.state.values, "unit": "g"}})
+        await settled(made)
+        made.asked({"piece": second, "of": 2})
+        await settled(made)
+        return made
+
+    made = run(both())
+    assert made.measured is not None
+    assert made.measured.recording.name == "second.csv"
+
+
 def test_after_the_session_nothing_is_taken():
     async def late() -> Measurement:
         made = measuring()
         content = csv_of(NOISE, "time,x,y")
         made.asked({"file": {"name": "late.csv", "size": len(content)}})
-        made.asked({"piece": content})
+        made.asked({"piece": content, "of": 1})
         made.stop()
         await settled(made)
         return made

@@ -208,6 +208,7 @@ def test_figures_wait_for_a_signal(kind):
     view = view_of(kind)
     view.say(RESULTS, view.sentence(RESULTS))
     assert not view.hidden.visible
+    assert not view._caption.figures
     assert view.csv().strip() == ""
     data, ranges = view.data(RESULTS)
     assert not ranges
@@ -215,6 +216,7 @@ def test_figures_wait_for_a_signal(kind):
     view.measurement.measured = signal()
     view.say(RESULTS, "")
     assert view.hidden.visible
+    assert bool(view._caption.figures) == (kind is not DefectSize)  # which has no answer yet
 
 
 @pytest.mark.parametrize("rate", [400.0, 1e6])
@@ -425,4 +427,4 @@ def test_the_lines_beside_a_figure_run_without_the_page(kind, from_file, tmp_pat
 
 
 def test_without_a_signal_there_are_no_lines():
-    assert view_of(MeasuredSpectrum).python() == ""
+    assert view_of(MeasuredSpectrum).python().startswith("# There is no signal yet")

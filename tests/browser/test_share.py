@@ -15,7 +15,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Scene, equilibrium, presets
 from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import settle, show, slider, source, value
+from tests.browser.test_explorer import VIEWS, settle, show, slider, source, value
 
 LINK = "v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&cage_angle_deg=12.5&tab=stiffness"
 
@@ -185,19 +185,29 @@ def test_scenes_are_kept_pinned_and_read_back_with_care(
 def test_everything_can_be_taken_away(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     opened(page, explorer, LINK.replace("stiffness", "load"))
-    for view, drawn in (("bearing", b"14"), ("load-distribution", b"Ball load Q (N)")):
-        box = page.locator(f".view-{view}")
-        name, text = saved(page, box.locator(".save-svg"))
-        assert name == f"bearing-{view}.svg"
-        root = ET.fromstring(text)
-        assert root.tag.endswith("svg")
-        assert drawn in text
-        assert len(root.findall(".//{*}path")) > 20
-        name, picture = saved(page, box.locator(".save-png"))
-        assert name == f"bearing-{view}.png"
-        width, height = struct.unpack(">II", picture[16:24])
-        assert picture.startswith(b"\x89PNG")
-        assert (width, height) == (2 * int(root.get("width")), 2 * int(root.get("height")))
+    box = page.locator(".view-load-distribution")
+    _, text = saved(page, box.locator(".save-svg"))
+    assert b"Ball load Q (N)" in text
+    root = ET.fromstring(text)
+    name, picture = saved(page, box.locator(".save-png"))
+    assert name == "bearing-load-distribution.png"
+    assert picture.startswith(b"\x89PNG")
+    size = struct.unpack(">II", picture[16:24])
+    assert size == tuple(2 * int(root.get(side, "0")) for side in ("width", "height"))
+    shown = {**VIEWS, "bearing-editor": "bearing"}
+    for tab in dict.fromkeys(shown.values()):
+        show(page, tab)
+        for view in (view for view, where in shown.items() if where == tab):
+            box = page.locator(f".view-{view}")
+            name, text = saved(page, box.locator(".save-svg"))
+            assert name == f"bearing-{view}.svg"
+            drawn = ET.fromstring(text)
+            assert drawn.tag.endswith("svg")
+            assert len(drawn.findall(".//{*}path")) > 12, view
+            assert text.count(b"<script") == 0
+            if view in ("maps", "bearing-editor"):
+                assert len(saved(page, box.locator(".save-png"))[1]) > 10_000
+    show(page, "load")
     page.locator(".view-load-distribution .save-python").click()
     lines = page.locator(".view-load-distribution dialog pre")
     expect(lines).to_contain_text('presets["fan-rig"].replace(')

@@ -178,7 +178,7 @@ def drag(page: Page, slider: str, seconds: float) -> tuple[float, float]:
     """Drag to and fro; return frames a second and the tail after release [ms]."""
     thumb = page.evaluate_handle(f"(name) => ({_FIND})(name)", slider).as_element()
     assert thumb is not None
-    thumb.scroll_into_view_if_needed()
+    thumb.evaluate("slider => slider.scrollIntoView({block: 'center'})")  # from under what sticks
     box = thumb.bounding_box()
     assert box is not None
     y = box["y"] + box["height"] / 2
@@ -213,7 +213,8 @@ def late(times: list[float]) -> float:
 def measure(page: Page, case: Case, count: int, seconds: float) -> list[str]:
     """The lines of one case: the tab as a whole, then its views."""
     page.locator(f".tab-{case.tab}").click()
-    page.wait_for_timeout(1500)
+    page.wait_for_function(f"window.__tab == '{case.tab}'", timeout=120_000)
+    page.wait_for_timeout(1000)
     page.evaluate(_WATCH_PAINTS)
     stepper = Stepper(page, case.slider)
     for _ in range(3):

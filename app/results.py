@@ -181,7 +181,7 @@ def _planned(scene: Scene, how: MotionPlanning) -> Moved:
     motion that was marched while the hand moved: lines of a spectrum beat with each other, and
     seen at another beat the drawing would change though the motion is the same.
     """
-    plan = plans(scene, SETTLED, how)
+    plan = motion_plans(scene, SETTLED, how)
     record = 0.5 * how.duration
     drop = 0.0 if plan.orbit is not None else plan.drop
     a_pass = scene.bearing.ball_spacing / scene.cage_speed
@@ -258,7 +258,8 @@ excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
 late_spectra = ComputedOnce(_late_spectra, 64)
 orbits = ComputedOnce(_orbit, 256)
-plans = ComputedOnce(_plan, 128)
+plans = ComputedOnce(_plan, 256)
+motion_plans = ComputedOnce(_plan, 24)  # with their orbits, some MB where those are long
 
 
 class Results:
@@ -388,9 +389,12 @@ class Results:
 
     def plan_of(self, view: str) -> Plan:
         """The plan for a view; what is drawn beside it is planned too. ValueError without one."""
-        if view in CURVES and self.scene.defects:
-            plans(self.scene.sound(), view, self.settings.planning(view))
-        return plans(self.scene, view, self.settings.planning(view))
+        how = self.settings.planning(view)
+        if view not in CURVES:
+            return motion_plans(self.scene, view, how)
+        if self.scene.defects:
+            plans(self.scene.sound(), view, how)
+        return plans(self.scene, view, how)
 
     @cached_property
     def plan(self) -> Plan | None:

@@ -61,20 +61,23 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     # three channels: which are x and y must be said
     bring(page, "fan.wav", recording)
     expect(said).to_contain_text("fan.wav: 3 s along y at 48\u202f000 Hz", timeout=30000)
-    for direction, channel in (("x", "0"), ("y", "1")):
-        page.locator(f"#measurement-{direction}").select_option(channel)
-        settle(page)
+    page.locator("#measurement-x").select_option("0")
+    expect(said).to_contain_text("cannot be the same column")
+    page.locator("#measurement-y").select_option("1")
     expect(said).to_contain_text("along x and y")
     expect(page.locator(".view-measured-envelope")).to_contain_text(re.compile(r"is (\d×)?BPFO\."))
-    page.wait_for_function(
-        "Bokeh.documents[0].get_model_by_name('measured_spectrum_measured').data.dB.length > 50"
-    )
+    spectrum = page.locator(".view-measured-spectrum")
+    expect(spectrum.locator("input[type=radio][value=x]")).to_be_enabled(timeout=20000)
     measured = source(page, "measured_spectrum_measured")
     assert 0.0 < measured["frequency"][1] < 40.0
-    assert page.locator(".view-measured-spectrum canvas:visible").count() >= 1
+    assert len(measured["dB"]) > 50
+    assert spectrum.locator("canvas:visible").count() >= 1
     before = pixels(page, "measured-spectrum")
-    page.locator(".view-measured-spectrum label", has_text="linear").click()
-    page.wait_for_timeout(600)
+    spectrum.locator("label", has_text="linear").click()
+    page.wait_for_function(
+        "Bokeh.documents[0].get_model_by_name('measured_spectrum_drawing_linear').visible"
+    )
+    page.wait_for_timeout(400)
     assert pixels(page, "measured-spectrum") != before
 
     # a refusal beside its field leaves what is drawn

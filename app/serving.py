@@ -11,19 +11,22 @@ from __future__ import annotations
 import asyncio
 import html
 import json
+import logging
 import os
 import secrets
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
+from urllib.parse import unquote
 
 import panel as pn
 from bokeh.server.urls import per_app_patterns
 from bokeh.settings import settings
 from panel.io import server as panel_server
-from tornado.httputil import HTTPHeaders
+from tornado.httputil import HTTPHeaders, HTTPServerRequest
 from tornado.ioloop import PeriodicCallback
+from tornado.routing import Matcher, Rule
 from tornado.web import OutputTransform, RequestHandler
 
 from app import live
@@ -349,6 +352,14 @@ class Missing(RequestHandler):
         self.finish(message_page("There is no such page", "The explorer is one page up."))
 
 
+class _HasControls(Matcher):
+    """Signs in a path that no file's name has; some would end in an error of the system."""
+
+    def match(self, request: HTTPServerRequest) -> dict[str, Any] | None:
+        path = unquote(request.path or "")
+        return {} if any(ord(sign) < 32 or ord(sign) == 127 for sign in path) else None
+
+
 class Icon(RequestHandler):
     """The logo as the page's icon, also under a path in front of the page."""
 
@@ -438,6 +449,8 @@ def make_server(
     Headers.frame_ancestors = ("'self'", *frame_ancestors)
     per_app_patterns[:] = [(r"/ws", LiveSocket), (r"/?", PageHandler)]
     live.visit_quickly()
+    # it writes down what it does not understand, however long that is
+    logging.getLogger("bokeh.protocol").setLevel(logging.CRITICAL)
     settings.perform_document_validation = False  # the tests do it
     options: dict[str, Any] = {}
     if origins:
@@ -466,6 +479,7 @@ def make_server(
         **options,
     )
     server._tornado.add_transform(Headers)
+    server._tornado.default_router.rules.insert(0, Rule(_HasControls(), Missing))
     PeriodicCallback(_end_idle, min(5000.0, 250.0 * limits.idle)).start()
     return server
 

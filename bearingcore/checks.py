@@ -9,10 +9,13 @@ from typing import SupportsFloat
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+_short = reprlib.Repr()
+_short.maxstring = _short.maxother = _short.maxlong = 80  # it may be a stranger's whole file
+
 
 def refuse(field: str, value: object, allowed: str) -> ValueError:
     """The error to raise for `field`: its value and what is allowed stand in the message."""
-    shown = f"{value:g}" if isinstance(value, float) else repr(value)
+    shown = f"{value:g}" if isinstance(value, float) else _short.repr(value)
     return ValueError(f"{field} is {shown}; allowed: {allowed}")
 
 

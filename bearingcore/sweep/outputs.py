@@ -144,6 +144,13 @@ OUTPUTS: Mapping[str, Output] = _table()
 """Every output by name."""
 
 
+_SHOWN = 6
+_EXAMPLES = (
+    ", ".join([*dict.fromkeys(("k_yy_mean", *OUTPUTS))][:_SHOWN])
+    + f" and {len(OUTPUTS) - _SHOWN} more that bearingcore.sweep.OUTPUTS lists"
+)
+
+
 def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
     """Names of outputs, `*` and `?` standing for any letters, in the order of OUTPUTS.
 
@@ -157,10 +164,10 @@ def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
     for pattern in patterns:
         fitting = fnmatch.filter(OUTPUTS, pattern) if isinstance(pattern, str) else []
         if not fitting:
-            raise checks.refuse("name in outputs", pattern, ", ".join(OUTPUTS))
+            raise checks.refuse("name in outputs", pattern, _EXAMPLES)
         found.update(fitting)
     if not found:
-        raise checks.refuse("outputs", patterns, "at least one of " + ", ".join(OUTPUTS))
+        raise checks.refuse("outputs", patterns, "at least one of " + _EXAMPLES)
     return tuple(name for name in OUTPUTS if name in found)
 
 

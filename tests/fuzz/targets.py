@@ -1,0 +1,247 @@
+"""What strangers' inputs meet, and what may come out: a result, or a sentence as a ValueError."""
+
+from __future__ import annotations
+
+import io
+import random
+import time
+import wave
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import scipy.io
+
+from app.address import opened, place_of, write
+from app.explorer import _BROKEN, Explorer, _picture
+from app.measurement_form import guess, understood
+from app.page import SECTIONS
+from app.quantity_list import QUANTITY_LIST
+from app.scene_editor import SceneEditor
+from bearingcore import Scene, presets, read_floor
+from bearingcore.recording import read_table
+from bearingcore.sweep.file import grid_from_toml
+from tests.fuzz.inputs import bytes_like, plain_value, text_like
+
+LONGEST_SENTENCE = 700  # characters
+LONGEST = 3.0  # [s] that one input may take
+
+
+@dataclass
+class Target:
+    """`make` an input from random numbers, and `meet` it; only a ValueError may be raised."""
+
+    name: str
+    make: Callable[[random.Random], Any]
+    meet: Callable[[Any], object]
+    refused: int = 0
+    taken: int = 0
+    slowest: float = 0.0
+    found: list[str] = field(default_factory=list)
+
+    def run(self, number: int) -> None:
+        """Meet the input with this number."""
+        given = self.make(random.Random(f"{self.name} {number}"))
+        began = time.perf_counter()
+        try:
+            self.meet(given)
+            self.taken += 1
+        except ValueError as error:
+            self.refused += 1
+            if (wrong := unclear(str(error))) is not None:
+                self._note(number, given, f"{wrong}: {str(error)[:200]!r}")
+        except Exception as error:
+            self._note(number, given, f"{type(error).__name__}: {str(error)[:200]}")
+        took = time.perf_counter() - began
+        self.slowest = max(self.slowest, took)
+        if took > LONGEST:
+            self._note(number, given, f"took {took:.1f} s")
+
+    def _note(self, number: int, given: Any, what: str) -> None:
+        if len(self.found) < 20:
+            self.found.append(f"{self.name} {number}: {what}\n    {repr(given)[:300]}")
+
+
+def unclear(sentence: str) -> str | None:
+    """What keeps a sentence from being shown to people; None where nothing does."""
+    if not sentence.strip():
+        return "no words"
+    if len(sentence) > LONGEST_SENTENCE:
+        return "too many words"
+    if "Traceback" in sentence or " object at 0x" in sentence or "/site-packages/" in sentence:
+        return "words for programmers"
+    return None
+
+
+def _texts() -> list[str]:
+    return [scene.to_toml() for scene in list(presets.values())[:6]]
+
+
+def _sweeps() -> list[str]:
+    over = (
+        '[sweep]\noutputs = ["k_*_mean", "band_*"]\n\n[sweep.over]\n'
+        "extent = {start = 0.0, stop = 1.5, num = 91}\nfy = [-50.0, -100.0, -200.0]\n"
+    )
+    return [text + "\n" + over for text in _texts()[:3]]
+
+
+def _floors() -> list[str]:
+    rows = [(k * 0.5, 20 + 5 * (k % 7)) for k in range(40)]
+    return [
+        "\n".join(f"{angle} {depth}" for angle, depth in rows),
+        "# angle;depth\n" + "\n".join(f"{angle};{depth:.1f}" for angle, depth in rows),
+        "angle,depth\n" + "\n".join(f"{angle},{depth}" for angle, depth in rows),
+    ]
+
+
+def _signal(n: int = 600) -> np.ndarray:
+    return np.random.default_rng(1).normal(size=n)
+
+
+def _csv() -> list[str]:
+    times, signal = np.arange(600) / 8192.0, _signal()
+    plain = "\n".join(f"{value:.5f}" for value in signal)
+    pairs = "\n".join(f"{t:.7f},{v:.5f}" for t, v in zip(times, signal, strict=True))
+    german = "\n".join(
+        f"{t:.7f};{v:.5f}".replace(".", ",") for t, v in zip(times, signal, strict=True)
+    )
+    return [plain, "time [s],acc x [g]\n" + pairs, "Zeit;ax\n" + german]
+
+
+def _wav() -> list[bytes]:
+    made = []
+    for width, channels in ((1, 1), (2, 1), (2, 2), (3, 1), (4, 2)):
+        file = io.BytesIO()
+        with wave.open(file, "wb") as writer:
+            writer.setnchannels(channels)
+            writer.setsampwidth(width)
+            writer.setframerate(25600)
+            writer.writeframes(np.random.default_rng(2).bytes(width * channels * 400))
+        made.append(file.getvalue())
+    return made
+
+
+def _mat() -> list[bytes]:
+    made = []
+    for version, compressed in (("4", False), ("5", False), ("5", True)):
+        file = io.BytesIO()
+        data = {"DE_time": _signal(400)[:, None], "RPM": np.array([[1797.0]]), "name": "text"}
+        if version == "4":
+            del data["name"]
+        scipy.io.savemat(file, data, format=version, do_compression=compressed)
+        made.append(file.getvalue())
+    return made
+
+
+def _table(content: bytes) -> object:
+    table = read_table("a file", content)
+    form = guess(table, 30.0)
+    return understood(table, {**form, "sample_rate": form["sample_rate"] or "12000"})
+
+
+def _addresses() -> list[str]:
+    editor = SceneEditor("fan-rig")
+    texts = [write(place_of(editor))]
+    for change in ({"extent_deg": 33.0}, {"fy_n": -70.0}, {"n_balls": 9}):
+        editor.set(change)
+        texts.append(write(place_of(editor, "stiffness")))
+    editor.choose({"defect": "add", "floor": "rough"})
+    return [*texts, write(place_of(editor, "maps"))]
+
+
+def _open_address(text: str) -> None:
+    editor = SceneEditor("fan-rig")
+    note = opened(text, editor).note
+    if note and (wrong := unclear(note)) is not None:
+        raise AssertionError(f"{wrong}: {note[:200]!r}")
+    if not isinstance(editor.scene, Scene):
+        raise AssertionError("there is no scene")
+
+
+_NAMES = [quantity.name for quantity in QUANTITY_LIST]
+_CHOICES = {
+    "preset": list(presets),
+    "race": ["outer", "inner"],
+    "edge": ["published", "chord", "exact"],
+    "floor": ["flat", "rough", "measured"],
+    "law": ["published", "hertz"],
+    "numbers": ["direct", "drawing"],
+    "defect": ["add", "remove", "0", "1", "99999999999", "٣"],
+    "dofs": ["auto", "x y", "x y z rx ry", ""],
+}
+_HANDLERS = ("_asked", "_tab_asked", "_share_asked", "_plan_asked", "_lesson_asked")
+
+
+class Session:
+    """A session whose pictures are not drawn, as that is not what is tried here."""
+
+    def __init__(self) -> None:
+        self._met = 0
+        self._new()
+
+    def _new(self) -> None:
+        self.explorer = Explorer(SECTIONS)
+        self.explorer._worker.stop()
+        self.explorer._rest.begin = lambda *_: None  # type: ignore[method-assign]
+
+    def make(self, random_: random.Random) -> tuple[str, Any]:
+        """A handler and a message for it."""
+        handler = random_.choice(_HANDLERS)
+        if random_.random() < 0.1:
+            return handler, plain_value(random_)
+        message: dict[str, Any] = {"mark": random_.choice((1, 5, plain_value(random_)))}
+        names = random_.sample(_NAMES, random_.choice((1, 1, 2, 5)))
+        values = {
+            name: random_.uniform(-400, 400) if random_.random() < 0.5 else plain_value(random_)
+            for name in names
+        }
+        choice = random_.choice(list(_CHOICES))
+        chosen = random_.choice(_CHOICES[choice])
+        parts = (
+            ("set", values),
+            ("typed", {name: str(value) for name, value in values.items()}),
+            ("choose", {choice: chosen if random_.random() < 0.8 else plain_value(random_)}),
+            ("reset", True),
+            ("show", random_.choice(("load", "stiffness", plain_value(random_)))),
+            (random_.choice(("lesson", "pin", "undo", "redo", "go", "name")), plain_value(random_)),
+            (random_.choice(("steady", "own", "step_rate", "open", "toml")), plain_value(random_)),
+        )
+        return handler, message | {k: v for k, v in parts if random_.random() < 0.3}
+
+    def meet(self, given: tuple[str, Any]) -> None:
+        """Hand the message on; the session must have a scene that can be asked for afterwards."""
+        handler, message = given
+        getattr(self.explorer, handler)(message)
+        explorer = self.explorer
+        scene = explorer.inputs.scene
+        assert isinstance(scene, Scene)
+        self._met += 1
+        if self._met % 1000 == 0:
+            views = [view(explorer.wire.__class__()) for view in SECTIONS[0].views]
+            picture = _picture(explorer.inputs.results, views, 0.0)
+            assert all(drawing.sentence != _BROKEN for drawing in picture.drawings)
+        if self._met % 5000 == 0:
+            explorer.stop()
+            self._new()
+
+
+def targets() -> list[Target]:
+    """All of them."""
+    scenes, sweeps, floors = _texts(), _sweeps(), _floors()
+    tables, waves, matrices, addresses = _csv(), _wav(), _mat(), _addresses()
+    session = Session()
+
+    def csv_file(random_: random.Random) -> bytes:
+        return text_like(random_, tables).encode("utf-8", "surrogatepass")
+
+    return [
+        Target("scene", lambda r: text_like(r, scenes), Scene.from_toml),
+        Target("sweep", lambda r: text_like(r, sweeps), grid_from_toml),
+        Target("floor", lambda r: text_like(r, floors), read_floor),
+        Target("csv", csv_file, _table),
+        Target("wav", lambda r: bytes_like(r, waves), _table),
+        Target("matlab", lambda r: bytes_like(r, matrices), _table),
+        Target("address", lambda r: text_like(r, addresses), _open_address),
+        Target("messages", session.make, session.meet),
+    ]

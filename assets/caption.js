@@ -1,4 +1,34 @@
-// Head of a view: title, what it shows, and the figure as files: pictures, numbers, Python.
+// Head of a view: title, what it shows, and the figure as files: pictures, numbers, Python; the
+// numbers as a table to read, too.
+
+const MOST_ROWS = 300  // of a table on the page; the file has all
+const UNITS = [
+  [/_n_m_per_rad$/, "N·m/rad"], [/_n_per_rad$/, "N/rad"], [/_n_per_m$/, "N/m"],
+  [/_m_per_s2$/, "m/s²"], [/_deg$/, "°"], [/_um$/, "µm"], [/_mm$/, "mm"], [/_hz$/, "Hz"],
+  [/_ms$/, "ms"], [/_db$/, "dB"], [/_n$/, "N"], [/_s$/, "s"], [/_m$/, "m"],
+]
+
+// "ball_load_n" is "ball load (N)"
+function column_words(name) {
+  const [ending, unit] = UNITS.find(([ending]) => ending.test(name)) ?? [null, ""]
+  const words = (ending ? name.replace(ending, "") : name).replaceAll("_", " ")
+  return unit ? `${words} (${unit})` : words
+}
+
+// Numbers to six digits, with a true minus sign; what is no number stays as it is.
+function cell_words(text) {
+  if (text.trim() === "" || !isFinite(Number(text))) return text === "nan" ? "no value" : text
+  const [mantissa, exponent] = String(Number(Number(text).toPrecision(6))).split("e")
+  const raised = exponent && [...exponent.replace("+", "")].map((digit) =>
+    digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("")
+  return mantissa.replace("-", "−") + (raised ? `·10${raised}` : "")
+}
+
+// Rows of comma-separated text; cells in quotes may hold commas and quotes.
+const csv_rows = (text) => text.trimEnd().split("\n").map((line) =>
+  [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)]
+    .map(([, quoted, plain]) => quoted?.replaceAll('""', '"') ?? plain))
+
 export function render({ model }) {
   const make = (tag, attributes = {}, ...children) => {
     const made = document.createElement(tag)
@@ -27,7 +57,13 @@ export function render({ model }) {
   const offer = () => { for (const one of pictures) one.hidden = !(model.figures.length || model.picture) }
   model.on("figures", offer)
   offer()
-  const numbers = button("CSV", `save the numbers (${file("csv")})`, () => model.send_msg("csv"))
+  let wanted = "file"
+  const ask = (what) => {
+    wanted = what
+    model.send_msg("csv")
+  }
+  const numbers = button("CSV", `save the numbers (${file("csv")})`, () => ask("file"))
+  const table = button("Table", "show the numbers", () => ask("table"))
   const python = button("Python", "show the lines of Python that make it", () => model.send_msg("python"))
 
   // The lines, to be copied or saved
@@ -49,8 +85,34 @@ export function render({ model }) {
   close.addEventListener("click", () => dialog.close())
   dialog.addEventListener("click", (event) => { if (event.target === dialog) dialog.close() })
 
+  // The numbers, to be read
+  const rows = make("div", { class: "rows", tabindex: "0", role: "region",
+                             "aria-label": `Numbers of “${model.title}”` })
+  const how_many = make("span", { "aria-live": "polite" })
+  const close_table = make("button", { type: "button", class: "close", "aria-label": "Close" }, "\u00d7")
+  const table_dialog = make("dialog", { "aria-label": `Numbers of “${model.title}”` },
+    make("div", { class: "bar" }, make("strong", {}, model.title), how_many, close_table), rows)
+  close_table.addEventListener("click", () => table_dialog.close())
+  table_dialog.addEventListener("click", (event) => {
+    if (event.target === table_dialog) table_dialog.close()
+  })
+  const show_table = (text) => {
+    const [names, ...lines] = csv_rows(text)
+    const line = (cells, tag, scope) => make("tr", {}, ...cells.map((cell) => make(tag, scope, cell)))
+    const shown = lines.slice(0, MOST_ROWS)
+    how_many.textContent = !text ? "Nothing is drawn yet."
+      : lines.length > MOST_ROWS ? `Rows 1 to ${MOST_ROWS} of ${lines.length}; the CSV file has all.`
+      : `${lines.length} ${lines.length === 1 ? "row" : "rows"}`
+    rows.replaceChildren(...(text ? [make("table", {},
+      make("thead", {}, line(names.map(column_words), "th", { scope: "col" })),
+      make("tbody", {}, ...shown.map((cells) => line(cells.map(cell_words), "td"))))] : []))
+    table_dialog.showModal()
+    rows.focus()
+  }
+
   model.on("msg:custom", (message) => {
-    if (message.csv !== undefined) save_file(file("csv"), message.csv, "text/csv")
+    if (message.csv !== undefined && wanted === "table") show_table(message.csv)
+    else if (message.csv !== undefined) save_file(file("csv"), message.csv, "text/csv")
     if (message.python !== undefined) {
       code.textContent = message.python || "Nothing is drawn yet."
       said.textContent = ""
@@ -59,7 +121,7 @@ export function render({ model }) {
     }
   })
   const files = make("div", { class: "files", role: "group", "aria-label": `“${model.title}” as files` },
-    ...pictures, numbers, python)
+    ...pictures, numbers, table, python)
   const grey = make("p", { class: "grey" })
   const tell = () => {
     grey.hidden = !model.pinned
@@ -69,5 +131,5 @@ export function render({ model }) {
   tell()
   const words = make("div", { class: "words" }, make("h2", {}, model.title),
     make("p", {}, model.about), grey)
-  return make("header", {}, words, files, dialog)
+  return make("header", {}, words, files, dialog, table_dialog)
 }

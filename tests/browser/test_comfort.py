@@ -285,6 +285,28 @@ def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) ->
     assert missing == []
 
 
+def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_page(page, explorer)
+    settle(page)
+    view = page.locator(".view-bearing")
+    view.get_by_role("button", name="show the numbers").click()
+    dialog = view.get_by_role("dialog", name="Numbers of “The bearing”")
+    expect(dialog).to_be_visible()
+    expect(dialog.locator("thead th")).to_have_text(
+        ["ball", "ball angle (°)", "ball load (N)", "contact angle (°)",
+         "drop into outer race (µm)", "drop into inner race (µm)"]
+    )  # fmt: skip
+    expect(dialog.locator("tbody tr")).to_have_count(14)
+    expect(dialog.locator("tbody tr").nth(10).locator("td").nth(2)).to_have_text("36.4914")
+    expect(dialog.get_by_role("status")).to_have_text("14 rows")
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+    long = page.locator(".view-load-distribution")
+    long.get_by_role("button", name="show the numbers").click()
+    expect(long.get_by_role("dialog").get_by_role("status")).to_contain_text("Rows 1 to 300 of")
+
+
 # --- light and dark -------------------------------------------------------------------------------
 
 

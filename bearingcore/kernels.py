@@ -78,8 +78,9 @@ NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
 # far from q = 0, none smaller can be had.
 ROUNDING = 4e-16
 
-# A ball that carries less than this many residuals may as well carry nothing.
-FAINT = 10.0
+# A ball that carries less than this many residuals may as well carry nothing; where even the
+# greatest stiffness is below this part of that of one ball under all of the load, rounding made it.
+FAINT, FAINT_STIFFNESS = 10.0, 1e-12
 
 # Where the centres of a loaded ball have passed each other nothing holds it along its line; nearer
 # than this part of A0 to passing, rounding decides whether they have.
@@ -516,7 +517,7 @@ def descend(q, F, c, s, d, active, ca, sa, A0, rL, K, G, H, L, p, trial, most):
                     least = least_pivot(H[now], active)
                 status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
                 return now, status, residual, iteration, evaluations
-            if not least > LEAST_PIVOT:
+            if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
                 # too few balls touch: a small spring to ground stands in for the missing stiffness
                 newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
                 shift_part = max(0.1 * shift_part, 1e-10)

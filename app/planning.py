@@ -110,6 +110,10 @@ CHOICES: dict[str, tuple[str, dict[str, str]]] = {
         {"": "automatic", **{str(n): f"{n} equally spaced" for n in (31, 61, 121, 361, 721)}},
     ),
     "vibration_budget": ("Error of spectra", _VIBRATION_BUDGETS),
+    "step_rate": (
+        "Steps of motions",
+        {"": "automatic", **{str(2**k): f"{2**k / 1e3:.3g} kHz" for k in range(14, 19)}},
+    ),
     "steady": (
         "Settled vibration",
         {"auto": "automatic", "orbit": "periodic orbit", "march": "marched motion"},
@@ -121,6 +125,7 @@ _USUAL = {
     "curve_budget": f"{BUDGETS[CURVES[0]]:g}",
     "cage_angles": "",
     "vibration_budget": f"{BUDGETS[SETTLED]:g}",
+    "step_rate": "",
     "steady": "auto",
 }
 
@@ -132,6 +137,7 @@ def chosen(settings: Settings) -> dict[str, str]:
         "curve_budget": _USUAL["curve_budget"] if curve is None else f"{curve:g}",
         "cage_angles": "" if settings.cage_angles is None else str(settings.cage_angles),
         "vibration_budget": _USUAL["vibration_budget"] if vibration is None else f"{vibration:g}",
+        "step_rate": "" if settings.step_rate is None else f"{settings.step_rate:.0f}",
         "steady": settings.steady,
     }
 

@@ -58,8 +58,12 @@ export function render({ model }) {
       ? made.map(([title, sentence]) => make("p", {}, make("strong", {}, title), ` ${sentence}.`))
       : [make("p", {}, compiling ? "" : "Nothing here has a plan: what is on screen is drawn as usual.")])
     plans.dataset.stale = String(!resting)
-    for (const [name, value] of Object.entries(chosen))
+    for (const [name, value] of Object.entries(chosen)) {
+      const options = [...selects[name].options]
+      if (!options.some((option) => option.value === value))  // set elsewhere
+        selects[name].add(new Option(`${value} Hz`, value))
       if (selects[name].value !== value) selects[name].value = value
+    }
   }
   model.on("state", write)
   open(false)

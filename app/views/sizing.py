@@ -328,7 +328,7 @@ def compute(job: Work, measured: Measured, scene: Scene) -> str:
     except Given:
         return "There is no answer yet."
     except ValueError as error:
-        raise ValueError(refusal(error)) from error
+        raise ValueError(refusal(error).replace("_", " ")) from error
     for candidate in sizing.candidates:
         _ = candidate.bands  # here, and not while somebody waits for a drawing
     job.show(Sized(measured, scene, sizing))

@@ -291,6 +291,14 @@ def test_averages_find_the_frequency_and_lose_the_noise():
     assert found.prominence > 10.0
 
 
+@pytest.mark.parametrize("rate", [16_016.0, 16_000.0 / 1.001, 12_345.678, 20_480.0])
+def test_any_rate_allows_what_it_allows(rate):
+    """0.4 of a rate times 2.5 is more than the rate for some, by rounding."""
+    signal = np.random.default_rng(1).standard_normal((round(rate), 1))
+    found = average_passes(signal, rate, 40.0, 0.01, 100.0, 1000.0, 0.4 * rate)
+    assert len(found.harmonics) == math.floor(0.4 * rate / found.frequency)
+
+
 def test_a_synthesised_pass_matches_itself_turned():
     scene = RIG
     band = comparison_band(scene, RATE)

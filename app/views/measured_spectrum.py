@@ -29,8 +29,9 @@ class MeasuredSpectrum(FrequencyView):
     prefix = "measured_spectrum"
     title = "2  Its spectrum"
     about = (
-        "Dark: measured. Colour: simulated, for the scene beside. Shaded: the bands of its natural "
-        "frequencies. Where measured resonances lie in the bands, the scene is like the machine."
+        "Thin: measured. Coloured: simulated, for the scene beside. Shaded: the bands of its "
+        "natural frequencies. Where measured resonances lie in the bands, the scene is like the "
+        "machine."
     )
     first_look = Look()
     fields: ClassVar[list[dict[str, Any]]] = [

@@ -533,8 +533,9 @@ def _picture(
 
     The limits of the model wait until no newer inputs do: `at_rest`.
     """
-    drawings = [_drawing(results, view) for view in views]
     shown = frozenset[str]().union(*(view.needs for view in views))
+    results.begin(shown)
+    drawings = [_drawing(results, view) for view in views]
     status = status_of(results, time.perf_counter() - started, shown)
     return Picture(drawings, status, rows_of(results.limits) if at_rest else None)
 

@@ -14,7 +14,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from app.settings import STEADY, MotionPlanning, Settings
+from app.settings import MotionPlanning, Settings
 from bearingcore import Scene, orbit
 from bearingcore.modes import highest_natural_frequency
 from bearingcore.plan import (
@@ -143,7 +143,7 @@ def chosen(settings: Settings) -> dict[str, str]:
 
 
 def with_choices(settings: Settings, message: Mapping[Any, Any]) -> Settings:
-    """Settings with choices of the browser, which is not to be trusted; {} of `own` resets all."""
+    """Settings with choices of the browser, which is not to be trusted; `own` gives all back."""
     if message.get("own") is True:
         return dataclasses.replace(
             settings,
@@ -161,7 +161,7 @@ def with_choices(settings: Settings, message: Mapping[Any, Any]) -> Settings:
         if value == _USUAL[name]:
             fields[name] = "auto" if name == "steady" else None
         elif name == "steady":
-            fields[name] = STEADY[STEADY.index(value)]
+            fields[name] = value
         else:
             fields[name] = int(value) if name == "cage_angles" else float(value)
     return dataclasses.replace(settings, **fields)

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from concurrent.futures import Future
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cached_property
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
@@ -260,6 +261,10 @@ late_spectra = ComputedOnce(_late_spectra, 64)
 orbits = ComputedOnce(_orbit, 256)
 plans = ComputedOnce(_plan, 256)
 motion_plans = ComputedOnce(_plan, 24)  # with their orbits, some MB where those are long
+
+
+#: what goes on beside a drawing; kernels release the interpreter lock
+_BESIDE = ThreadPoolExecutor(max(1, (os.cpu_count() or 2) // 2), "beside")
 
 
 class Results:
@@ -522,6 +527,13 @@ class Results:
     def coarse_comparison(self) -> bool:
         """The same of `dof_comparison`, whose motions are marched alike."""
         return self.coarse or self._is_coarse(self.scene.replace(dofs=other_dofs(self.scene)))
+
+    def begin(self, needed: frozenset[str]) -> None:
+        """Begin what of these attributes can be computed beside the others, in another thread."""
+        if {"late_spectra", "sound_late_spectra"} <= needed:
+            asked = self.beside, self._marching
+            if not late_spectra.knows(*asked):
+                _BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""

@@ -9,7 +9,7 @@ import pytest
 
 from app.reference import Reference
 from app.results import MOST_STEPS, SHORTEST, ComputedOnce, Results, Settings
-from bearingcore import equilibrium, presets
+from bearingcore import Scene, equilibrium, presets
 
 
 def test_threads_that_ask_together_share_one_computation() -> None:
@@ -102,3 +102,25 @@ def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> Non
         with pytest.raises(ValueError, match=r"pinned “mine” cannot be shown.*stiffness_z"):
             getattr(results, name)
     assert np.isfinite(results.modes.frequency).all()
+
+
+def test_the_sound_spectrum_is_begun_beside_the_other_and_computed_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scenes: list[tuple[str, bool]] = []
+
+    def slow(scene: Scene, how: object) -> dict:
+        scenes.append((threading.current_thread().name, bool(scene.defects)))
+        time.sleep(0.05)
+        return {}
+
+    monkeypatch.setattr("app.results.late_spectra", ComputedOnce(slow, 8))
+    results = Results(presets["fan-rig"])
+    results.begin(frozenset({"late_spectra", "modes"}))
+    assert scenes == []
+    results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
+    assert results.late_spectra == results.sound_late_spectra == {}
+    assert sorted(defects for _, defects in scenes) == [False, True]
+    results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
+    assert len(scenes) == 2
+    assert any(name.startswith("beside") and not defects for name, defects in scenes)

@@ -233,5 +233,6 @@ def _unit(unit: str) -> str:
 
 def _round_up(value: float) -> float:
     """The next number of 1, 2, 5, 10, 20, 50, ... that is not below `value`."""
+    value = max(value, 1e-300)  # below, powers of ten are no numbers any more
     power = 10.0 ** math.floor(math.log10(value))
     return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)

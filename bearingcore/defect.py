@@ -338,9 +338,12 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray
     whole = defect.extent >= TWO_PI
     # the corners belong to the sound race; a whole race closes on itself
     surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
-    reach = np.arange(math.ceil(0.5 * math.pi / step)) * step
+    # no farther than the floor is long: a tiny defect would ask for steps without end
+    with np.errstate(over="ignore", divide="ignore"):
+        steps = math.ceil(min(0.5 * math.pi / step, angle.size))
+    reach = np.arange(steps) * step
     circle = edge_drop(reach, defect, bearing, float(np.ptp(surface)))
-    circle = circle[np.isfinite(circle)][: angle.size]
+    circle = circle[np.isfinite(circle)]
     if not whole:
         return defect.center, half, kernels.roll_over(surface, circle)
     past = circle.size - 1

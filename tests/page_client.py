@@ -37,6 +37,7 @@ class PageClient:
         self.words: dict[str, Any] = {}  # newest value of sentences and the status line, by id
         self.bytes_received = 0
         self.ids: dict[str, str] = {}
+        self.components: dict[str, dict[str, Any]] = {}  # what they were made with
         self._known_sources: dict[int, tuple[str, list[str]]] = {}
         self._known_ranges: dict[int, str] = {}
         self._names: dict[str, str] = {}
@@ -127,6 +128,12 @@ class PageClient:
         self.mark += 1
         await self.say(component, {"mark": self.mark, **message})
         return self.mark
+
+    async def show(self, tab: str, component: str = "") -> None:
+        """Open a tab, and wait for a component of it."""
+        await self.say("Tabs", {"show": tab})
+        while component and component not in self.ids and not self.closed:
+            await self.news(10.0)
 
     async def until_drawn(self, mark: int | None = None, seconds: float = 20.0) -> bool:
         """Wait until `mark` is drawn, the newest by default; whether it was."""
@@ -219,16 +226,18 @@ class PageClient:
             if made["name"] == "CustomJS" and "__mark" in attributes.get("code", ""):
                 self.ids["unpack"] = made["id"]
                 self._learn_wire(_plain(attributes["args"]))
-            shown = attributes.get("data")
-            if isinstance(shown, dict) and shown.get("type") == "object":
-                self.ids[shown["name"].rstrip("0123456789")] = made["id"]
 
     def _look(self, value: Any) -> None:
-        """Names of the sources and the ranges, which the callback of the wire lists by id."""
+        """Names of sources, which the callback of the wire lists by id; and components."""
         for made in _models(value):
-            name = made.get("attributes", {}).get("name")
-            if name:
-                self._names[made["id"]] = name
+            attributes = made.get("attributes", {})
+            if attributes.get("name"):
+                self._names[made["id"]] = attributes["name"]
+            shown = attributes.get("data")
+            if isinstance(shown, dict) and shown.get("type") == "object":
+                name = shown["name"].rstrip("0123456789")
+                self.ids[name] = made["id"]
+                self.components[name] = _plain_map(shown.get("attributes", {}))
 
     def _learn_wire(self, args: dict[str, Any]) -> None:
         columns = args["columns"]
@@ -255,6 +264,10 @@ def _plain(value: Any) -> Any:
     if isinstance(value, list):
         return [_plain(item) for item in value]
     return value
+
+
+def _plain_map(attributes: dict[str, Any]) -> dict[str, Any]:
+    return {name: _plain(value) for name, value in attributes.items()}
 
 
 def _models(value: Any) -> list[dict[str, Any]]:

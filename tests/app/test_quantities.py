@@ -5,6 +5,7 @@ import math
 import pytest
 
 from app.quantities import QUANTITIES, limits_of, read, scene_with, values_of
+from app.scene_editor import SceneEditor
 from bearingcore import presets
 
 
@@ -72,3 +73,10 @@ def test_units_stand_where_they_belong() -> None:
     assert scene.defect.depth == pytest.approx(80e-6)
     assert scene.load.mx == 2.0
     assert scene.defect.edge == "exact"
+
+
+@pytest.mark.parametrize("value", [5e-324, -5e-324, 1e-310, 1e308])
+def test_limits_hold_numbers_that_computers_hardly_hold(value: float) -> None:
+    editor = SceneEditor("fan-rig")
+    editor.set({"shaft_speed_hz": value, "poisson": value})
+    assert all(limits.least < limits.most for limits in editor.limits.values())

@@ -293,6 +293,29 @@ def test_a_flood_waits_and_others_do_not() -> None:
     served(flood)
 
 
+def test_long_work_of_some_does_not_keep_others_from_dragging() -> None:
+    async def work(url: str, server: Any) -> None:
+        busy, slow, quick = PageClient(url), PageClient(url), PageClient(url)
+        for client in (busy, slow, quick):
+            await client.open_page()
+            await client.connect()
+            assert await client.until_drawn()
+        await busy.show("speed-run", "JobPanel")
+        await busy.say("JobPanel", {"start": busy.components["JobPanel"]["values"]})
+        await slow.show("vibration")
+        loop = asyncio.get_running_loop()
+        times = []
+        for k in range(20):
+            await slow.ask(set={"extent_deg": 10.0 + k})
+            began = loop.time()
+            await quick.ask(set={"extent_deg": 20.0 + k})
+            assert await quick.until_drawn()
+            times.append(loop.time() - began)
+        assert sorted(times)[10] < 0.3, times
+
+    served(work)
+
+
 def test_lines_of_the_log_name_session_scene_view_and_time(
     caplog: pytest.LogCaptureFixture,
 ) -> None:

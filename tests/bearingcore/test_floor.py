@@ -183,3 +183,11 @@ def test_several_defects_load_the_ring_at_once() -> None:
     assert 0 < free.sum() < free.size
     np.testing.assert_allclose(state.ball_load[free], sound.ball_load[free], rtol=1e-9, atol=1e-9)
     assert np.all(np.abs(state.ball_load[~free] - sound.ball_load[~free]).max(axis=1) > 1e-3)
+
+
+@pytest.mark.parametrize("extent", [1e-6, 1e-9, 1e-320])
+def test_a_defect_may_be_tiny_and_rough(extent: float) -> None:
+    """The circle of the ball is rolled no farther than the floor is long, or memory would end."""
+    scene = presets["fan-rig"].replace(extent=extent, floor=RoughFloor(2e-6, 200e-6))
+    sound = equilibrium(scene.sound()).ball_load
+    np.testing.assert_allclose(equilibrium(scene).ball_load, sound, rtol=1e-3, atol=1e-3)

@@ -52,6 +52,7 @@ class Notes:
     drags: int = 0
     lost: int = 0
     leaks: int = 0
+    jobs: int = 0
     compared: list[tuple[dict[str, float], dict[str, dict[str, np.ndarray]]]] = field(
         default_factory=list
     )
@@ -106,6 +107,16 @@ class Person:
             if not await self._client.until_drawn(seconds=LOST):
                 self.notes.lost += 1
             await asyncio.sleep(REST)
+
+    async def compute(self, seconds: float) -> None:
+        """Have the background compute one thing after the other, for as long as told."""
+        await self._client.show("speed-run", "JobPanel")
+        values = self._client.components["JobPanel"]["values"]
+        end = time.perf_counter() + seconds
+        while (left := end - time.perf_counter()) > 0.0:
+            await self._client.say("JobPanel", {"start": values})
+            self.notes.jobs += 1
+            await asyncio.sleep(min(10.0, left))
 
     async def leave(self) -> None:
         """Close the tab."""
@@ -283,7 +294,7 @@ def family(pid: int) -> list[int]:
 
 
 async def _crowd(
-    people: list[Person], seconds: float, go: Any, server: list[int]
+    people: list[Person], seconds: float, go: Any, server: list[int], jobs: int
 ) -> dict[str, float]:
     await asyncio.gather(*(person.come() for person in people))
     together = memory(server)
@@ -293,7 +304,10 @@ async def _crowd(
         await asyncio.to_thread(go.wait)
     began, used, mine = time.perf_counter(), cpu_seconds(server), time.process_time()
     busy = busy_seconds()
-    await asyncio.gather(*(person.drag(seconds) for person in people))
+    await asyncio.gather(
+        *(person.compute(seconds) for person in people[:jobs]),
+        *(person.drag(seconds) for person in people[jobs:]),
+    )
     took = time.perf_counter() - began
     return {
         "memory": together,
@@ -311,6 +325,7 @@ def main() -> int:
     parser.add_argument("--sessions", type=int, default=30)
     parser.add_argument("--browsers", type=int, default=2, help="of them real")
     parser.add_argument("--seconds", type=float, default=120.0)
+    parser.add_argument("--jobs", type=int, default=0, help="of them compute speed runs instead")
     parser.add_argument("--num-procs", type=int, default=1)
     parser.add_argument("--leave", type=float, default=45.0, help="wait after they left [s]")
     chosen = parser.parse_args()
@@ -329,7 +344,7 @@ def main() -> int:
         people = [Person(server.url, n) for n in range(chosen.sessions - chosen.browsers)]
 
         async def class_of() -> dict[str, float]:
-            return await _crowd(people, chosen.seconds, go, pids)
+            return await _crowd(people, chosen.seconds, go, pids, chosen.jobs)
 
         async def all_leave() -> None:
             await asyncio.gather(*(person.leave() for person in people))
@@ -375,6 +390,8 @@ def _print(
         f"first picture after {firsts[len(firsts) // 2]:.1f} s (median), {firsts[-1]:.1f} s (last)"
     )
     print(f"drags {sum(one.drags for one in everyone)}, lost {sum(one.lost for one in everyone)}")
+    if chosen.jobs:
+        print(f"{chosen.jobs} sessions asked for {sum(one.jobs for one in clients)} speed runs")
     checked = sum(len(one.compared) for one in clients)
     leaks = sum(one.leaks for one in clients)
     print(f"leaks {leaks}; {checked} pictures computed anew, {wrong} differ")

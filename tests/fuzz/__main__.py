@@ -8,6 +8,7 @@ import sys
 import time
 import warnings
 
+import bearingcore
 from tests.fuzz.server import attack
 from tests.fuzz.targets import Target, targets
 
@@ -31,6 +32,7 @@ def main() -> int:
     parser.add_argument("--only", nargs="*", help="names of parsers; `server` is one of them")
     chosen = parser.parse_args()
     warnings.simplefilter("ignore")
+    bearingcore.warm(report=lambda _: None)  # or the first picture waits for the compiler
     found: list[str] = []
     print(f"{'':<10}{'inputs':>9}{'taken':>9}{'refused':>9}{'slowest':>11}{'found':>7}{'':>8}")
     for target in targets():

@@ -137,10 +137,12 @@ _STEP = (
 
 #: from the event of the last step to the last repaint by plan; null where there is none
 _PLANNED = """() => new Promise((resolve) => {
+  let since = null  // when it was first seen to rest: its paints follow
   const look = () => {
     const last = window.__paints.at(-1)
-    const quiet = last && performance.now() - last[1] > 200
-    if (window.__resting && quiet) resolve(last[1] - window.__began)
+    since = window.__resting ? (since ?? performance.now()) : null
+    const quiet = last && performance.now() - Math.max(last[1], since ?? 0) > 200
+    if (since !== null && quiet) resolve(last[1] - window.__began)
     else if (performance.now() - window.__began > 12000) resolve(null)
     else setTimeout(look, 20)
   }
@@ -266,14 +268,15 @@ def main() -> int:
             page = context.new_page()
             page.goto(server.url)
             page.wait_for_function("window.__frames >= 1", timeout=60000)
-            page.locator("#choice-preset").select_option(preset)
-            page.wait_for_timeout(1000)
             print(
                 f"{preset}\n{'on screen':<11}{'slider':<17}{'median':>9}{'95 %':>9}{'target':>9}"
                 f"{'paint':>9}{'drag':>9}{'tail':>9}{'planned':>10}{'disturbed':>10}"
             )
             for case in CASES:
                 if not chosen.tab or case.tab in chosen.tab:
+                    # each begins with the same scene, whatever the one before has made of it
+                    page.locator("#choice-preset").select_option(preset)
+                    page.wait_for_timeout(500)
                     lines = measure(page, case, chosen.steps, chosen.seconds)
                     print("\n".join(lines), flush=True)
             page.close()

@@ -2418,9 +2418,23 @@ def static_states_cold(cage_angles, rows, tables, F, active, n_balls, ca, sa, A0
 @compiled
 def motion_rates(times, states, start_angle, n_balls, numbers, bodies, active, rows, tables):
     """`motion_rate` at each of the times (m,) and states (m, 4 n)."""
-    rates = np.empty_like(states)
+    n = active.size
+    ball_c, ball_s = ball_circle(n_balls)
+    c = np.empty((1, n_balls))
+    s = np.empty((1, n_balls))
+    d = np.zeros((1, n_balls))
+    d_rate = np.zeros((1, n_balls))
+    w = numbers[0]
+    x = np.zeros(5)
+    v = np.zeros(5)
+    f = np.zeros(5)
+    rates = np.empty((times.size, 4 * n))
     for i in range(times.size):
-        rates[i] = motion_rate(
-            times[i], states[i], start_angle, n_balls, numbers, bodies, active, rows, tables
+        angle = start_angle + w * times[i]
+        lay_out_balls(angle, 0.0, 1, w, rows, tables, ball_c, ball_s, c, s, d, d_rate)
+        rate_of_change(
+            states[i], rates[i], n, c, s, d, d_rate, 0, w, bodies[0], active, bodies[1],
+            bodies[2], bodies[3], bodies[4], numbers[1], numbers[2], numbers[3], numbers[4],
+            numbers[5], numbers[6], numbers[7] > 0.0, x, v, f,
         )
     return rates

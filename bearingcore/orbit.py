@@ -106,14 +106,20 @@ class Orbit:
 
     def outer_acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
         """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated."""
-        return self._sampled(time, 3, 2)
+        time = np.asarray(time, dtype=float).ravel() % self.period
+        parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
+        # from the equations of motion: it jumps as balls touch, and no interpolation follows that
+        rates = kernels.motion_rates(
+            time, np.hstack(parts), 0.0, *packed_numbers(self.scene, self.dofs)
+        )
+        return np.asarray(rates[:, -len(self.dofs) :]) / length_units(self.scene, self.dofs)
 
     def inner_displacement(self, time: ArrayLike) -> NDArray[np.float64]:
         """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
-        return self._sampled(time, 0, 0)
+        return self._sampled(time, 0, 0) / length_units(self.scene, self.dofs)
 
     def _sampled(self, time: ArrayLike, body: int, derivative: int) -> NDArray[np.float64]:
-        """Quintic interpolation in the periodic history."""
+        """Quintic interpolation in the periodic history, tilts times r_d."""
         steps = len(self.history) - 1
         at = np.asarray(time, dtype=float) / self.period * steps % steps
         step = np.minimum(at.astype(int), steps - 1)
@@ -121,7 +127,7 @@ class Orbit:
         ends = np.concatenate(
             [self.history[step, body : body + 3], self.history[step + 1, body : body + 3]], axis=1
         )
-        return np.einsum("nw,nwd->nd", weights, ends) / length_units(self.scene, self.dofs)
+        return np.einsum("nw,nwd->nd", weights, ends)
 
     def spectrum(
         self, sample_rate: float = 65536.0, resolution: float = 32.0, duration: float = 1.4

@@ -327,6 +327,8 @@ def _motion(
             # where no march that was tried is good enough an orbit may take its time
             limit = way.cost * (drop + duration) if way.error <= budget else ORBIT_PATIENCE
             found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit)
+            if found is None and note.startswith(NO_STABLE_ORBIT):
+                way = _as_long_as_asked(scene, pilot, way, drop, duration)
     length = drop + duration
     seconds, calls = way.cost * length, way.calls * length
     if found is not None and orbital is not None:
@@ -374,14 +376,36 @@ def _better(one: _Way, other: _Way, budget: float) -> _Way:
     return min(one, other, key=lambda way: way.error)
 
 
+NO_STABLE_ORBIT = "marched, as there is no stable orbit"
+
+
+def _as_long_as_asked(scene: Scene, pilot: _Pilot, way: _Way, drop: float, duration: float) -> _Way:
+    """A way with its error over all of what is shown, not over the pilot.
+
+    Where nothing settles to an orbit, errors may grow for as long as the motion goes on.
+    """
+    adaptive = math.isnan(way.step_rate)
+    kind = "adaptive" if adaptive else "fixed"
+    coarse = way.tolerance if adaptive else way.step_rate
+    fine = 1e-2 * coarse if adaptive else 2.0 * coarse
+    first = round(drop * pilot.sample_rate)
+    with np.errstate(all="ignore"):
+        found, truth = (
+            _told(kind, scene, drop + duration, pilot.sample_rate, setting).outer_acceleration
+            for setting in (coarse, fine)
+        )
+    apart = spectra_apart(found[first:], truth[first:], pilot.sample_rate, pilot.band)
+    return way._replace(error=max(way.error, SAFETY * apart))
+
+
 def _stable_orbit(
     scene: Scene, pilot: _Pilot, asked: float | None, limit: float
 ) -> tuple[Orbit | None, _Way | None, str]:
     """The orbit where it is proven stable and within the budget, its way, or why there is none.
 
-    Its spectrum is held against that of the same orbit in half the steps: where its acceleration
-    jumps, an orbit is off by what lies between two steps. None either where a march takes no
-    longer: `limit` [s]. The search ends there, so that no scene costs more to plan than that.
+    Its spectrum is held against that of the same orbit in half the steps. None either where a march
+    takes no longer: `limit` [s]. The search ends there, so that no scene costs more to plan than
+    that.
     """
     rate = asked or default_step_rate(scene, pilot.sample_rate, pilot.highest)
     time_ = np.arange(round(PILOT * pilot.sample_rate)) / pilot.sample_rate
@@ -406,8 +430,8 @@ def _stable_orbit(
             return None, None, f"marched, as an orbit takes longer than {_duration(limit)}"
         if not found.stable:
             through = f", through {found.through}" if found.through else ""
-            return None, None, f"marched, as there is no stable orbit: {found.status}{through}"
-        finer, more = searched(found, 2.0 * rate, max(limit, taken))
+            return None, None, f"{NO_STABLE_ORBIT}: {found.status}{through}"
+        finer, more = searched(found, 2.0 * rate, limit)
         apart = math.inf
         if finer.stable:
             coarse, fine = found.outer_acceleration(time_), finer.outer_acceleration(time_)
@@ -418,8 +442,9 @@ def _stable_orbit(
     return None, None, "marched, as the steps of an orbit would have to be very short"
 
 
-ORBIT_SAFETY = 2.5
-"""The same for orbits: what is compared is all there is, and half the steps leave at most half."""
+ORBIT_SAFETY = 2.0
+"""The same for orbits: what is compared is all there is, and half the steps leave at most half the
+error, mostly a sixteenth."""
 
 ORBIT_PATIENCE = 1.0
 """[s] that are spent on an orbit where marching is no alternative."""

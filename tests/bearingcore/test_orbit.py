@@ -107,10 +107,23 @@ def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None
     np.testing.assert_array_equal(lines.frequency, tiled.frequency)
     band = (tiled.frequency >= 300.0) & (tiled.frequency <= 2100.0)
     ours, theirs = lines.density[band], tiled.density[band]
-    # at 60 Hz lines stand eleven bins apart: between them there is only the window's side lobes
-    heard = theirs > 1e-5 * theirs.max(axis=0)
+    # at 60 Hz lines stand eleven bins apart: between them there is only the window's side lobes,
+    # and what samples of the jumps as balls touch fold back, which lines do not
+    heard = theirs > 1e-4 * theirs.max(axis=0)
     assert heard.sum() > 30
-    assert np.abs(10.0 * np.log10(ours[heard] / theirs[heard])).max() < 0.05
+    assert np.abs(10.0 * np.log10(ours[heard] / theirs[heard])).max() < 0.02
+
+
+def test_an_orbit_jumps_where_the_march_does() -> None:
+    """Accelerations between steps come from the equations of motion, not from interpolation."""
+    scene = at(60.0, 12.9)
+    fine = simulate(scene, 1.2, step_rate=4.0 * 65536.0)
+    late = slice(len(fine.time) // 2, None)
+    marched = fine.outer_acceleration[late]
+    for rate in (32768.0, 65536.0):
+        apart = orbit(scene, step_rate=rate).outer_acceleration(fine.time[late]) - marched
+        assert np.abs(apart).max() < 2e-2 * np.abs(marched).max()
+        assert np.sqrt(np.mean(apart**2)) < 2e-3 * np.sqrt(np.mean(marched**2))
 
 
 @pytest.mark.parametrize(

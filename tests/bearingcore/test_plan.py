@@ -115,6 +115,15 @@ def test_an_unstable_orbit_is_not_taken() -> None:
     assert slow.seconds < 0.5 * slow.full_seconds
 
 
+def test_where_nothing_settles_errors_are_looked_for_as_long_as_the_motion_goes_on() -> None:
+    """A motion of this scene doubles its period, and forgets in two seconds how it began."""
+    (scene,) = itertools.islice(random_scenes(64), 63, None)
+    made = plan(scene, SETTLED, duration=0.35)
+    assert "unstable orbit, through -1" in made.note
+    assert not made.met
+    assert made.predicted_error > 1.0
+
+
 def test_the_search_for_an_orbit_ends_where_a_march_is_cheaper() -> None:
     """No scene takes much longer to plan than to march, whatever its orbits are like."""
     asked: list[int] = []

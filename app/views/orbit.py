@@ -132,6 +132,8 @@ class SteadyOrbit(View):
             wire.range("orbit_level", -80.0, -20.0),
             height=HEIGHT + 40,
         )
+        # beside the squares where there is room, else as wide as the card
+        plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
         marched = wire.source("orbit_marched_levels", "frequency", *SHOWN)
         found = wire.source("orbit_levels", "frequency", *SHOWN)
         for dof in SHOWN:

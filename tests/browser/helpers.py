@@ -202,6 +202,15 @@ def drag(page: Page, slider: Locator, start: float, end: float, steps: int = 12)
     page.mouse.up()
 
 
+def choose_tab(page: Page, name: str) -> None:
+    """Ask for a tab in whichever way the screen offers: a list where it is narrow."""
+    tab = page.locator(f".tab-{name}")
+    if tab.is_visible():
+        tab.click()
+    else:
+        page.get_by_role("combobox", name="What to look at").select_option(name)
+
+
 def slug(text: str) -> str:
     """A name a file can have."""
     return re.sub(r"[^A-Za-z0-9]+", "-", text).strip("-")

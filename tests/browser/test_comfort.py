@@ -13,7 +13,7 @@ from app.lessons import Lesson, lessons_in, own_folder
 from app.page import SECTIONS, TABS
 from app.scene_editor import SceneEditor
 from app.views.theme import DARK_COLORS
-from tests.browser.helpers import Server, Watch
+from tests.browser.helpers import Server, Watch, choose_tab
 
 NAMES = [section.name for section in SECTIONS]
 
@@ -50,13 +50,9 @@ def settle(page: Page) -> None:
 
 
 def show(page: Page, name: str) -> None:
-    """Open a tab in either of the ways there are, and wait until it stands."""
+    """Open a tab and wait until it stands."""
     frames = page.evaluate("window.__frames")
-    select = page.get_by_role("combobox", name="What to look at")
-    if select.is_visible():
-        select.select_option(name)
-    else:
-        page.locator(f".tab-{name}").click()
+    choose_tab(page, name)
     section = page.locator(f".section-{name}.on-screen")
     expect(section).to_be_visible(timeout=30000)
     page.wait_for_function(f"window.__frames > {frames}", timeout=60000)

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Defect, RoughFloor, equilibrium, presets
-from tests.browser.helpers import Server, Watch, drag
+from tests.browser.helpers import Server, Watch, choose_tab, drag
 from tests.browser.test_explorer import number, open_page, pixels, settle, show, slider, source
 
 FAN_RIG = presets["fan-rig"]
@@ -25,7 +25,7 @@ def choose(page: Page, name: str, value: str) -> None:
 
 
 def open_tab(page: Page, tab: str) -> None:
-    page.locator(f".tab-{tab}").click()
+    choose_tab(page, tab)
     page.locator(f".section-{tab}.on-screen").wait_for()
     settle(page)
 
@@ -72,7 +72,9 @@ def test_the_picture_shows_what_is_edited_and_leads_to_it(
     open_tab(page, "bearing")
     number(page, "pitch_diameter_mm").focus()
     assert marked(page) == ["pitch_diameter_mm"]
-    expect(page.locator(".about")).to_contain_text("circle on which the centres of the balls run")
+    expect(page.locator(".editor .about")).to_contain_text(
+        "circle on which the centres of the balls run"
+    )
     slider(page, "ball_diameter_mm").focus()
     assert marked(page) == ["ball_diameter_mm"]
     page.locator(".picture [data-name=outer_raceway_radius_mm] .label").click()

@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from bearingcore import equilibrium, presets
-from tests.browser.helpers import Server, Watch, drag, explorer_server
+from tests.browser.helpers import Server, Watch, choose_tab, drag, explorer_server
 
 #: every view, and the tab it stands on
 VIEWS = {
@@ -34,7 +34,7 @@ def open_page(page: Page, server: Server, tab: str = "load") -> None:
 
 
 def show(page: Page, tab: str) -> None:
-    page.locator(f".tab-{tab}").click()
+    choose_tab(page, tab)
     page.wait_for_function(f"window.__tab == '{tab}'", timeout=60000)  # it is drawn
     settle(page)
 

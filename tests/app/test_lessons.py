@@ -251,7 +251,7 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
         ("The balls are 25.7° apart", (math.degrees(FAN.bearing.ball_spacing),)),
         ("38.6° is 12.9° and one spacing more",
          (12.9 + math.degrees(FAN.bearing.ball_spacing), 12.9)),
-        ("which is 12.4 ms", (passage(38.6),)),
+        ("which is 12.45 ms and 12.44 ms", (passage(12.9), passage(38.6))),
         ("along y moves from 672 Hz down to 608 Hz", (peak(12.9, 1)[0], peak(38.6, 1)[0])),
         ("the highest peak grows by 14 dB", (peak(38.6, 0)[1] - peak(12.9, 0)[1],)),
     ],

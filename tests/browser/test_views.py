@@ -37,7 +37,7 @@ def test_numbers_are_written_alike_in_sentences_and_in_figures(
 def test_units_of_axes_follow_their_ranges(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_explorer(page, explorer)
-    choice = page.locator("select").first
+    choice = page.locator("#choice-preset")
     for preset, unit in (("liew-lim", "kN"), ("fan-rig", "N")):
         choice.select_option(preset)
         page.wait_for_function(

@@ -69,6 +69,7 @@ class Person:
         self._asked: dict[int, float] = {}
         self._values: dict[int, dict[str, float]] = {}
         self._pictures = 0
+        self._seen = 0
         self.depth = 20.0 + 2.5 * number  # [micrometres], nobody else's
         self.load = -(40.0 + 3.0 * number)  # [N]
 
@@ -135,8 +136,9 @@ class Person:
         for asked in [m for m in self._asked if m <= mark]:
             self.notes.times.append(now - self._asked.pop(asked))
         values = self._values.get(mark)
-        if values is None:
-            return
+        if values is None or mark <= self._seen:
+            return  # the same scene once more, drawn as planned for a hand that rests
+        self._seen = mark
         for old in [m for m in self._values if m < mark]:
             del self._values[old]
         self._pictures += 1
@@ -400,7 +402,10 @@ def _print(
         f"memory {before:.0f} MB before, {machine['memory']:.0f} MB with all ({each:.1f} MB each), "
         f"{machine['memory_after']:.0f} MB after dragging, {left:.0f} MB after they left"
     )
-    print(f"cores used: server {machine['server']:.2f}, websocket clients {machine['clients']:.2f}")
+    print(
+        f"cores used: server {machine['server']:.2f}, websocket clients {machine['clients']:.2f}, "
+        f"all that ran on the machine {machine['all']:.2f}"
+    )
     for trouble in sorted({t for one in everyone for t in one.troubles}):
         print(f"trouble: {trouble}")
 

@@ -435,7 +435,9 @@ def _stable_orbit(
         apart = math.inf
         if finer.stable:
             coarse, fine = found.outer_acceleration(time_), finer.outer_acceleration(time_)
-            apart = ORBIT_SAFETY * spectra_apart(coarse, fine, pilot.sample_rate, pilot.band)
+            # half the steps leave half the error where the force jumps, else a sixteenth at best
+            safety = 2.0 * ORBIT_SAFETY if _jumps(scene) else ORBIT_SAFETY
+            apart = safety * spectra_apart(coarse, fine, pilot.sample_rate, pilot.band)
         if apart <= pilot.budget or asked:
             return found, _Way(rate, math.nan, apart, found.right_hand_side_calls, taken), ""
         found, rate, taken = finer, 2.0 * rate, taken + more
@@ -443,8 +445,7 @@ def _stable_orbit(
 
 
 ORBIT_SAFETY = 2.0
-"""The same for orbits: what is compared is all there is, and half the steps leave at most half the
-error, mostly a sixteenth."""
+"""The same for orbits: what is compared is all there is."""
 
 ORBIT_PATIENCE = 1.0
 """[s] that are spent on an orbit where marching is no alternative."""

@@ -259,6 +259,7 @@ def main() -> int:
     parser.add_argument("--preset", action="append", help="repeatable; fan-rig and liew-lim")
     parser.add_argument("--tab", action="append", help="only these; repeatable")
     chosen = parser.parse_args()
+    failed = False
     with (
         serving(explorer_server()) as server,
         sync_playwright() as playwright,
@@ -277,10 +278,14 @@ def main() -> int:
                     # each begins with the same scene, whatever the one before has made of it
                     page.locator("#choice-preset").select_option(preset)
                     page.wait_for_timeout(500)
-                    lines = measure(page, case, chosen.steps, chosen.seconds)
+                    try:
+                        lines = measure(page, case, chosen.steps, chosen.seconds)
+                    except RuntimeError as error:
+                        lines = [f"{case.tab:<11}{case.slider:<17}failed: {error}"]
+                        failed = True
                     print("\n".join(lines), flush=True)
             page.close()
-    return 0
+    return int(failed)
 
 
 if __name__ == "__main__":

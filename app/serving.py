@@ -89,6 +89,26 @@ def welcome(event: Any, known: Any = None) -> bool:
     return _is_plain(event.get("new")) and len(json.dumps(event.get("new"))) <= _LONGEST_VALUE
 
 
+def by_name(event: Any) -> Any:
+    """An event whose component is called by its id alone.
+
+    BokehJS writes a model out in full that it believes the server has not heard of yet, as after a
+    tab has been added; but whatever it says of a model, the server's own is meant.
+    """
+    try:
+        entries = event["msg_data"]["values"]["entries"]
+        changed = [
+            [key, {"id": value["id"]}]
+            if key == "model" and value["type"] == "object"
+            else [key, value]
+            for key, value in entries
+        ]
+        values = {**event["msg_data"]["values"], "entries": changed}
+    except (KeyError, TypeError, ValueError):
+        return event
+    return {**event, "msg_data": {**event["msg_data"], "values": values}}
+
+
 def _event_name(data: Mapping[str, Any]) -> bool:
     name = data.get("name")
     return isinstance(name, str) and (name in _EVENTS or name in _POINTER_EVENTS)
@@ -237,11 +257,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         if kind == "PATCH-DOC":
             events = message.content.get("events")
             known = self.connection.session.document.models
-            kept = [
-                event
-                for event in (events if isinstance(events, list) else [])
-                if welcome(event, _ById(known))
-            ]
+            told = [by_name(event) for event in (events if isinstance(events, list) else [])]
+            kept = [event for event in told if welcome(event, _ById(known))]
             if len(kept) == 1 and (found := _message_of(kept[0])) is not None:
                 model = known.get_by_id(found[0])
                 if model is not None:

@@ -19,7 +19,7 @@ from tornado.websocket import websocket_connect
 
 from app import serving
 from app.page import page
-from app.serving import Limits, make_server, policy, welcome
+from app.serving import Limits, by_name, make_server, policy, welcome
 from tests.app.loops import run
 from tests.app.proxies import Proxy
 from tests.browser.helpers import explorer_server
@@ -171,6 +171,22 @@ def test_what_the_page_says_passes() -> None:
     values = {"type": "map", "entries": [["model", {"id": "p1"}], ["data", {"type": "map"}]]}
     message = {"type": "event", "name": "data_event", "values": values}
     assert welcome({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": message})
+
+
+@pytest.mark.parametrize("model", [{"id": "p1"}, NEW_MODEL])
+def test_a_component_that_is_written_out_is_taken_by_its_id_alone(model: dict[str, Any]) -> None:
+    """As BokehJS does with the first message of a component that came with a second tab."""
+    values = {"type": "map", "entries": [["model", model], ["data", {"type": "map"}]]}
+    message = {"type": "event", "name": "data_event", "values": values}
+    event = by_name({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": message})
+    assert welcome(event)
+    assert event["msg_data"]["values"]["entries"][0] == ["model", {"id": model["id"]}]
+    assert event["msg_data"]["values"]["entries"][1] == values["entries"][1]
+
+
+@pytest.mark.parametrize("event", ["text", None, {"msg_data": {"values": {"entries": [1, [2]]}}}])
+def test_what_is_no_message_stays_what_it_is(event: Any) -> None:
+    assert by_name(event) is event
 
 
 def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptureFixture) -> None:

@@ -7,7 +7,6 @@ import dataclasses
 import logging
 import math
 import os
-import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Generic, TypeVar
@@ -91,11 +90,6 @@ def _with_orbit(made: Plan, how: MotionPlanning) -> Plan:
         seconds=a_call * found.right_hand_side_calls,
         note="",
     )
-
-
-def sentence_of(made: Plan) -> str:
-    """`Plan.sentence` with numbers as people write them: 100 ms rather than 1e+02 ms."""
-    return re.sub(r"\d(?:\.\d+)?e\+\d+", lambda number: f"{float(number[0]):.0f}", made.sentence())
 
 
 # --- the choice of a person -----------------------------------------------------------------------

@@ -153,9 +153,9 @@ class Plan:
         parts = [f"{len(self.dofs)} DOF"]
         if self.cage_angles is not None:
             parts.append(f"{len(self.cage_angles)} cage angles")
-            error = f"error {100.0 * self.predicted_error:.2g} %"
+            error = f"error {_short(100.0 * self.predicted_error)} %"
             full = f"{FULL_ANGLES} equally spaced angles {_duration(self.full_seconds)}"
-            full += f", error {100.0 * self.full_error:.2g} %"
+            full += f", error {_short(100.0 * self.full_error)} %"
         else:
             fixed = f"{self.step_rate / 1e3:.3g} kHz"
             adaptive = f"adaptive steps at {self.tolerance:.0e}"
@@ -165,8 +165,8 @@ class Plan:
                 parts.append(f"{passes} ball pass{'es' if passes > 1 else ''}")
             else:
                 parts.append(f"{self.duration:.3g} s")
-            error = f"error {self.predicted_error:.2g} dB"
-            full = f"full model {_duration(self.full_seconds)}, error {self.full_error:.2g} dB"
+            error = f"error {_short(self.predicted_error)} dB"
+            full = f"full model {_duration(self.full_seconds)}, error {_short(self.full_error)} dB"
         text = f"this scene: {', '.join(parts)}: {_duration(self.seconds)}, {error}; {full}"
         if not self.met:
             text += "; the budget is not met"
@@ -174,7 +174,12 @@ class Plan:
 
 
 def _duration(seconds: float) -> str:
-    return f"{1e3 * seconds:.2g} ms" if seconds < 1.0 else f"{seconds:.2g} s"
+    return f"{_short(1e3 * seconds)} ms" if seconds < 1.0 else f"{_short(seconds)} s"
+
+
+def _short(value: float) -> str:
+    """Two digits, and never a power of ten for what has more before the point: 120, 3.4, 0.0051."""
+    return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
 
 
 def plan(

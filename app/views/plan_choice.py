@@ -10,7 +10,7 @@ import param
 from app import compiling
 from app.assets import asset_path, asset_text
 from app.live import LiveComponent
-from app.planning import CHOICES, by_hand, chosen, sentence_of
+from app.planning import CHOICES, by_hand, chosen
 from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class PlanChoice(LiveComponent):
         """What these results, drawn on a tab, are drawn by. On the event loop only."""
         state = {
             "tab": tab,
-            "plans": [[TITLES[view], sentence_of(made)] for view, made in results.plans.items()],
+            "plans": [[TITLES[view], made.sentence()] for view, made in results.plans.items()],
             "resting": not results.moving,
             "compiling": not compiling.ready(),
             "chosen": chosen(results.settings),

@@ -10,7 +10,7 @@ import param
 
 from app.assets import asset_path, asset_text
 from app.live import LiveComponent
-from app.planning import by_hand, sentence_of
+from app.planning import by_hand
 from app.results import Results
 
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
@@ -65,7 +65,7 @@ def status_of(
     overruled = by_hand(results.settings)
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
     if (plan := results.plan) is not None:
-        planned = sentence_of(plan).replace(" DOF", f" DOF ({symbols})", 1)
+        planned = plan.sentence().replace(" DOF", f" DOF ({symbols})", 1)
         return {"mood": mood, "words": words, "details": [*overruled, planned, *details]}
     plural = "" if len(found.dofs) == 1 else "s"
     details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")

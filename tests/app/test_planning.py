@@ -15,7 +15,7 @@ from bokeh.models import Spacer
 
 from app import planning
 from app.explorer import Explorer, Section
-from app.planning import Rest, by_hand, chosen, plan_for, sentence_of, with_choices
+from app.planning import Rest, by_hand, chosen, plan_for, with_choices
 from app.results import Results, is_dear, plans
 from app.settings import MotionPlanning, Settings
 from app.views.base import View
@@ -96,7 +96,7 @@ def test_an_orbit_can_be_asked_for_and_says_what_it_errs(monkeypatch: pytest.Mon
     assert asked.orbit is not None
     assert 0.0 < asked.predicted_error < 5.0
     assert asked.met == (asked.predicted_error <= asked.error_budget)
-    assert "ball pass" in sentence_of(asked)
+    assert "ball pass" in asked.sentence()
 
 
 def test_where_no_orbit_holds_the_march_stays_and_says_why() -> None:
@@ -105,14 +105,6 @@ def test_where_no_orbit_holds_the_march_stays_and_says_why() -> None:
     assert made.orbit is None
     assert "no orbit" in made.note
     assert any("no orbit" in words for words in remarks_of(made))
-
-
-def test_numbers_are_written_out() -> None:
-    made = plan_for(FAN_RIG, "load", 5e-3)
-    long = dataclasses.replace(made, full_seconds=0.104, seconds=0.154)
-    assert "e+" in long.sentence()
-    assert "150 ms" in sentence_of(long)
-    assert "e+" not in sentence_of(long)
 
 
 # --- what is drawn by a plan
@@ -334,9 +326,9 @@ def test_a_session_draws_at_once_and_by_plan_at_rest(monkeypatch: pytest.MonkeyP
     assert len(said) == 3
     assert "121 cage angles" in said[1]
     made = plans(FAN_RIG, "stiffness", BUDGETS["stiffness"])
-    assert sentence_of(made).replace("2 DOF", "2 DOF (x y)") in said[2]
+    assert made.sentence().replace("2 DOF", "2 DOF (x y)") in said[2]
     assert explorer._views["one"][0].sizes == [121, made.cage_angles.size]
-    assert explorer.plan.state["plans"][0] == ["Stiffness", sentence_of(made)]
+    assert explorer.plan.state["plans"][0] == ["Stiffness", made.sentence()]
 
 
 def test_what_is_planned_already_is_drawn_by_it_at_once(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 
@@ -171,3 +172,11 @@ def test_refusals() -> None:
         plan(FAN_RIG, "noise")
     with pytest.raises(ValueError, match="error_budget is 0"):
         plan(FAN_RIG, "load", 0.0)
+
+
+def test_the_sentence_writes_numbers_out() -> None:
+    made = plan(presets["fan-rig"], "load")
+    long = dataclasses.replace(made, full_seconds=0.104, seconds=1.5e3)
+    assert "104 ms" in long.sentence()
+    assert "1500 s" in long.sentence()
+    assert "e+" not in long.sentence()

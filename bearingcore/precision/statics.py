@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import trapezoid
 
 from bearingcore import checks, kernels
 from bearingcore.cage_angles import CURVES, curves_of, path_kinks, place, swings
@@ -549,7 +550,7 @@ class _DenseTruth:
         self.size = np.maximum(self.size, self.scale)
         known = np.isfinite(self.values).all(axis=1)
         self.complete = bool(known.all())
-        self.mean = np.trapezoid(self.values, self.angles, axis=0) / (last - first)
+        self.mean = trapezoid(self.values, self.angles, axis=0) / (last - first)
         # midpoints of equal intervals, never at an edge: another rule, other angles
         n = 2**14
         middle = first + (np.arange(n) + 0.5) * (last - first) / n
@@ -584,5 +585,5 @@ class _DenseTruth:
         )
         with np.errstate(invalid="ignore"):
             trace = float(np.nanmax(np.abs(lines - self.values) / self.scale))
-        mean = np.trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
+        mean = trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
         return {"trace": trace, "mean": float((np.abs(mean - self.mean) / self.size).max())}

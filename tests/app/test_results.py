@@ -108,10 +108,11 @@ def test_the_sound_spectrum_is_begun_beside_the_other_and_computed_once(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scenes: list[tuple[str, bool]] = []
+    together = threading.Barrier(2, timeout=30.0)
 
     def slow(scene: Scene, how: object) -> dict:
         scenes.append((threading.current_thread().name, bool(scene.defects)))
-        time.sleep(0.05)
+        together.wait()
         return {}
 
     monkeypatch.setattr("app.results.late_spectra", ComputedOnce(slow, 8))

@@ -296,17 +296,14 @@ def test_a_flood_waits_and_others_do_not() -> None:
             await client.open_page()
             await client.connect()
             assert await client.until_drawn()
-        for k in range(400):
+        for k in range(100):
             await loud.ask(set={"extent_deg": 10.0 + 0.1 * k})
-        loop = asyncio.get_running_loop()
-        began = loop.time()
         await quiet.ask(set={"extent_deg": 40.0})
         assert await quiet.until_drawn()
-        assert loop.time() - began < 1.5
+        assert loud.drawn < loud.mark, "the flood is not over yet"
         assert await loud.until_drawn(), "nothing is lost of what was sent too fast"
-        assert loop.time() - began > 0.4
 
-    served(flood)
+    served(flood, Limits(messages_a_second=25.0))
 
 
 def test_long_work_of_some_does_not_keep_others_from_dragging() -> None:
@@ -317,17 +314,20 @@ def test_long_work_of_some_does_not_keep_others_from_dragging() -> None:
             await client.connect()
             assert await client.until_drawn()
         await busy.show("speed-run", "JobPanel")
-        await busy.say("JobPanel", {"start": busy.components["JobPanel"]["values"]})
+        await busy.say(
+            "JobPanel", {"start": busy.components["JobPanel"]["values"] | {"count": "193"}}
+        )
         await slow.show("vibration")
-        loop = asyncio.get_running_loop()
-        times = []
         for k in range(20):
             await slow.ask(set={"extent_deg": 10.0 + k})
-            began = loop.time()
             await quick.ask(set={"extent_deg": 20.0 + k})
             assert await quick.until_drawn()
-            times.append(loop.time() - began)
-        assert sorted(times)[10] < 0.3, times
+        moods = {
+            said["mood"]
+            for said in busy.words.values()
+            if isinstance(said, dict) and "part" in said
+        }
+        assert moods == {"busy"}, "the job is not done yet"
 
     served(work)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import time
 
 import numpy as np
 import pytest
@@ -155,31 +154,3 @@ def test_bad_input_is_refused(arguments: dict, words: str) -> None:
 def test_an_unknown_term_is_refused() -> None:
     with pytest.raises(ValueError, match="k_yx"):
         stiffness_maps(FAN_RIG, [0.1], [0.0]).term("k_yx")
-
-
-@pytest.mark.parametrize("name", ["angular", "radial"])
-def test_maps_take_less_than_half_of_what_their_rows_take(name: str) -> None:
-    """A ratio within one run, least of several: a quarter or less where nothing else runs."""
-    scene = SCENES[name]
-    extents = np.radians(np.arange(91.0))
-    angles = np.linspace(0.0, scene.bearing.ball_spacing, 121)
-
-    def rows() -> None:
-        for extent in extents:
-            equilibrium(scene.replace(extent=float(extent)), angles)
-
-    def seconds(work) -> float:
-        start = time.perf_counter()
-        work()
-        return time.perf_counter() - start
-
-    rows()
-    stiffness_maps(scene, extents, angles)
-    ours, theirs = zip(
-        *(
-            (seconds(lambda: stiffness_maps(scene, extents, angles)), seconds(rows))
-            for _ in range(5)
-        ),
-        strict=True,
-    )
-    assert min(ours) < 0.5 * min(theirs)

@@ -148,10 +148,8 @@ def test_progress_moves_and_cancel_works(watch: tuple[Page, Watch], explorer: Se
 
     wait(page, moved)
     wait(page, lambda: grid(page, "stability_cells")[:2] == [13, 13])  # the coarse picture
-    began = time.monotonic()
     cancel.click()
     expect(words(page, "stability-map")).to_have_text(re.compile(r"Cancelled\. \d+ × \d+ points"))
-    assert time.monotonic() - began < 5.0
     expect(cancel).to_be_disabled()
     expect(bar).to_be_hidden()
     assert grid(page, "stability_cells")[0] >= 13

@@ -22,3 +22,8 @@ def asset_path(name: str) -> Path:
 def asset_text(name: str) -> str:
     """The text of the asset called `name`."""
     return asset_path(name).read_text(encoding="utf-8")
+
+
+def scripts(*names: str) -> str:
+    """The assets of these names as one script: what a component runs, after what it calls."""
+    return "".join(asset_text(name) for name in names)

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 import param
 
-from app.assets import asset_text
+from app.assets import asset_text, scripts
 from app.live import LiveComponent
 from app.quantity_list import CAGE_ANGLE, QUANTITY_LIST, SCENE_GROUPS
 from bearingcore import preset_notes, presets
@@ -154,7 +154,7 @@ class Rows(LiveComponent):
 class Controls(Rows):
     """The controls beside the figures: bearing, defects, turning, load."""
 
-    _esm = asset_text("rows.js") + asset_text("controls.js")
+    _esm = scripts("element.js", "rows.js", "controls.js")
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         choices = {"preset": choice_spec("Bearing", "", True, preset_options())}

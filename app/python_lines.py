@@ -337,6 +337,15 @@ def _late(script: Script, results: Results) -> None:
     )
 
 
+def _densities(name: str, dofs: str, values: str) -> list[str]:
+    """Lines that put the spectra of all directions into `columns`; `values` has the index i."""
+    return [
+        f"for i, dof in enumerate({dofs}):",
+        '    unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"',
+        f'    columns[f"{name}_{{dof}}_{{unit}}"] = {values}',
+    ]
+
+
 def _vibration_spectrum(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _motion(script, results)
@@ -352,12 +361,8 @@ def _vibration_spectrum(script: Script, results: Results, view: Any) -> None:
         f"    grey.outer_acceleration[{half}:], grey.sample_rate",
         ")",
         f'columns = {{"frequency_hz": frequency, "{name}_frequency_hz": grey_frequency}}',
-        "for i, dof in enumerate(motion.dofs):",
-        '    unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"',
-        '    columns[f"density_{dof}_{unit}"] = density[:, i]',
-        "for i, dof in enumerate(grey.dofs):",
-        '    unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"',
-        f'    columns[f"{name}_density_{{dof}}_{{unit}}"] = grey_density[:, i]',
+        *_densities("density", "motion.dofs", "density[:, i]"),
+        *_densities(f"{name}_density", "grey.dofs", "grey_density[:, i]"),
     )
     _plot(
         script,
@@ -473,9 +478,7 @@ def _speed_run(script: Script, results: Results, view: Any) -> None:
         f"speeds = np.linspace({short(speeds[0])}, {short(speeds[-1])}, {speeds.size})",
         f"run = speed_run(scene, speeds, resolution={short(float(step))})",
         "columns = {}",
-        "for i, dof in enumerate(run.dofs):",
-        '    unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"',
-        '    columns[f"density_{dof}_{unit}"] = run.density[:, :, i]',
+        *_densities("density", "run.dofs", "run.density[:, :, i]"),
     )
     _plot(
         script,

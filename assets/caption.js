@@ -30,15 +30,9 @@ const csv_rows = (text) => text.trimEnd().split("\n").map((line) =>
     .map(([, quoted, plain]) => quoted?.replaceAll('""', '"') ?? plain))
 
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
   const file = (ending) => `bearing-${model.name_of_files}.${ending}`
   const button = (words, what, act) => {
-    const made = make("button", { type: "button", class: `save-${words.toLowerCase()}`, title: what,
+    const made = element("button", { type: "button", class: `save-${words.toLowerCase()}`, title: what,
                                   "aria-label": `“${model.title}”: ${what}` }, words)
     made.addEventListener("click", act)
     return made
@@ -67,9 +61,9 @@ export function render({ model }) {
   const python = button("Python", "show the lines of Python that make it", () => model.send_msg("python"))
 
   // The lines, to be copied or saved
-  const code = make("pre", { tabindex: "0", "aria-label": "Lines of Python" })
-  const said = make("span", { "aria-live": "polite" })
-  const copy = make("button", { type: "button" }, "Copy")
+  const code = element("pre", { tabindex: "0", "aria-label": "Lines of Python" })
+  const said = element("span", { "aria-live": "polite" })
+  const copy = element("button", { type: "button" }, "Copy")
   copy.addEventListener("click", async () => {
     if (await copy_text(code.textContent)) said.textContent = "Copied."
     else {
@@ -77,35 +71,35 @@ export function render({ model }) {
       said.textContent = "Marked: copy by hand."
     }
   })
-  const save = make("button", { type: "button" }, "Save")
+  const save = element("button", { type: "button" }, "Save")
   save.addEventListener("click", () => save_file(file("py"), code.textContent, "text/x-python"))
-  const close = make("button", { type: "button", class: "close", "aria-label": "Close" }, "\u00d7")
-  const dialog = make("dialog", { "aria-label": `Python for “${model.title}”` },
-    make("div", { class: "bar" }, make("strong", {}, `${model.title} in Python`), said, copy, save, close), code)
+  const close = element("button", { type: "button", class: "close", "aria-label": "Close" }, "\u00d7")
+  const dialog = element("dialog", { "aria-label": `Python for “${model.title}”` },
+    element("div", { class: "bar" }, element("strong", {}, `${model.title} in Python`), said, copy, save, close), code)
   close.addEventListener("click", () => dialog.close())
   dialog.addEventListener("click", (event) => { if (event.target === dialog) dialog.close() })
 
   // The numbers, to be read
-  const rows = make("div", { class: "rows", tabindex: "0", role: "region",
+  const rows = element("div", { class: "rows", tabindex: "0", role: "region",
                              "aria-label": `Numbers of “${model.title}”` })
-  const how_many = make("span", { "aria-live": "polite" })
-  const close_table = make("button", { type: "button", class: "close", "aria-label": "Close" }, "\u00d7")
-  const table_dialog = make("dialog", { "aria-label": `Numbers of “${model.title}”` },
-    make("div", { class: "bar" }, make("strong", {}, model.title), how_many, close_table), rows)
+  const how_many = element("span", { "aria-live": "polite" })
+  const close_table = element("button", { type: "button", class: "close", "aria-label": "Close" }, "\u00d7")
+  const table_dialog = element("dialog", { "aria-label": `Numbers of “${model.title}”` },
+    element("div", { class: "bar" }, element("strong", {}, model.title), how_many, close_table), rows)
   close_table.addEventListener("click", () => table_dialog.close())
   table_dialog.addEventListener("click", (event) => {
     if (event.target === table_dialog) table_dialog.close()
   })
   const show_table = (text) => {
     const [names, ...lines] = csv_rows(text)
-    const line = (cells, tag, scope) => make("tr", {}, ...cells.map((cell) => make(tag, scope, cell)))
+    const line = (cells, tag, scope) => element("tr", {}, ...cells.map((cell) => element(tag, scope, cell)))
     const shown = lines.slice(0, MOST_ROWS)
     how_many.textContent = !text ? "Nothing is drawn yet."
       : lines.length > MOST_ROWS ? `Rows 1 to ${MOST_ROWS} of ${lines.length}; the CSV file has all.`
       : `${lines.length} ${lines.length === 1 ? "row" : "rows"}`
-    rows.replaceChildren(...(text ? [make("table", {},
-      make("thead", {}, line(names.map(column_words), "th", { scope: "col" })),
-      make("tbody", {}, ...shown.map((cells) => line(cells.map(cell_words), "td"))))] : []))
+    rows.replaceChildren(...(text ? [element("table", {},
+      element("thead", {}, line(names.map(column_words), "th", { scope: "col" })),
+      element("tbody", {}, ...shown.map((cells) => line(cells.map(cell_words), "td"))))] : []))
     table_dialog.showModal()
     rows.focus()
   }
@@ -120,16 +114,16 @@ export function render({ model }) {
       copy.focus()
     }
   })
-  const files = make("div", { class: "files", role: "group", "aria-label": `“${model.title}” as files` },
+  const files = element("div", { class: "files", role: "group", "aria-label": `“${model.title}” as files` },
     ...pictures, numbers, table, python)
-  const grey = make("p", { class: "grey" })
+  const grey = element("p", { class: "grey" })
   const tell = () => {
     grey.hidden = !model.pinned
     grey.textContent = `Grey is the pinned scene “${model.pinned}”.`
   }
   model.on("pinned", tell)
   tell()
-  const words = make("div", { class: "words" }, make("h2", {}, model.title),
-    make("p", {}, model.about), grey)
-  return make("header", {}, words, files, dialog, table_dialog)
+  const words = element("div", { class: "words" }, element("h2", {}, model.title),
+    element("p", {}, model.about), grey)
+  return element("header", {}, words, files, dialog, table_dialog)
 }

@@ -1,54 +1,48 @@
 // Something that takes a while: what it needs to know, begin, cancel, how far it is.
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
   const inputs = {}
   // Options of a list, those with the same third part under it as their heading.
   const grouped = (options) => {
     const parts = []
     for (const [value, words, heading] of options) {
-      const option = make("option", { value }, words)
+      const option = element("option", { value }, words)
       if (!heading) parts.push(option)
       else if (parts.at(-1)?.label === heading) parts.at(-1).append(option)
-      else parts.push(make("optgroup", { label: heading }, option))
+      else parts.push(element("optgroup", { label: heading }, option))
     }
     return parts
   }
   const field = ({ name, label, options }) => {
     const id = `job-${name}`
     const input = inputs[name] = options
-      ? make("select", { id }, ...grouped(options))
-      : make("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" })
+      ? element("select", { id }, ...grouped(options))
+      : element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" })
     input.value = model.values[name] ?? ""
     input.addEventListener("change", () => {
       fill(name)
       if (model.spec.at_once) ask()
     })
-    return make("div", { class: `field field-${name}` }, make("label", { for: id }, label), input)
+    return element("div", { class: `field field-${name}` }, element("label", { for: id }, label), input)
   }
   // What is chosen in one field may bring the numbers of others with it.
   const fill = (name) => {
     const others = model.fills[name]?.[inputs[name].value] ?? {}
     for (const [other, value] of Object.entries(others)) inputs[other].value = value
   }
-  const start = make("button", { type: "submit", class: "start" }, model.spec.start)
-  const cancel = make("button", { type: "button", class: "cancel" }, "Cancel")
-  const fields = make("div", { class: "fields" }, ...model.spec.fields.map(field))
-  const filled = make("i")
-  const bar = make("div", {
+  const start = element("button", { type: "submit", class: "start" }, model.spec.start)
+  const cancel = element("button", { type: "button", class: "cancel" }, "Cancel")
+  const fields = element("div", { class: "fields" }, ...model.spec.fields.map(field))
+  const filled = element("i")
+  const bar = element("div", {
     class: "bar", role: "progressbar", "aria-label": model.spec.start,
     "aria-valuemin": "0", "aria-valuemax": "100",
   }, filled)
-  const words = make("p", { class: "words", role: "status" })
-  const going = make("div", { class: "going" }, bar, words)
+  const words = element("p", { class: "words", role: "status" })
+  const going = element("div", { class: "going" }, bar, words)
   // Where fields start the job, the button is seldom needed and stands out of their way.
   if (model.spec.at_once) going.prepend(start, cancel)
   else fields.append(start, cancel)
-  const form = make("form", {}, fields, going)
+  const form = element("form", {}, fields, going)
 
   const ask = () => {
     const given = Object.entries(inputs).map(([name, input]) => [name, input.value])

@@ -5,12 +5,6 @@
 // of and which figures it marks, or null where none is open. "explorer-lessons" opens and closes.
 
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
   const ask = (message) => {
     window.__asked = (window.__asked || 0) + 1
     model.send_msg({ mark: window.__asked, ...message })
@@ -24,24 +18,24 @@ export function render({ model }) {
     return sound(at) ? at : -1
   }
 
-  const select = make("select", { id: "lesson-choice", "aria-label": "Lesson" })
+  const select = element("select", { id: "lesson-choice", "aria-label": "Lesson" })
   model.titles.forEach(([title, fault], number) => {
-    const option = make("option", { value: String(number) }, `${number + 1}. ${title}`)
+    const option = element("option", { value: String(number) }, `${number + 1}. ${title}`)
     option.disabled = fault !== ""
     select.append(option)
   })
-  const close = make("button", { type: "button", class: "close", "aria-label": "Close the lessons",
+  const close = element("button", { type: "button", class: "close", "aria-label": "Close the lessons",
     title: "Close the lessons" }, "\u00d7")
-  const faults = make("div", { class: "faults" }, ...model.titles.filter(([, fault]) => fault)
-    .map(([, fault]) => make("p", {}, fault)))
-  const words = make("div", { class: "words" })
-  const back = make("button", { type: "button", class: "step back" }, "Back")
-  const next = make("button", { type: "button", class: "step next" }, "Next lesson")
-  const again = make("button", { type: "button", class: "step again",
+  const faults = element("div", { class: "faults" }, ...model.titles.filter(([, fault]) => fault)
+    .map(([, fault]) => element("p", {}, fault)))
+  const words = element("div", { class: "words" })
+  const back = element("button", { type: "button", class: "step back" }, "Back")
+  const next = element("button", { type: "button", class: "step next" }, "Next lesson")
+  const again = element("button", { type: "button", class: "step again",
     title: "Set the scene that this lesson begins with" }, "Begin again")
-  const lesson = make("section", { class: "lesson", "aria-label": "Lesson", hidden: "" },
-    make("header", {}, select, close), faults, words,
-    make("footer", {}, back, again, next))
+  const lesson = element("section", { class: "lesson", "aria-label": "Lesson", hidden: "" },
+    element("header", {}, select, close), faults, words,
+    element("footer", {}, back, again, next))
 
   const say = () => {
     const { drag = [], watch = [] } = model.lesson
@@ -54,15 +48,15 @@ export function render({ model }) {
     const { number, title, parts } = model.lesson
     if (title === undefined) return
     select.value = String(number)
-    const heading = make("h2", { tabindex: "-1" }, title)
+    const heading = element("h2", { tabindex: "-1" }, title)
     const blocks = parts.map(({ heading, html }, index) => {
-      const body = make("div", { class: "body" })
+      const body = element("div", { class: "body" })
       body.innerHTML = html
       const last = index === parts.length - 1
-      const part = make("div", { class: last ? "part answer" : "part" }, make("h3", {}, heading), body)
+      const part = element("div", { class: last ? "part answer" : "part" }, element("h3", {}, heading), body)
       if (!last) return part
       part.hidden = true
-      const reveal = make("button", { type: "button", class: "reveal", "aria-expanded": "false" },
+      const reveal = element("button", { type: "button", class: "reveal", "aria-expanded": "false" },
         heading)
       reveal.addEventListener("click", () => {
         part.hidden = false
@@ -71,7 +65,7 @@ export function render({ model }) {
         part.focus({ preventScroll: true })
         part.scrollIntoView({ block: "start" })
       })
-      return make("div", { class: "last" }, reveal, part)
+      return element("div", { class: "last" }, reveal, part)
     })
     words.replaceChildren(heading, ...blocks)
     lesson.getRootNode().host?.closest(".lesson-place")?.scrollTo(0, 0)

@@ -1,61 +1,55 @@
 // How a figure shall look: one of several, some of several, or a number.
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
   const prefix = `look-${model.spec.name}`
   const shows = []
   const tell = (name, value) => model.send_msg({ look: { [name]: value } })
 
   const one = ({ name, label, options }) => {
-    const group = make("div", { class: "segments", role: "radiogroup", "aria-label": label })
+    const group = element("div", { class: "segments", role: "radiogroup", "aria-label": label })
     const radios = options.map(([value, words]) => {
       const id = `${prefix}-${name}-${value}`
-      const radio = make("input", { type: "radio", id, name: `${prefix}-${name}`, value })
+      const radio = element("input", { type: "radio", id, name: `${prefix}-${name}`, value })
       radio.addEventListener("change", () => tell(name, value))
-      group.append(radio, make("label", { for: id }, words))
+      group.append(radio, element("label", { for: id }, words))
       return radio
     })
     shows.push(() => radios.forEach((radio) => {
       radio.checked = radio.value === model.values[name]
       radio.disabled = (model.disabled[name] ?? []).includes(radio.value)
     }))
-    return make("div", { class: "field" }, make("span", { class: "label" }, label), group)
+    return element("div", { class: "field" }, element("span", { class: "label" }, label), group)
   }
   const some = ({ name, label, options }) => {
     const boxes = options.map(([value, , color]) => {
-      const box = make("input", { type: "checkbox", id: `${prefix}-${name}-${value}`, value })
+      const box = element("input", { type: "checkbox", id: `${prefix}-${name}-${value}`, value })
       box.style.accentColor = color
       box.addEventListener("change", () =>
         tell(name, boxes.filter((other) => other.checked).map((other) => other.value)))
       return box
     })
     const marks = options.map(([value, words, color], index) => {
-      const swatch = make("i", { class: "swatch" })
+      const swatch = element("i", { class: "swatch" })
       swatch.style.background = color
-      return make("label", { for: boxes[index].id }, boxes[index], swatch, words)
+      return element("label", { for: boxes[index].id }, boxes[index], swatch, words)
     })
     shows.push(() => boxes.forEach((box) => { box.checked = model.values[name].includes(box.value) }))
-    return make("div", { class: "field checks", role: "group", "aria-label": label },
-      make("span", { class: "label" }, label), ...marks)
+    return element("div", { class: "field checks", role: "group", "aria-label": label },
+      element("span", { class: "label" }, label), ...marks)
   }
   const number = ({ name, label, hint }) => {
     const id = `${prefix}-${name}`
-    const input = make("input", { type: "text", id, inputmode: "decimal", autocomplete: "off", placeholder: hint })
+    const input = element("input", { type: "text", id, inputmode: "decimal", autocomplete: "off", placeholder: hint })
     input.addEventListener("change", () => tell(name, input.value))
     shows.push(() => {
       input.value = model.values[name]
       input.placeholder = model.hints[name] ?? hint
     })
-    return make("div", { class: "field" }, make("label", { for: id, class: "label" }, label), input)
+    return element("div", { class: "field" }, element("label", { for: id, class: "label" }, label), input)
   }
 
   const kinds = { one, some, number }
-  const refusal = make("p", { class: "refusal", role: "alert" })
-  const root = make("form", {}, ...model.spec.fields.map((field) => kinds[field.kind](field)), refusal)
+  const refusal = element("p", { class: "refusal", role: "alert" })
+  const root = element("form", {}, ...model.spec.fields.map((field) => kinds[field.kind](field)), refusal)
   root.addEventListener("submit", (event) => event.preventDefault())
   const show = () => {
     for (const each of shows) each()

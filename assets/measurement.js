@@ -1,22 +1,16 @@
 // A measured signal: chosen or dropped as a file, sent in pieces, asked about; or simulated.
 export function render({ model }) {
   const spec = model.spec
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
-  const select = (id, options) => make("select", { id },
-    ...options.map(([value, words]) => make("option", { value }, words)))
-  const labelled = (id, words, input, note = "") => make("div", { class: `field field-${id}` },
-    make("label", { for: id }, words), input, make("p", { class: "refusal", id: `${id}-refusal` }, note))
+  const select = (id, options) => element("select", { id },
+    ...options.map(([value, words]) => element("option", { value }, words)))
+  const labelled = (id, words, input, note = "") => element("div", { class: `field field-${id}` },
+    element("label", { for: id }, words), input, element("p", { class: "refusal", id: `${id}-refusal` }, note))
 
   // Files: the server says where the next piece shall begin, so it is never asked to hold more.
-  const file = make("input", { type: "file", id: "measurement-file", accept: spec.accept })
-  const choose = make("label", { for: "measurement-file", class: "choose" }, "Choose a file …")
-  const bar = make("div", { class: "bar", role: "progressbar", "aria-label": "File on its way",
-    "aria-valuemin": "0", "aria-valuemax": "100", hidden: "" }, make("i"))
+  const file = element("input", { type: "file", id: "measurement-file", accept: spec.accept })
+  const choose = element("label", { for: "measurement-file", class: "choose" }, "Choose a file …")
+  const bar = element("div", { class: "bar", role: "progressbar", "aria-label": "File on its way",
+    "aria-valuemin": "0", "aria-valuemax": "100", hidden: "" }, element("i"))
   let sending = null, answers = 0
   const begin = (chosen) => {
     if (!chosen) return
@@ -55,42 +49,42 @@ export function render({ model }) {
   // Simulated measurements, for those who have none.
   const noise = select("measurement-noise", spec.noises)
   const machine = select("measurement-machine", spec.machines)
-  const simulate = make("button", { type: "button", class: "start" }, "Simulate a signal")
+  const simulate = element("button", { type: "button", class: "start" }, "Simulate a signal")
   simulate.addEventListener("click", () =>
     model.send_msg({ simulate: { noise: noise.value, machine: machine.value } }))
 
-  const own = make("section", { class: "way own", "aria-label": "A file of your own" },
-    make("h3", {}, "A file of your own"),
-    make("div", { class: "line" }, choose, file, bar),
-    make("p", { class: "note" }, spec.formats))
-  const made = make("section", { class: "way", "aria-label": "No file at hand" },
-    make("h3", {}, "No file at hand?"),
-    make("div", { class: "line" }, simulate,
+  const own = element("section", { class: "way own", "aria-label": "A file of your own" },
+    element("h3", {}, "A file of your own"),
+    element("div", { class: "line" }, choose, file, bar),
+    element("p", { class: "note" }, spec.formats))
+  const made = element("section", { class: "way", "aria-label": "No file at hand" },
+    element("h3", {}, "No file at hand?"),
+    element("div", { class: "line" }, simulate,
       labelled("measurement-noise", "Noise below it", noise),
       labelled("measurement-machine", "Machine", machine)),
-    make("p", { class: "note" }, "Of the scene beside: its true extent is known and shown."))
+    element("p", { class: "note" }, "Of the scene beside: its true extent is known and shown."))
 
   // What the file does not say for sure.
   const inputs = {
     x: select("measurement-x", []), y: select("measurement-y", []),
     unit: select("measurement-unit", spec.units),
-    full_scale: make("input", { type: "text", id: "measurement-full_scale", inputmode: "decimal", autocomplete: "off" }),
-    sample_rate: make("input", { type: "text", id: "measurement-sample_rate", inputmode: "decimal", autocomplete: "off" }),
-    shaft_speed: make("input", { type: "text", id: "measurement-shaft_speed", autocomplete: "off" }),
+    full_scale: element("input", { type: "text", id: "measurement-full_scale", inputmode: "decimal", autocomplete: "off" }),
+    sample_rate: element("input", { type: "text", id: "measurement-sample_rate", inputmode: "decimal", autocomplete: "off" }),
+    shaft_speed: element("input", { type: "text", id: "measurement-shaft_speed", autocomplete: "off" }),
   }
   const words = { x: "Along x, sideways", y: "Along y, up", unit: "Unit",
     full_scale: "1 in the file is", sample_rate: "Sample rate (Hz)", shaft_speed: "Shaft speed (Hz or rpm)" }
   const fields = Object.fromEntries(Object.entries(inputs).map(([name, input]) =>
     [name, labelled(`measurement-${name}`, words[name], input)]))
-  const form = make("form", { class: "asked", "aria-label": "What the file holds" }, ...Object.values(fields))
+  const form = element("form", { class: "asked", "aria-label": "What the file holds" }, ...Object.values(fields))
   const answer = () => model.send_msg({ form: Object.fromEntries(
     Object.entries(inputs).map(([name, input]) => [name, input.value])) })
   form.addEventListener("change", answer)
   form.addEventListener("submit", (event) => event.preventDefault())
 
-  const said = make("p", { class: "words", role: "status" })
-  const root = make("div", { class: "measurement" },
-    make("div", { class: "ways" }, own, made), form, said)
+  const said = element("p", { class: "words", role: "status" })
+  const root = element("div", { class: "measurement" },
+    element("div", { class: "ways" }, own, made), form, said)
 
   for (const kind of ["dragenter", "dragover"]) root.addEventListener(kind, (event) => {
     event.preventDefault()

@@ -1,35 +1,29 @@
 // The plan: a button beside the status line; above it what was planned, and choices by hand.
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
-  const back = make("button", {
+  const back = element("button", {
     type: "button", class: "own", title: "Back to the program's own choices",
   }, "Automatic again")
-  const more = make("button", {
+  const more = element("button", {
     type: "button", class: "more", "aria-expanded": "false", "aria-controls": "plan-list",
   }, "Plan")
-  const plans = make("div", { class: "plans" })
+  const plans = element("div", { class: "plans" })
   const selects = {}
   const fields = model.spec.choices.map(({ name, label, options }) => {
-    const select = selects[name] = make("select", { id: `plan-${name}` },
-      ...options.map(([value, words]) => make("option", { value }, words)))
+    const select = selects[name] = element("select", { id: `plan-${name}` },
+      ...options.map(([value, words]) => element("option", { value }, words)))
     select.addEventListener("change", () => model.send_msg({ [name]: select.value }))
-    return make("div", { class: "field" }, make("label", { for: select.id }, label), select)
+    return element("div", { class: "field" }, element("label", { for: select.id }, label), select)
   })
-  const about = make("p", { class: "about" },
+  const about = element("p", { class: "about" },
     "While a slider moves, all is drawn at once with what usually does. When it rests, the program " +
     "plans what is on screen, with no more than its error allows, and draws it anew.")
-  const wait = make("p", { class: "about" },
+  const wait = element("p", { class: "about" },
     "On this first start the program is still being compiled for motions; until then they are " +
     "drawn as usual.")
-  const list = make("section", { id: "plan-list", class: "list", "aria-label": "Plan" },
-    about, wait, plans, make("div", { class: "fields" }, ...fields))
+  const list = element("section", { id: "plan-list", class: "list", "aria-label": "Plan" },
+    about, wait, plans, element("div", { class: "fields" }, ...fields))
   list.hidden = true
-  const box = make("div", { class: "box" }, back, more, list)
+  const box = element("div", { class: "box" }, back, more, list)
 
   const open = (shown) => {
     list.hidden = !shown
@@ -55,8 +49,8 @@ export function render({ model }) {
     back.hidden = by_hand.length === 0
     more.dataset.overruled = String(by_hand.length > 0)
     if (made.length || resting) plans.replaceChildren(...made.length
-      ? made.map(([title, sentence]) => make("p", {}, make("strong", {}, title), ` ${sentence}.`))
-      : [make("p", {}, compiling ? "" : "Nothing here has a plan: what is on screen is drawn as usual.")])
+      ? made.map(([title, sentence]) => element("p", {}, element("strong", {}, title), ` ${sentence}.`))
+      : [element("p", {}, compiling ? "" : "Nothing here has a plan: what is on screen is drawn as usual.")])
     plans.dataset.stale = String(!resting)
     for (const [name, value] of Object.entries(chosen)) {
       const options = [...selects[name].options]

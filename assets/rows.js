@@ -8,14 +8,6 @@
 const AHEAD = 2           // changes that may be on their way
 const PATIENCE = 400      // ms until a change counts as lost
 
-function element(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag)
-  for (const [name, value] of Object.entries(attributes))
-    name === "html" ? (made.innerHTML = value) : made.setAttribute(name, value)
-  made.append(...children)
-  return made
-}
-
 const format = (value, step) => {
   if (value === null) return ""
   const digits = Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)))

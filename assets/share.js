@@ -7,13 +7,6 @@ const MOST_KEPT = 50
 const LONGEST_NAME = 60
 const LONGEST_TEXT = 2.5e6
 
-function make(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag)
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-  made.append(...children)
-  return made
-}
-
 function read_kept() {
   try {
     const found = JSON.parse(localStorage.getItem(KEPT) ?? "[]")
@@ -33,7 +26,7 @@ export function render({ model }) {
     model.send_msg({ mark: window.__asked, ...message })
   }
   const button = (words, title, act, attributes = {}) => {
-    const made = make("button", { type: "button", title, ...attributes }, words)
+    const made = element("button", { type: "button", title, ...attributes }, words)
     if (act) made.addEventListener("click", act)
     return made
   }
@@ -45,7 +38,7 @@ export function render({ model }) {
 
   // Menus: each opens below its button and closes by Escape or a click beside it.
   const menu = (words, title, name, ...children) => {
-    const panel = make("div", { class: `menu menu-${name}`, popover: "auto", id: `share-${name}`,
+    const panel = element("div", { class: `menu menu-${name}`, popover: "auto", id: `share-${name}`,
                                 role: "dialog", "aria-label": title }, ...children)
     const opener = button(words, title, null,
                           { class: "opener", "aria-haspopup": "dialog", "aria-expanded": "false" })
@@ -70,7 +63,7 @@ export function render({ model }) {
   }
 
   // Share: the link
-  const link = make("input", { type: "text", readonly: "", id: "share-link", spellcheck: "false" })
+  const link = element("input", { type: "text", readonly: "", id: "share-link", spellcheck: "false" })
   link.addEventListener("focus", () => link.select())
   const copy = button("Copy link", "Copy the address of this scene", async () => {
     const copied = await copy_text(link.value)
@@ -80,30 +73,30 @@ export function render({ model }) {
     }
     say(copied || document.execCommand("copy") ? "The link is copied." : "Copy the marked link by hand.")
   }, { class: "main" })
-  const left_out = make("p", { class: "note" }, "The measured floor is too long for a link: with it "
+  const left_out = element("p", { class: "note" }, "The measured floor is too long for a link: with it "
     + "the scene opens with a flat floor. Save the scene as a file instead, under Download.")
   const share = menu("Share", "Share this scene", "share",
-    make("label", { for: "share-link" }, "Whoever opens this link sees this scene, tab and cage angle."),
+    element("label", { for: "share-link" }, "Whoever opens this link sees this scene, tab and cage angle."),
     link, copy, left_out)
 
   // Keep: scenes with names, and the one that grey stands for
-  const name = make("input", { type: "text", id: "share-name", maxlength: String(LONGEST_NAME),
+  const name = element("input", { type: "text", id: "share-name", maxlength: String(LONGEST_NAME),
                                autocomplete: "off", placeholder: "A name for this scene" })
-  const keep = make("button", { type: "submit", class: "main" }, "Keep")
+  const keep = element("button", { type: "submit", class: "main" }, "Keep")
   const pin_here = button("Pin as grey", "Let grey show this scene, so that others can be held against it",
                           () => ask({ pin_here: name.value || "this scene" }))
-  const form = make("form", {}, make("label", { for: "share-name" }, "Keep this scene in this browser"),
-                    name, make("div", { class: "row" }, keep, pin_here))
+  const form = element("form", {}, element("label", { for: "share-name" }, "Keep this scene in this browser"),
+                    name, element("div", { class: "row" }, keep, pin_here))
   form.addEventListener("submit", (event) => {
     event.preventDefault()
     model.send_msg({ keep: name.value })
   })
-  const pinned = make("p", { class: "pinned" })
+  const pinned = element("p", { class: "pinned" })
   const unpin = button("Unpin", "Let grey show the bearing without its defect", () => ask({ unpin: true }))
-  const list = make("ul", { class: "kept", "aria-label": "Kept scenes" })
-  const kept_words = make("p", { class: "note", role: "status" })
+  const list = element("ul", { class: "kept", "aria-label": "Kept scenes" })
+  const kept_words = element("p", { class: "note", role: "status" })
   const keeping = menu("Keep", "Keep and compare scenes", "keep", form,
-    make("div", { class: "grey" }, pinned, unpin), list, kept_words)
+    element("div", { class: "grey" }, pinned, unpin), list, kept_words)
 
   const save_kept = (items) => {
     try {
@@ -125,7 +118,7 @@ export function render({ model }) {
         list_kept()
         name.focus()
       }, { "aria-label": `Remove “${item.name}”`, class: "remove" })
-      return make("li", {}, open, pin, remove)
+      return element("li", {}, open, pin, remove)
     }))
     kept_words.textContent = items.length ? "Open one, or pin it: grey then shows it in every figure."
       : "No scene is kept in this browser yet."
@@ -140,7 +133,7 @@ export function render({ model }) {
   })
   const toml = button("Scene (TOML)", "A text file for this page and for Python: Scene.from_toml",
                       () => model.send_msg({ want: "toml" }))
-  const file = make("input", { type: "file", accept: ".toml,application/toml,text/plain", id: "share-file" })
+  const file = element("input", { type: "file", accept: ".toml,application/toml,text/plain", id: "share-file" })
   file.addEventListener("change", async () => {
     const chosen = file.files[0]
     if (!chosen) return
@@ -149,24 +142,24 @@ export function render({ model }) {
     file.value = ""
   })
   const download = menu("Download", "Save and load files", "download", report, toml,
-    make("label", { for: "share-file" }, "Load a scene from a TOML file"), file,
-    make("p", { class: "note" },
+    element("label", { for: "share-file" }, "Load a scene from a TOML file"), file,
+    element("p", { class: "note" },
          "Above each figure are its picture (PNG, SVG), its numbers (CSV) and its lines of Python."))
 
   // What happened, in a sentence
-  const words = make("p", { role: "status" })
+  const words = element("p", { role: "status" })
   const close = button("\u00d7", "Close", () => { notice.hidden = true }, { "aria-label": "Close this note" })
-  const notice = make("div", { class: "notice", hidden: "" }, words, close)
+  const notice = element("div", { class: "notice", hidden: "" }, words, close)
   const say = (sentence) => {
     words.textContent = sentence
     notice.hidden = !sentence
     if (sentence) for (const { panel } of [share, keeping, download]) panel.hidePopover()
   }
 
-  const bar = make("div", { class: "bar", role: "group", "aria-label": "Steps and files" },
-    undo, redo, reset, make("i", { class: "gap", "aria-hidden": "true" }),
+  const bar = element("div", { class: "bar", role: "group", "aria-label": "Steps and files" },
+    undo, redo, reset, element("i", { class: "gap", "aria-hidden": "true" }),
     share.opener, keeping.opener, download.opener)
-  const root = make("div", { class: "share" }, bar, notice, share.panel, keeping.panel, download.panel)
+  const root = element("div", { class: "share" }, bar, notice, share.panel, keeping.panel, download.panel)
 
   let shown = null, said = null
   const take = () => {

@@ -1,12 +1,6 @@
 // Extents that could have given a signal, with their probabilities. To look at one shows its curves.
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
-  const list = make("ol", { "aria-label": "Candidates for the extent of the defect" })
+  const list = element("ol", { "aria-label": "Candidates for the extent of the defect" })
   let asked = null, timer = 0
   const look = (index) => {
     if (asked === index) return
@@ -15,19 +9,19 @@ export function render({ model }) {
     timer = setTimeout(() => model.send_msg({ look: index }), 40)  // not for what a pointer crosses
   }
   const row = ({ extent, extent_deg, made_of, probability, percent, explains, fitted, truth }, index) => {
-    const filled = make("i")
+    const filled = element("i")
     filled.style.width = `${Math.max(100*probability, 0.4)}%`
-    const name = make("span", { class: "extent" }, extent)
-    const bar = make("span", { class: "bar" }, filled)
-    const mark = truth ? [make("span", { class: "truth" }, `true ${truth}`)] : []
-    const seen = make("button", { type: "button", class: "seen", "aria-describedby": `candidate-${index}` },
-      name, make("span", { class: "turns" }, made_of), bar, make("span", { class: "percent" }, percent), ...mark)
-    const take = make("button", { type: "button", class: "take" }, "Take into scene")
+    const name = element("span", { class: "extent" }, extent)
+    const bar = element("span", { class: "bar" }, filled)
+    const mark = truth ? [element("span", { class: "truth" }, `true ${truth}`)] : []
+    const seen = element("button", { type: "button", class: "seen", "aria-describedby": `candidate-${index}` },
+      name, element("span", { class: "turns" }, made_of), bar, element("span", { class: "percent" }, percent), ...mark)
+    const take = element("button", { type: "button", class: "take" }, "Take into scene")
     take.setAttribute("aria-label", `Take ${extent} into the scene`)
     take.addEventListener("click", () => window.dispatchEvent(
       new CustomEvent("explorer-typed", { detail: { extent_deg } })))
-    const item = make("li", {}, seen,
-      make("span", { class: "details", id: `candidate-${index}` }, explains, make("small", {}, fitted)), take)
+    const item = element("li", {}, seen,
+      element("span", { class: "details", id: `candidate-${index}` }, explains, element("small", {}, fitted)), take)
     item.addEventListener("pointerenter", () => look(index))
     seen.addEventListener("focus", () => look(index))
     seen.addEventListener("click", () => look(index))

@@ -1,12 +1,6 @@
 // Tabs in groups, as many rows as they need; where there is little room, a list to choose from.
 // Arrow keys move between tabs, as people who use the keyboard expect.
 export function render({ model }) {
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag)
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
-    made.append(...children)
-    return made
-  }
   const show = (name, ask) => {
     for (const tab of tabs) {
       const chosen = tab.dataset.name === name
@@ -22,19 +16,19 @@ export function render({ model }) {
     groups.at(-1).entries.push([name, title])
   }
   const tabs = []
-  const list = make("div", { class: "list", role: "tablist", "aria-label": "What to look at" },
-    ...groups.map(({ entries }) => make("div", { class: "group", role: "presentation" },
+  const list = element("div", { class: "list", role: "tablist", "aria-label": "What to look at" },
+    ...groups.map(({ entries }) => element("div", { class: "group", role: "presentation" },
       ...entries.map(([name, title]) => {
-        const tab = make("button", { type: "button", class: `tab-${name}`, role: "tab" }, title)
+        const tab = element("button", { type: "button", class: `tab-${name}`, role: "tab" }, title)
         tab.dataset.name = name
         tab.addEventListener("click", () => show(name, true))
         tabs.push(tab)
         return tab
       }))))
-  const select = make("select", { "aria-label": "What to look at" },
+  const select = element("select", { "aria-label": "What to look at" },
     ...groups.map(({ group, entries }) => {
-      const options = entries.map(([name, title]) => make("option", { value: name }, title))
-      return group ? make("optgroup", { label: group }, ...options) : options
+      const options = entries.map(([name, title]) => element("option", { value: name }, title))
+      return group ? element("optgroup", { label: group }, ...options) : options
     }).flat())
   select.addEventListener("change", () => show(select.value, true))
 
@@ -52,5 +46,5 @@ export function render({ model }) {
     window.dispatchEvent(new CustomEvent("explorer-tab", { detail: model.active }))
   })
   show(model.active, false)
-  return make("div", {}, list, select)
+  return element("div", {}, list, select)
 }

@@ -24,7 +24,7 @@ import panel as pn
 import param
 from bokeh.models import Plot, SaveTool
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_path, asset_text, scripts
 from app.live import LiveComponent
 from app.python_lines import lines_of
 from app.wire import Wire
@@ -52,7 +52,7 @@ class Caption(LiveComponent):
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
 
-    _esm = asset_text("figure_export.js") + asset_text("caption.js")
+    _esm = scripts("element.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import param
 
-from app.assets import asset_text
+from app.assets import asset_text, scripts
 from app.controls import Rows, choice_spec, spec_of
 from app.quantities import in_unit
 from app.quantity_list import BEARING_GROUPS, QUANTITY_LIST
@@ -42,9 +42,7 @@ class BearingRows(Rows):
     #: {"shape": {field: number in SI}, "facts": [{label, symbol, value, about}]}
     shown = param.Dict(default={})
 
-    _esm = "".join(
-        asset_text(name) for name in ("rows.js", "bearing_picture.js", "bearing_editor.js")
-    )
+    _esm = scripts("element.js", "rows.js", "bearing_picture.js", "bearing_editor.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("controls.css"),
         asset_text("bearing_editor.css"),

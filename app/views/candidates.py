@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_text, scripts
 from app.measurement import Sized
 from bearingcore import Candidate
 
@@ -20,7 +20,7 @@ class CandidateList(JSComponent):
     rows = param.List(default=[])
     looked = param.Integer(default=0)
 
-    _esm = asset_path("sizing.js")
+    _esm = scripts("element.js", "sizing.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("sizing.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import param
 
-from app.assets import asset_text
+from app.assets import asset_text, scripts
 from app.controls import Rows
 from app.views import figures
 from app.views.base import Ranges, Sources
@@ -36,7 +36,7 @@ class DofRows(Rows):
     #: {"needed": "x y", "active": "x y", "facts": [{label, symbol, value, about}]}
     shown = param.Dict(default={})
 
-    _esm = asset_text("rows.js") + asset_text("dof_comparison.js")
+    _esm = scripts("element.js", "rows.js", "dof_comparison.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("controls.css"),
         asset_text("dof_comparison.css"),

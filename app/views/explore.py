@@ -31,9 +31,10 @@ from app.explore import (
     refine,
 )
 from app.jobs import JobState, Work
+from app.plane_form import plane_fields, plane_fills, plane_sweeps
 from app.quantities import refusal
 from app.scene_editor import SceneEditor
-from app.sweep import SWEEPABLE, Sweep, focused, sweep, usual_range, value_of
+from app.sweep import Sweep, focused, value_of
 from app.views import figures
 from app.views.base import Ranges, Sources
 from app.views.figures import AxisQuantity
@@ -121,26 +122,15 @@ class ExplorePlane(JobView[Plane]):
     # The form
 
     def fields(self) -> list[dict[str, Any]]:
-        quantities = [
-            [q.name, f"{q.label}{f' ({q.unit})' if q.unit else ''}", q.group]
-            for q in SWEEPABLE.values()
-        ]
         outputs = [[choice.name, choice.label, choice.group] for choice in CHOICES.values()]
-        parts: list[dict[str, Any]] = [{"name": "output", "label": "Map of", "options": outputs}]
-        for side, words in (("x", "To the right"), ("y", "Upwards")):
-            parts += [
-                {"name": side, "label": words, "options": quantities},
-                {"name": f"{side}_from", "label": "from"},
-                {"name": f"{side}_to", "label": "to"},
-            ]
-        return [*parts, {"name": "grid", "label": "Points", "options": _GRIDS}]
+        return [
+            {"name": "output", "label": "Map of", "options": outputs},
+            *plane_fields(headings=True),
+            {"name": "grid", "label": "Points", "options": _GRIDS},
+        ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        fills: dict[str, Any] = {"x": {}, "y": {}}
-        for name in SWEEPABLE:
-            low, high = (f"{v:g}" for v in usual_range(name, editor.limits))
-            for side, fill in fills.items():
-                fill[name] = {f"{side}_from": low, f"{side}_to": high}
+        fills = plane_fills(editor.limits)
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
         # loads that point down, as weights do: without a load there is nothing to map
         values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}"
@@ -154,12 +144,7 @@ class ExplorePlane(JobView[Plane]):
             raise ValueError("There is no such output.")
         if given["grid"] not in [value for value, _ in _GRIDS]:
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
-        if given["x"] == given["y"]:
-            raise ValueError("Choose two different quantities.")
-        x, y = (
-            sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], n, editor.limits)
-            for side, n in zip(("x", "y"), SIZES[1], strict=True)
-        )
+        x, y = plane_sweeps(given, SIZES[1], editor.limits)
         return Asked(x, y, CHOICES[given["output"]], int(given["grid"]))
 
     def _asked(self, message: Any) -> None:

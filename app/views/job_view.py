@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 import param
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_text, scripts
 from app.jobs import Jobs, JobState, Work
 from app.live import LiveComponent
 from app.scene_editor import SceneEditor
@@ -35,8 +35,8 @@ class JobPanel(LiveComponent):
     #: a JobState
     state = param.Dict(default={"mood": "idle", "part": 0.0, "words": ""})
 
-    _esm = asset_path("job.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("job.css")]
+    _esm = scripts("element.js", "job.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("job.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_text, scripts
 from app.lessons import Fault, Lesson
 
 
@@ -23,7 +23,7 @@ class LessonPanel(JSComponent):
     #: of `Lesson.for_browser`; empty before the first
     lesson = param.Dict(default={})
 
-    _esm = asset_path("lesson.js")
+    _esm = scripts("element.js", "lesson.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]
 
     def __init__(

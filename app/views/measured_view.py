@@ -11,7 +11,7 @@ from bokeh.models import ColumnDataSource, CustomJSExpr, Range1d
 from bokeh.plotting import figure
 from panel.custom import JSComponent
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_text, scripts
 from app.measured_lines import measured_lines
 from app.measurement import Measurement
 from app.views import figures
@@ -110,8 +110,8 @@ class LookPanel(JSComponent):
     hints = param.Dict(default={})
     refused = param.String()
 
-    _esm = asset_path("look.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("look.css")]
+    _esm = scripts("element.js", "look.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("look.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)

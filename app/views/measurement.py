@@ -13,7 +13,7 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 from panel.custom import JSComponent
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_text, scripts
 from app.excerpt import least_and_greatest
 from app.measurement import MACHINES, NOISES, Measurement, MeasurementState
 from app.upload import MOST_BYTES, PIECE
@@ -52,8 +52,8 @@ class MeasurementPanel(JSComponent):
     #: a MeasurementState
     state = param.Dict(default={})
 
-    _esm = asset_path("measurement.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("measurement.css")]
+    _esm = scripts("element.js", "measurement.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("measurement.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import param
 
-from app.assets import asset_text
+from app.assets import asset_text, scripts
 from app.controls import Rows, choice_spec, spec_of
 from app.quantities import values_of
 from app.quantity_list import MODEL_GROUPS, QUANTITY_LIST
@@ -38,7 +38,7 @@ class ModelRows(Rows):
     #: the contact damping that follows from the stiffness, as words
     automatic = param.String()
 
-    _esm = asset_text("rows.js") + asset_text("model_editor.js")
+    _esm = scripts("element.js", "rows.js", "model_editor.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("controls.css"),
         asset_text("model_editor.css"),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import param
 
 from app import compiling
-from app.assets import asset_path, asset_text
+from app.assets import asset_text, scripts
 from app.live import LiveComponent
 from app.planning import CHOICES, by_hand, chosen
 from bearingcore.plan import SETTLED
@@ -37,8 +37,8 @@ class PlanChoice(LiveComponent):
     #: "chosen": {name: value}, "by_hand": [words]}
     state = param.Dict(default={"plans": [], "resting": False, "chosen": {}, "by_hand": []})
 
-    _esm = asset_path("plan_choice.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("plan_choice.css")]
+    _esm = scripts("element.js", "plan_choice.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("footer.css"), asset_text("plan_choice.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         spec = {

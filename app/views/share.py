@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
-from app.assets import asset_text
+from app.assets import asset_text, scripts
 
 
 class ShareBar(JSComponent):
@@ -20,7 +20,7 @@ class ShareBar(JSComponent):
     #: what `Keeping.state` tells
     state = param.Dict(default={})
 
-    _esm = asset_text("figure_export.js") + asset_text("report.js") + asset_text("share.js")
+    _esm = scripts("element.js", "figure_export.js", "report.js", "share.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("share.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:

@@ -14,9 +14,10 @@ from bokeh.palettes import Blues256
 from numpy.typing import NDArray
 
 from app.jobs import LONGEST, Work
+from app.plane_form import plane_fields, plane_fills, plane_sweeps
 from app.quantities import refusal
 from app.scene_editor import SceneEditor
-from app.sweep import SWEEPABLE, Sweep, alike_but_for, focused, sweep, usual_range, value_of
+from app.sweep import SWEEPABLE, Sweep, alike_but_for, focused, value_of
 from app.views import figures
 from app.views.base import Ranges, Sources
 from app.views.grid_image import CLEAR, GridImage, Side, ends
@@ -148,24 +149,11 @@ class OrbitStability(JobView[Found]):
     # The job
 
     def fields(self) -> list[dict[str, Any]]:
-        quantities = [[q.name, f"{q.label}{f' ({q.unit})' if q.unit else ''}"]
-                      for q in SWEEPABLE.values()]  # fmt: skip
-        parts: list[dict[str, Any]] = []
-        for side, words in (("x", "To the right"), ("y", "Upwards")):
-            parts += [
-                {"name": side, "label": words, "options": quantities},
-                {"name": f"{side}_from", "label": "from"},
-                {"name": f"{side}_to", "label": "to"},
-            ]
         grids = [[str(n), f"{n} × {n}"] for n in GRIDS]
-        return [*parts, {"name": "grid", "label": "Points", "options": grids}]
+        return [*plane_fields(), {"name": "grid", "label": "Points", "options": grids}]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        fills: dict[str, Any] = {"x": {}, "y": {}}
-        for name in SWEEPABLE:
-            low, high = (f"{v:g}" for v in usual_range(name, editor.limits))
-            for side, fill in fills.items():
-                fill[name] = {f"{side}_from": low, f"{side}_to": high}
+        fills = plane_fills(editor.limits)
         x, y = "shaft_speed_hz", "extent_deg"
         return {"x": x, "y": y, **fills["x"][x], **fills["y"][y], "grid": "25"}, fills
 
@@ -174,12 +162,7 @@ class OrbitStability(JobView[Found]):
             sizes = ", ".join(map(str, GRIDS[:-1]))
             raise ValueError(f"A map has {sizes} or at most {GRIDS[-1]} points along a side.")
         n = int(given["grid"])
-        if given["x"] == given["y"]:
-            raise ValueError("Choose two different quantities.")
-        x, y = (
-            sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], n, editor.limits)
-            for side in ("x", "y")
-        )
+        x, y = plane_sweeps(given, (n, n), editor.limits)
         scene = focused(editor.scene, editor.selected)
 
         def work(job: Work) -> str:

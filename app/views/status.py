@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 import param
 
-from app.assets import asset_path, asset_text
+from app.assets import asset_path, asset_text, scripts
 from app.live import LiveComponent
 from app.planning import by_hand
 from app.results import Results
@@ -32,7 +32,7 @@ class Tabs(LiveComponent):
     names = param.List(default=[])  # [[name, title], ...]
     active = param.String()
 
-    _esm = asset_path("tabs.js")
+    _esm = scripts("element.js", "tabs.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("tabs.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:

@@ -22,7 +22,7 @@ class StepChoice(LiveComponent):
     words = param.String()
 
     _esm = asset_path("step_choice.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("job.css")]
+    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("job.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)

@@ -142,6 +142,12 @@ class Balls:
         stored = K / Long(2.5) * np.sum(np.maximum(self.compression(q), 0.0) ** Long(2.5))
         return stored - self.load @ q.astype(Long)
 
+    def rounding(self, q: Array) -> float:
+        """What rounding does to the energy [N·m]: to its lengths, and to the work of the load."""
+        lengths = self.drop + self.scene.bearing.groove_center_distance + np.linalg.norm(q)
+        size = float(self.ball_load(q) @ lengths + np.abs(self.load * q).sum())
+        return float(np.finfo(Long).eps) * size
+
     @remembered
     def directions(self, q: Array) -> tuple[Array, Array]:
         """Gradients (N_b, 5) in q along each contact and across it."""
@@ -384,6 +390,7 @@ def _costs_nothing(
     # the load's own share is the residual that is allowed
     stiffest = float(np.trace(balls.stiffness(q)))
     allowed = 1e-9 * stiffest * reach**2 + 1e-8 * balls.whole_load(q, active) * reach
+    allowed += 16.0 * balls.rounding(q)
     level = balls.energy(q)
 
     def rise(way: Array) -> float:

@@ -240,6 +240,27 @@ CORNERS = {
         ),
         kernels.NOT_CARRIED,
     ),
+    "pressed by a milligram along the axis, all centres passed: free in the plane": (
+        Point(
+            n_balls=8,
+            pitch_diameter=0.8979100818384647,
+            ball_size=0.7762907272242078,
+            contact_angle=0.5622368408331844,
+            groove_center_radius=0.867968303720521,
+            groove_center_distance=0.0003638499442459914,
+            radial_clearance=0.0001750876026981512,
+            load_deflection_factor=380946686271.03534,
+            extent=4.256364643242483,
+            depth=0.6649344613365453,
+            center=8.363336877236698,
+            race="outer",
+            edge="published",
+            loads=(0.0, 0.0, -0.0010324677034829186, 0.0, 0.0),
+            dofs=None,
+            cage_angle=1.7613782263916,
+        ),
+        kernels.FREE_DIRECTION,
+    ),
 }
 """What went wrong once, or nearly."""
 

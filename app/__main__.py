@@ -96,10 +96,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
+    from app import collecting
     from app.lessons import faults_in
     from app.long_addresses import LONGEST_HEADER, send_on
     from app.page import TABS, page
-    from app.serving import MEGABYTE, Limits, make_server
+    from app.serving import MEGABYTE, Limits, make_server, quiet_for
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
@@ -141,6 +142,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         signal.signal(number, stop)
     if chosen.num_procs > 1:
         _end_with_parent(loop)
+    collecting.begin(quiet_for)
     server.start()
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
     url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"

@@ -24,6 +24,7 @@ from bokeh.model import util as model_util
 from bokeh.protocol.message import Message
 from bokeh.protocol.messages.patch_doc import patch_doc
 from panel.custom import JSComponent
+from panel.io import document as panel_document
 from panel.io.state import set_curdoc
 from panel.models.esm import DataEvent
 from tornado.iostream import StreamClosedError
@@ -274,6 +275,11 @@ class _Gathered:
         if self._parts:
             with suppress(StreamClosedError):
                 self._stream.write(b"".join(self._parts))
+
+
+def collect_elsewhere(ask: Callable[[], None]) -> None:
+    """Have Panel ask for a garbage collection after a session, where it would do it on the spot."""
+    panel_document._garbage_collect = ask
 
 
 def visit_quickly() -> None:

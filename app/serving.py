@@ -12,6 +12,7 @@ import asyncio
 import html
 import json
 import logging
+import math
 import os
 import secrets
 import time
@@ -515,6 +516,11 @@ def make_server(
     server._tornado.default_router.rules.insert(0, Rule(_HasControls(), Missing))
     PeriodicCallback(_end_idle, min(5000.0, 250.0 * limits.idle)).start()
     return server
+
+
+def quiet_for() -> float:
+    """How long no browser has said anything [s]."""
+    return time.monotonic() - max((socket._heard for socket in sockets), default=-math.inf)
 
 
 def _end_idle() -> None:

@@ -7,7 +7,7 @@ import dataclasses
 import logging
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -30,6 +30,7 @@ from app.report import About, now, report
 from app.results import Results
 from app.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from app.settings import Settings
+from app.turns import Turns
 from app.views.accuracy import Accuracy
 from app.views.base import Ranges, Sources, View
 from app.views.control_view import ControlView
@@ -53,6 +54,9 @@ _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
 
+#: the limits of the model are looked at when the hand rests, and while it moves this often [s]
+_LIMITS_EVERY = 1.0
+
 _BROKEN = "This could not be computed; what is shown belongs to an earlier position."
 
 
@@ -69,11 +73,6 @@ class Section:
     def plans(self) -> tuple[str, ...]:
         """What is planned for its views when the hand rests."""
         return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
-
-    @property
-    def moves(self) -> bool:
-        """Whether it shows simulated motion."""
-        return any(view.needs & Results.moving_ones for view in self.views)
 
 
 @dataclass(frozen=True)
@@ -92,6 +91,22 @@ class Inputs:
     rested: bool = False
     planned: tuple[str, ...] = ()
     pinned: Reference | None = None
+
+    @property
+    def kind(self) -> Hashable:
+        """What inputs share that cost about the same: all but loads and sizes of defects."""
+        scene = self.scene
+        return (
+            scene.bearing,
+            scene.active_dofs,
+            scene.contact_law,
+            tuple((defect.race, defect.edge, defect.floor) for defect in scene.defects),
+            scene.shaft_speed > 0.0,
+            self.settings,
+            self.rested,
+            self.planned,
+            self.pinned is not None,
+        )
 
     @property
     def results(self) -> Results:
@@ -144,9 +159,10 @@ class Explorer:
         self._drawn_mark = 0
         self._settings = Settings()
         self._slow_cost = 0.0
-        self._slow_at = -math.inf
+        self._slow_at = self._limits_at = -math.inf
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
+        self._turns = Turns()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
         self._rest: Rest[Inputs, tuple[str, ...]] = Rest(
             _planned, self._draw_by_plan, lambda: not self._worker.idle
@@ -226,8 +242,7 @@ class Explorer:
             return
         self._rested = None
         self._worker.submit(inputs)
-        if section.plans or section.moves:
-            self._rest.begin(rested)
+        self._rest.begin(rested)
 
     def _nothing_new(self, rested: Inputs) -> bool:
         """Whether all that these inputs would have planned is planned already."""
@@ -468,13 +483,16 @@ class Explorer:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
-            inputs, results, picture = await in_thread(self._quick_picture, inputs, quick, started)
+            inputs, results, picture = await self._turns.run(
+                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick, started
+            )
             await self._assign(results, picture, None if slow else inputs.mark)
         else:
             results = inputs.results
         if slow:
             before = time.perf_counter()
-            picture = await in_thread(_picture, results, slow, started, slow=True)
+            limits = not quick and self._limits_due(inputs)
+            picture = await in_thread(_picture, results, slow, started, limits, slow=True)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
@@ -483,10 +501,17 @@ class Explorer:
     def _quick_picture(
         self, inputs: Inputs, views: Sequence[View], started: float
     ) -> tuple[Inputs, Results, Picture]:
-        """A picture of the newest inputs. In a thread, for which others may have waited too."""
+        """A picture of the newest inputs: others may have waited for their turn too."""
         inputs = self._worker.newest(inputs)
         results = inputs.results
-        return inputs, results, _picture(results, views, started, not self._worker.waiting)
+        return inputs, results, _picture(results, views, started, self._limits_due(inputs))
+
+    def _limits_due(self, inputs: Inputs) -> bool:
+        now = time.perf_counter()
+        due = inputs.rested or now - self._limits_at > _LIMITS_EVERY
+        if due:
+            self._limits_at = now
+        return due
 
     async def _assign(self, results: Results, picture: Picture, mark: int | None) -> None:
         """Send a picture; `mark` where with it all of these inputs is drawn."""
@@ -527,17 +552,14 @@ class Explorer:
 
 
 def _picture(
-    results: Results, views: Sequence[View], started: float, at_rest: bool = True
+    results: Results, views: Sequence[View], started: float, limits: bool = False
 ) -> Picture:
-    """Compute what the views need and have them say it. Runs in a worker thread.
-
-    The limits of the model wait until no newer inputs do: `at_rest`.
-    """
+    """Compute what the views need and have them say it, and what `limits` of the model say."""
     shown = frozenset[str]().union(*(view.needs for view in views))
     results.begin(shown)
     drawings = [_drawing(results, view) for view in views]
     status = status_of(results, time.perf_counter() - started, shown)
-    return Picture(drawings, status, rows_of(results.limits) if at_rest else None)
+    return Picture(drawings, status, rows_of(results.limits) if limits else None)
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:

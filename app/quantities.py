@@ -9,10 +9,11 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from app.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
-from bearingcore import Defect, RoughFloor, Scene
+from bearingcore import Bearing, Defect, Load, RoughFloor, Scene, Support
 from bearingcore.drawing import WIDEST_CONFORMITY
 
 Values = dict[str, float]
@@ -88,17 +89,26 @@ def values_of(scene: Scene, selected: int = 0) -> Values:
 def _find(scene: Scene, defect: Defect, field: str) -> Any:
     if field in DEFECT_FIELDS:
         return getattr(defect, field)
-    return next(
-        getattr(part, field)
-        for part in (scene, scene.bearing, scene.load, scene.support)
-        if hasattr(part, field)
-    )
+    part = _PART_OF[field]
+    return getattr(getattr(scene, part) if part else scene, field)
+
+
+_PART_OF = {
+    name: part
+    for part, kind in (("support", Support), ("load", Load), ("bearing", Bearing), ("", Scene))
+    for name in kind.__dataclass_fields__
+}
 
 
 def in_unit(quantity: Quantity, si: float | None) -> float:
     """A number in SI as the page shows it; NaN for one left open."""
+    return math.nan if si is None else _in_unit(si, quantity.unit_si)
+
+
+@lru_cache(4096)  # every change of a slider asks for all numbers of the page
+def _in_unit(si: float, unit_si: float) -> float:
     # The last digits of π have no business on a page.
-    return math.nan if si is None else float(f"{si / quantity.unit_si:.12g}")
+    return float(f"{si / unit_si:.12g}")
 
 
 def in_si(quantity: Quantity, value: float) -> float | None:

@@ -28,6 +28,7 @@ from app.dof_comparison import (
     static_differences,
 )
 from app.excerpt import Excerpt, excerpt
+from app.load_curve import Curve, load_curve
 from app.planning import plan_for
 from app.profile import Profile, profile
 from app.quantities import defects_of
@@ -457,6 +458,16 @@ class Results:
             return self.sound_equilibrium
         own = Results(self.pinned.scene, self.cage_angle, self.settings)
         return equilibria(self.pinned.scene, *own.stretch)
+
+    @cached_property
+    def load_curve(self) -> Curve:
+        """Load [N] of a ball over its angle [rad]."""
+        return load_curve(self.equilibrium)
+
+    @cached_property
+    def sound_load_curve(self) -> Curve:
+        """The same without the defect."""
+        return load_curve(self.sound_all_around)
 
     @cached_property
     def now(self) -> Equilibrium:

@@ -9,9 +9,9 @@ import holoviews as hv
 import numpy as np
 
 from app.explore import mode_words, term_words
+from app.load_curve import load_curve
 from app.plotting.style import Axes, curve_options, dimension
 from app.views import figures
-from app.views.load_curve import load_curve
 from app.views.matrix_cells import TERM_UNITS
 from bearingcore import STIFFNESS_TERMS, Equilibrium, Modes, checks
 

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from app.defect_shape import race_angles, race_depth, spans
 from app.views import figures
 from app.views.base import Ranges, Sources, View
-from app.views.load_curve import load_curve
 from app.views.sticky_range import StickyRange
 from app.wire import Wire
 
@@ -241,7 +240,7 @@ class BearingDrawing(View):
             "bearing_marks": drawn.angle_marks(),
             "bearing_balls": drawn.balls(results.drop, load),
             "bearing_bars": drawn.bars(load, top),
-            "bearing_sound_loads": drawn.load_rim(*load_curve(results.sound_all_around), top),
+            "bearing_sound_loads": drawn.load_rim(*results.sound_load_curve, top),
             "bearing_arrow": drawn.load_arrow(),
             "bearing_load_words": load_words(scene.load),
             "bearing_scale_words": {

@@ -10,7 +10,6 @@ from bokeh.models import HoverTool, Range1d
 from app.defect_shape import pieces, spans
 from app.views import figures
 from app.views.base import Ranges, Sources, View
-from app.views.load_curve import load_curve
 from app.views.sticky_range import StickyRange
 from app.wire import Wire
 
@@ -86,8 +85,8 @@ class LoadDistribution(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        angle, load = load_curve(results.equilibrium)
-        sound_angle, sound_load = load_curve(results.sound_all_around)
+        angle, load = results.load_curve
+        sound_angle, sound_load = results.sound_load_curve
         now = results.now
         sources = {
             "load_distribution_defect": shaded(results.scene, results.cage_angle),
@@ -101,7 +100,7 @@ class LoadDistribution(View):
         return sources, {"load_distribution_load": self._range.fit(load, sound_load)}
 
     def sentence(self, results: Results) -> str:
-        angle, load = load_curve(results.equilibrium)
+        angle, load = results.load_curve
         if not results.equilibrium.converged.any():
             return f"There is no load distribution: {results.equilibrium.reason(0)}."
         most = int(np.nanargmax(load))
@@ -109,7 +108,7 @@ class LoadDistribution(View):
             f"A ball carries most, {figures.with_prefix(load[most], 'N')}, at "
             f"{figures.in_degrees(angle[most])}"
         )
-        _, sound = load_curve(results.sound_all_around)
+        _, sound = results.sound_load_curve
         if results.beside_words and np.isfinite(sound).any():
             words += f"; {results.beside_words} {figures.with_prefix(np.nanmax(sound), 'N')}"
         if results.over_shaft:
@@ -124,8 +123,8 @@ class LoadDistribution(View):
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        angle, load = load_curve(results.equilibrium)
-        sound_angle, sound_load = load_curve(results.sound_all_around)
+        angle, load = results.load_curve
+        sound_angle, sound_load = results.sound_load_curve
         return {
             "ball_angle_deg": np.degrees(angle[1:-1]),
             "ball_load_n": load[1:-1],

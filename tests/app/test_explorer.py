@@ -1,12 +1,14 @@
 """A session without a browser: what its messages do, and that strangers' messages do nothing."""
 
 import asyncio
+import math
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 
 from app.explorer import Explorer, Section
+from app.results import Results
 from app.views.base import View
 from bearingcore import presets
 from tests.app.loops import run
@@ -55,14 +57,18 @@ def told(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
     return news
 
 
-def session(act: Callable[[Explorer], None]) -> Explorer:
-    """A session in which `act` happened and everything was drawn."""
+def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
+    """A session in which `acts` happened and all was drawn, also for the hand's `rest`."""
 
     async def live() -> Explorer:
         explorer = Explorer(SECTIONS)
         explorer.draw()
         await idle(explorer)
-        act(explorer)
+        for act in acts:
+            act(explorer)
+            await idle(explorer)
+        while rest and not explorer._rest.idle:
+            await asyncio.sleep(0.002)
         await idle(explorer)
         return explorer
 
@@ -218,10 +224,28 @@ def test_what_is_told_names_the_change_it_answers(told: list[dict]) -> None:
     assert told[-1]["state"]["mark"] == 7
 
 
-def test_limits_are_looked_at_in_every_drawing(told: list[dict]) -> None:
-    calm = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}}))
+def test_limits_are_looked_at_when_the_hand_rests(
+    told: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looked: list[float] = []
+    real = Results.limits.func
+
+    def looking(results: Results) -> object:
+        looked.append(results.scene.load.fy)
+        return real(results)
+
+    monkeypatch.setattr(Results.limits, "func", looking)
+    monkeypatch.setattr("app.explorer._LIMITS_EVERY", math.inf)
+    calm = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}}), rest=True)
     assert {row["state"] for row in calm.limits.rows} == {"kept"}
+    looked.clear()
     heavy = session(
-        lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}, "typed": {"fy_n": "-20000"}})
+        *(
+            lambda e, fy=fy: e._asked({"mark": 1, "typed": {"fy_n": f"{fy}"}})
+            for fy in (-120, -130, -140, -20000)
+        ),
+        rest=True,
     )
     assert heavy.limits.rows[0]["state"] == "crossed"
+    assert looked[-1] == -20000.0
+    assert not {-130.0, -140.0} & set(looked), "not while it moves"

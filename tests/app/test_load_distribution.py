@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from app.load_curve import load_curve
 from app.results import Results
-from app.views.load_curve import load_curve
 from app.views.load_distribution import LoadDistribution, shaded
 from app.wire import Wire
 from bearingcore import presets

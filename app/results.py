@@ -8,6 +8,7 @@ answer somebody else is computing waits for that one instead of computing it aga
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import os
 import threading
@@ -39,7 +40,7 @@ from bearingcore.defect import RACES
 from bearingcore.equilibrium import default_cage_angles
 from bearingcore.modes import highest_natural_frequency
 from bearingcore.motion import default_step_rate, is_flat
-from bearingcore.orbit import common_ball_passes
+from bearingcore.orbit import NOT_CONVERGED, common_ball_passes
 from bearingcore.passes import ball_drop
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.repeated import repeated
@@ -57,6 +58,8 @@ MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0)
 
 LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
+HASTY_PERIODS = 30
+"""Periods that are integrated at most to find it meanwhile; most orbits take 5 to 12."""
 
 
 class ComputedOnce(Generic[Answer]):
@@ -158,9 +161,15 @@ def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
     return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
 
 
-def _orbit(scene: Scene, how: Marching) -> Orbit:
+def _orbit(scene: Scene, how: Marching, hasty: bool) -> Orbit:
+    """The orbit; where `hasty` is set, what a search of HASTY_PERIODS finds."""
     rate = _coarse_step_rate(scene, how.sample_rate) if how.coarse else None
-    return core.orbit(scene, step_rate=rate)
+    periods = itertools.count(1)
+    return core.orbit(
+        scene,
+        step_rate=rate,
+        give_up=(lambda: next(periods) >= HASTY_PERIODS) if hasty else None,
+    )
 
 
 def _affordable(duration: float, rate: float, by_hand: bool) -> float:
@@ -630,10 +639,16 @@ class Results:
 
     @cached_property
     def orbit(self) -> Orbit | None:
-        """The motion that repeats itself; None where it takes too many ball passes to look for."""
+        """The motion that repeats itself; None where it takes too many ball passes to look for.
+
+        The search is short while a hand moves.
+        """
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
-        return orbits(self.scene, self._marching)
+        found = orbits(self.scene, self._marching, True)
+        if self.moving or found.status != NOT_CONVERGED:
+            return found
+        return orbits(self.scene, self._marching, False)
 
     @cached_property
     def orbit_spectra(self) -> dict[str, Spectrum]:

@@ -196,6 +196,11 @@ class SteadyOrbit(View):
             )
         if orbit.status == NO_START:
             return "There is no static state to begin from, so no orbit was looked for."
+        if orbit.status == NOT_CONVERGED and results.moving:
+            return (
+                "A short search found no motion that repeats with every ball pass; it goes on when "
+                "the slider rests. Grey is the marched one."
+            )
         if orbit.status == NOT_CONVERGED:
             return (
                 "Newton's method found no motion that repeats with every ball pass; grey is the "
@@ -235,7 +240,8 @@ def orbit_status(results: Results) -> dict[str, Any]:
         return {"mood": "bad", "words": "No orbit looked for", "details": []}
     if not orbit.multipliers.size:
         words = {NO_PERIOD: "No common period", NO_START: "No static state"}
-        return {"mood": "bad", "words": words.get(orbit.status, "No orbit found"), "details": []}
+        none = "No orbit found yet" if results.moving else "No orbit found"
+        return {"mood": "bad", "words": words.get(orbit.status, none), "details": []}
     passes = "1 ball pass" if orbit.ball_passes == 1 else f"{orbit.ball_passes} ball passes"
     return {
         "mood": "good" if orbit.stable else "bad",

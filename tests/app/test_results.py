@@ -10,6 +10,7 @@ import pytest
 from app.reference import Reference
 from app.results import MOST_STEPS, SHORTEST, ComputedOnce, Results, Settings
 from bearingcore import Scene, equilibrium, presets
+from bearingcore.orbit import NOT_CONVERGED
 
 
 def test_threads_that_ask_together_share_one_computation() -> None:
@@ -125,3 +126,17 @@ def test_the_sound_spectrum_is_begun_beside_the_other_and_computed_once(
     results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
     assert len(scenes) == 2
     assert any(name.startswith("beside") and not defects for name, defects in scenes)
+
+
+def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
+    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi)
+    hasty, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
+    assert hasty is not None
+    assert patient is not None
+    assert hasty.status == patient.status == NOT_CONVERGED
+    assert hasty.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
+    usual = presets["fan-rig"]
+    found = Results(usual, moving=True).orbit
+    assert found is not None
+    assert found.stable
+    assert Results(usual).orbit is found

@@ -286,6 +286,7 @@ class Results:
     equilibrium, sound_equilibrium: over the stretch of the curves, with the defect and without
     now, sound_now: at `cage_angle` alone (arrays of length 1)
     modes, sound_modes: over the same cage angles
+    band_modes: the modes where only their bands count; at fewer cage angles while a hand moves
     extent: of the defect looked at [rad]
     sound_all_around: like sound_equilibrium, over all that a pinned scene does
     maps: over its extent and the same cage angles
@@ -492,6 +493,14 @@ class Results:
     def modes(self) -> Modes:
         """Natural frequencies over the same cage angles."""
         return self._modes(self.scene)
+
+    @cached_property
+    def band_modes(self) -> Modes:
+        """`modes` for their bands alone: while a hand moves, at every third cage angle."""
+        if not self.moving:
+            return self.modes
+        first, last, n = self.stretch
+        return modes(self.scene, first, last, n // 3 + 1)
 
     @cached_property
     def sound_modes(self) -> Modes:

@@ -41,7 +41,7 @@ class VibrationSpectra(View):
         "forgotten, 32 Hz resolution. Grey: without the defect. Shaded: the bands of the natural "
         "frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "sound_late_spectra", "modes"})
+    needs = frozenset({"motion", "late_spectra", "sound_late_spectra", "band_modes"})
     plans = (SETTLED,)
 
     def build(self, wire: Wire) -> Any:
@@ -128,7 +128,7 @@ class VibrationSpectra(View):
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        bands = band_rows(results.modes)
+        bands = band_rows(results.band_modes)
         top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
         drawn = drawn_levels(results.late_spectra, top)
         in_view = np.concatenate([drawn[dof] for dof in SHOWN])

@@ -140,3 +140,14 @@ def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
     assert found is not None
     assert found.stable
     assert Results(usual).orbit is found
+
+
+@pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])
+def test_bands_of_frequencies_are_looked_at_coarsely_while_a_hand_moves(name: str) -> None:
+    scene = presets[name].replace(extent=math.radians(38.0))
+    moving, rested = Results(scene, moving=True), Results(scene)
+    assert rested.band_modes is rested.modes
+    assert moving.band_modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
+    exact = rested.modes.bands()
+    for label, band in moving.band_modes.bands().items():
+        assert band == pytest.approx(exact[label], rel=0.03)

@@ -74,13 +74,19 @@ class Section:
         """What is planned for its views when the hand rests."""
         return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
 
+    @property
+    def has_orbit(self) -> bool:
+        """Whether it shows the orbit, which can take long to find."""
+        return any("orbit" in view.needs for view in self.views)
+
 
 @dataclass(frozen=True)
 class Inputs:
     """What is to be drawn; `mark` is the number of the newest change it holds.
 
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
-    computed. When the hand has `rested` it is drawn by the plans of what is `planned`.
+    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, and after a
+    long search where it `seeks_orbit`.
     """
 
     scene: Scene
@@ -91,6 +97,7 @@ class Inputs:
     rested: bool = False
     planned: tuple[str, ...] = ()
     pinned: Reference | None = None
+    seeks_orbit: bool = False
 
     @property
     def kind(self) -> Hashable:
@@ -235,7 +242,9 @@ class Explorer:
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""
         inputs, section = self.inputs, self._sections[self._shown]
-        rested = dataclasses.replace(inputs, rested=True, planned=section.plans)
+        rested = dataclasses.replace(
+            inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit
+        )
         self._rest.end()
         if self._nothing_new(rested):
             self._worker.submit(rested)
@@ -251,6 +260,7 @@ class Explorer:
             last is not None
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
+            and rested.seeks_orbit <= last.seeks_orbit
         )
 
     def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
@@ -563,7 +573,10 @@ def _picture(
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
-    """Those of `inputs.planned` that could be planned; in a thread. The plans stay known."""
+    """Those of `inputs.planned` that could be planned; in a thread.
+
+    The plans stay known, and so does an orbit that is looked for.
+    """
     results = inputs.results
     made = []
     for view in inputs.planned:
@@ -579,6 +592,13 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
             log.exception("planning %s failed", view)
             continue
         made.append(view)
+    if inputs.seeks_orbit and compiling.ready() and not overtaken():
+        try:
+            results.seek_orbit(overtaken)
+        except ValueError:
+            pass  # again the view says why
+        except Exception:
+            log.exception("looking for an orbit failed")
     return tuple(made)
 
 

@@ -90,6 +90,13 @@ class ComputedOnce(Generic[Answer]):
                 future.set_exception(error)
         return future.result()
 
+    def keep(self, answer: Answer, *key: Hashable) -> None:
+        """Keep what was computed elsewhere."""
+        known: Future[Answer] = Future()
+        known.set_result(answer)
+        with self._lock:
+            self._known.setdefault(key, known)
+
     def knows(self, *key: Hashable) -> bool:
         """Whether the answer is there already."""
         with self._lock:
@@ -161,15 +168,15 @@ def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
     return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
 
 
-def _orbit(scene: Scene, how: Marching, hasty: bool) -> Orbit:
+def _orbit(
+    scene: Scene, how: Marching, hasty: bool, give_up: Callable[[], bool] | None = None
+) -> Orbit:
     """The orbit; where `hasty` is set, what a search of HASTY_PERIODS finds."""
     rate = _coarse_step_rate(scene, how.sample_rate) if how.coarse else None
     periods = itertools.count(1)
-    return core.orbit(
-        scene,
-        step_rate=rate,
-        give_up=(lambda: next(periods) >= HASTY_PERIODS) if hasty else None,
-    )
+    if hasty:
+        give_up = lambda: next(periods) >= HASTY_PERIODS  # noqa: E731
+    return core.orbit(scene, step_rate=rate, give_up=give_up)
 
 
 def _affordable(duration: float, rate: float, by_hand: bool) -> float:
@@ -658,6 +665,17 @@ class Results:
         if self.moving or found.status != NOT_CONVERGED:
             return found
         return orbits(self.scene, self._marching, False)
+
+    def seek_orbit(self, give_up: Callable[[], bool]) -> None:
+        """Look for the orbit so that it is known afterwards, unless `give_up` says so before."""
+        if (self.ball_passes or 0) > LONGEST_ORBIT:
+            return
+        how = self._marching
+        found = orbits(self.scene, how, True)
+        if found.status == NOT_CONVERGED and not orbits.knows(self.scene, how, False):
+            found = _orbit(self.scene, how, False, give_up)
+            if not give_up():
+                orbits.keep(found, self.scene, how, False)
 
     @cached_property
     def orbit_spectra(self) -> dict[str, Spectrum]:

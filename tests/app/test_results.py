@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.reference import Reference
-from app.results import MOST_STEPS, SHORTEST, ComputedOnce, Results, Settings
+from app.results import MOST_STEPS, SHORTEST, ComputedOnce, Results, Settings, orbits
 from bearingcore import Scene, equilibrium, presets
 from bearingcore.orbit import NOT_CONVERGED
 
@@ -140,6 +140,27 @@ def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
     assert found is not None
     assert found.stable
     assert Results(usual).orbit is found
+
+
+def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi, depth=49e-6)
+    results = Results(hopeless)
+    asked: list[None] = []
+
+    def overtaken() -> bool:
+        asked.append(None)
+        return len(asked) > 40
+
+    results.seek_orbit(overtaken)
+    assert len(asked) <= 43
+    assert not orbits.knows(hopeless, results._marching, False)
+    results.seek_orbit(lambda: False)
+    monkeypatch.setattr("app.results.core.orbit", None)
+    assert results.orbit is not None
+    assert results.orbit.status == NOT_CONVERGED
+    assert results.orbit.right_hand_side_calls > 100 * len(asked)
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])

@@ -120,9 +120,9 @@ class LatestWins(Generic[Inputs]):
         return bool(self._newest)
 
     def newest(self, inputs: Inputs) -> Inputs:
-        """The newest inputs there are in place of `inputs`. For the thread that computes.
+        """The newest inputs there are in place of `inputs`, from any thread.
 
-        Where many sessions wait for a thread, a hand has moved on meanwhile.
+        Where many sessions wait for their turn, a hand has moved on meanwhile.
         """
         waiting = self._newest
         try:

@@ -46,6 +46,9 @@ SPREAD_FLOOR = math.radians(0.05)
 CLEAR = 0.9
 """Probability from which a candidate counts as told."""
 
+MUCH_UNEXPLAINED = 0.3
+"""Part of the mean ball pass: where the best candidate leaves more, the status says so."""
+
 LEAST_PROMINENCE = 6.0
 """Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
 
@@ -323,7 +326,13 @@ def _status(
             f"{math.degrees(c.extent):.1f}° ({100.0 * c.probability:.0f} %)" for c in likely
         )
         return False, f"The signal cannot tell these apart: {told}."
-    return True, (
+    words = (
         f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
         f"probability {100.0 * best.probability:.0f} %."
     )
+    if unexplained > MUCH_UNEXPLAINED:
+        words += (
+            f" It leaves {100.0 * unexplained:.0f} % of the mean ball pass unexplained: noise "
+            "is loud, or load, speed, support or bearing are not those of this machine."
+        )
+    return True, words

@@ -1,5 +1,6 @@
 """Sizing defects: of signals made here by another code path, and of scenes drawn by seed."""
 
+import dataclasses
 import functools
 import math
 
@@ -12,7 +13,7 @@ from bearingcore import Defect, Scene, contact_damping, presets, simulate
 from bearingcore.averaging import average_passes
 from bearingcore.fitting import Search
 from bearingcore.recording import Recording, read_table
-from bearingcore.sizing import Sizing, size_defect
+from bearingcore.sizing import Sizing, _status, size_defect
 from bearingcore.synthesis import Target, comparison_band, synthesise
 from bearingcore.variants import Tolerances, variant
 from tests.benchmarks.sizing_proof import SCORED, size_all
@@ -160,9 +161,21 @@ def test_the_paper_s_two_defects_are_told_apart(paper, extent, turns):
     assert (sized.best.turns, sized.conclusive) == (turns, True)
     assert sum(c.probability for c in sized.candidates) == pytest.approx(1.0)
     assert f"{turns} whole" in sized.status
+    assert "unexplained" not in sized.status
     extents = [c.extent for c in sized.candidates]
     assert extents == sorted(extents)
     assert len(extents) >= 4
+
+
+def test_an_answer_that_leaves_much_unexplained_says_so(paper):
+    """Seen where the load is a fifth off: the answer stands, and so does the doubt."""
+    sized = paper[12.9]
+    poor = dataclasses.replace(sized.best, waveform_misfit=np.array([0.4, 0.6]))
+    others = [c for c in sized.candidates if c is not sized.best]
+    conclusive, words = _status((poor, *others), sized.extent_uncertainty, sized.passes)
+    assert conclusive
+    assert words.startswith("The defect extends over 12.9°")
+    assert "leaves 50 % of the mean ball pass unexplained" in words
 
 
 @pytest.mark.parametrize("extent", [12.9, 38.6])

@@ -76,9 +76,32 @@ class LiveComponent(JSComponent):
         if not isinstance(event, DataEvent):
             super()._process_bokeh_event(doc, event)
             return
-        with set_curdoc(doc):
+
+        def hear() -> None:
             for heard in self._msg__callbacks:
                 heard(event)
+
+        on_loop(doc, hear)
+
+
+def on_loop(doc: Document | None, act: Callable[[], None]) -> None:
+    """Have `act` happen on the event loop of a session: now where this is it, else soon.
+
+    From 3.10 on Bokeh hands over in threads, which have no loop, what a browser says.
+    """
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        assert doc is not None
+
+        async def soon() -> None:
+            with set_curdoc(doc):
+                act()
+
+        doc.add_next_tick_callback(soon)
+    else:
+        with set_curdoc(doc) if doc is not None else nullcontext():
+            act()
 
 
 async def hand_on(session: Any, model: Any, data: Any) -> None:

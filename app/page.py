@@ -14,6 +14,7 @@ from app import compiling
 from app.assets import asset_text
 from app.explorer import Explorer, Section
 from app.lessons import Tabs, lessons_in, own_folder
+from app.live import on_loop
 from app.template import PageTemplate
 from app.views.accuracy import Accuracy
 from app.views.bearing import BearingDrawing
@@ -96,8 +97,9 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("plan", explorer.plan)
     template.add_panel("limits", explorer.limits)
     template.add_panel("wire", pn.pane.Bokeh(explorer.wire.anchor, margin=0))
-    pn.state.onload(explorer.start)
+    doc = pn.state.curdoc
+    pn.state.onload(lambda: on_loop(doc, explorer.start))
     pn.state.on_session_destroyed(lambda _: explorer.stop())
-    if (doc := pn.state.curdoc) is not None:
+    if doc is not None:
         doc.title = "Bearing explorer"
     return template

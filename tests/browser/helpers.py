@@ -109,11 +109,11 @@ def explorer_server(*options: str, environment: dict[str, str] | None = None) ->
     return Server(command, port, environment=environment or {})
 
 
-def page_server(name: str) -> Server:
-    """One of the small pages of tests/browser/pages, under `panel serve`."""
+def page_server(file: Path) -> Server:
+    """The page of a file, under `panel serve`."""
     port = free_port()
-    command = [sys.executable, "-m", "panel", "serve", str(PAGES / f"{name}.py")]
-    return Server([*command, "--port", str(port)], port, path=f"/{name}")
+    command = [sys.executable, "-m", "panel", "serve", str(file), "--port", str(port)]
+    return Server(command, port, path=f"/{file.stem}")
 
 
 @contextmanager

@@ -10,7 +10,16 @@ from contextlib import contextmanager
 from playwright.sync_api import Page, expect
 
 from tests.app.proxies import Proxy
-from tests.browser.helpers import Server, Watch, drag, explorer_server, serving
+from tests.browser.helpers import (
+    ROOT,
+    Server,
+    Watch,
+    choose_tab,
+    drag,
+    explorer_server,
+    page_server,
+    serving,
+)
 
 
 @contextmanager
@@ -69,3 +78,18 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         second.close()
         third.close()
     assert "Traceback" not in server.log
+
+
+def test_panel_serve_shows_the_page_too(watch: tuple[Page, Watch]) -> None:
+    page, _ = watch
+    with serving(page_server(ROOT / "app" / "app.py")) as server:
+        page.goto(server.url)
+        page.wait_for_function("window.__mark !== undefined", timeout=60_000)
+        drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
+        page.wait_for_function("window.__asked > 3 && window.__mark === window.__asked")
+        choose_tab(page, "stiffness")
+        expect(page.locator(".view-stiffness canvas").first).to_be_visible()
+        page.locator(".control-fy_n .number").fill("-150")
+        page.locator(".control-fy_n .number").press("Enter")
+        page.wait_for_function("window.__mark === window.__asked")
+        expect(page.locator(".view-stiffness [role=status]").first).not_to_be_empty()

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.helpers import Server, Watch, page_server, serving
+from tests.browser.helpers import PAGES, Server, Watch, page_server, serving
 
 
 @pytest.fixture(scope="module")
 def wire_page() -> Iterator[Server]:
-    with serving(page_server("wire")) as server:
+    with serving(page_server(PAGES / "wire.py")) as server:
         yield server
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import panel as pn
 from bokeh.plotting import figure
 
-from app.live import LatestWins, in_thread, one_message, send_at_once
+from app.live import LatestWins, in_thread, on_loop, one_message, send_at_once
 from app.views.base import View
 from app.wire import Wire
 
@@ -62,5 +62,5 @@ def ready():
     worker.submit(40)
 
 
-pn.state.onload(ready)
+pn.state.onload(lambda: on_loop(doc, ready))
 pn.Column(view.panel, nodelay, pn.pane.Bokeh(wire.anchor)).servable()

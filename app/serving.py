@@ -288,7 +288,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             finally:
                 session._current_patch_connection = None
 
-        await session.with_document_locked(apply, session.document)
+        await live.locked(session, apply)
 
     async def _wait_for_turn(self) -> None:
         now = time.monotonic()

@@ -325,20 +325,23 @@ def _motion(
     # where the force jumps, fixed steps have order 1; where it does not, nothing beats them
     if step_rate is None and _jumps(scene):
         way = _better(fixed, pilot.adaptive(), budget)
-    found, note, drop = None, "", 0.0
+    found, note, drop, arrival = None, "", 0.0, math.nan
     if view == SETTLED:
         drop = settling_time(scene)
         if not march:
             # where no march that was tried is good enough an orbit may take its time
             limit = way.cost * (drop + duration) if way.error <= budget else ORBIT_PATIENCE
             found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit)
+            arrival = math.nan if found is None else _arrival(found, way, sample_rate)
+            if found is not None and math.isnan(arrival):
+                found, note = None, f"{NO_STABLE_ORBIT} that the motion from rest comes to"
             if found is None and note.startswith(NO_STABLE_ORBIT):
                 way = _as_long_as_asked(scene, pilot, way, drop, duration)
     length = drop + duration
     seconds, calls = way.cost * length, way.calls * length
     if found is not None and orbital is not None:
         way, seconds, calls = orbital, orbital.cost, orbital.calls
-        drop = dying_time(found)
+        drop = arrival
         length = drop + duration
     planned = time.perf_counter()
     full_calls = 4.0 * FULL_RATE * length
@@ -382,6 +385,44 @@ def _better(one: _Way, other: _Way, budget: float) -> _Way:
 
 
 NO_STABLE_ORBIT = "marched, as there is no stable orbit"
+
+
+def _arrival(orbit: Orbit, way: _Way, sample_rate: float) -> float:
+    """Time [s] after which the motion from rest is that of a stable orbit; NaN where it never is.
+
+    Close to the orbit disturbances die in `dying_time`, but the way there may be longer, and a
+    machine may have several steady motions: which one it goes to hangs on where it begins.
+    """
+    adaptive = math.isnan(way.step_rate)
+    kind, setting = ("adaptive", way.tolerance) if adaptive else ("fixed", way.step_rate)
+    dying = dying_time(orbit)
+    for times in APPROACHES:
+        since = times * max(dying, LEAST_APPROACH)
+        with np.errstate(all="ignore"):
+            told = _told(kind, orbit.scene, since + orbit.period, sample_rate, setting)
+            marched = told.outer_acceleration
+            first = round(since * sample_rate)
+            steady = orbit.outer_acceleration(np.arange(first, len(marched)) / sample_rate)
+            away = np.sqrt(np.mean((marched[first:] - steady) ** 2, axis=0))
+        size = np.sqrt(np.mean(steady**2, axis=0))
+        counts = size > 1e-6 * size.max()
+        if np.all(away[counts] <= ARRIVED * size[counts]):
+            part = float(np.max(away[counts] / size[counts], initial=DEAD))
+            return since + dying * math.log(part / DEAD) / math.log(1.0 / DEAD)
+    return math.nan
+
+
+DEAD = 1e-3
+"""Part of a disturbance that is left when it counts as having died."""
+
+LEAST_APPROACH = 0.05
+"""[s] that the motion from rest is given at least to come to an orbit."""
+
+APPROACHES = (1, 2, 4, 8)
+"""How many times as long as disturbances take to die the motion is given to come near."""
+
+ARRIVED = 0.1
+"""Part of the orbit's acceleration by which a motion that is near to it may differ."""
 
 
 def _as_long_as_asked(scene: Scene, pilot: _Pilot, way: _Way, drop: float, duration: float) -> _Way:
@@ -583,7 +624,7 @@ def spectra_apart(found: Array, expected: Array, sample_rate: float, band: float
 def dying_time(found: Orbit) -> float:
     """Time [s] in which a disturbance of a stable orbit dies down to a thousandth."""
     largest = min(max(found.largest_multiplier, 1e-6), 1.0 - 1e-6)
-    return found.period * math.ceil(math.log(1e-3) / math.log(largest))
+    return found.period * math.ceil(math.log(DEAD) / math.log(largest))
 
 
 def settling_time(scene: Scene) -> float:

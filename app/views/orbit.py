@@ -36,6 +36,9 @@ MARCHED_POINTS = 3000
 MARCHED_PASSES = 8
 """Ball passes of the marched motion that are drawn beside the orbit."""
 
+FAR_APART = 3.0
+"""[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
+
 _LOST = {
     "-1": "Unstable: the period doubles",
     "pair": "Unstable: a second frequency is added",
@@ -211,7 +214,12 @@ class SteadyOrbit(View):
             return f"{_LOST_LONG[orbit.through]}; a pass makes disturbances {size} times as large."
         text = f"Every ball pass is alike; a pass leaves {size} of a small disturbance"
         gap = level_gap(results)
-        if math.isfinite(gap):
+        if gap > FAR_APART:
+            text += (
+                ". The marched motion, in grey, has not come to it: the spectra are up to "
+                f"{figures.number(gap, 2)} dB apart"
+            )
+        elif math.isfinite(gap):
             text += f". Its spectrum is within {figures.number(gap, 2)} dB of the marched one"
         return text + "."
 

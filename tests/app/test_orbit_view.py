@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -11,6 +12,7 @@ from app.results import Results
 from app.views.orbit import SteadyOrbit, level_gap, marched_path, orbit_path, orbit_status
 from app.wire import Wire
 from bearingcore import presets
+from tests.benchmarks.plans import random_scenes
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 DOUBLED = RIG.replace(shaft_speed=2.0 * math.pi * 30.0)
@@ -39,6 +41,14 @@ def test_a_stable_orbit_is_what_the_marched_motion_settles_to() -> None:
         assert np.ptp(path[dof]) == pytest.approx(np.ptp(marched[dof]), rel=0.01)
     assert level_gap(results) < 0.1
     assert "dB of the marched one" in SteadyOrbit(Wire()).sentence(results)
+
+
+def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
+    """From rest this motion takes more than a second to it."""
+    (scene,) = itertools.islice(random_scenes(102), 101, None)
+    results = Results(scene, moving=True)
+    assert level_gap(results) > 5.0
+    assert "has not come to it" in SteadyOrbit(Wire()).sentence(results)
 
 
 def test_the_status_says_what_kind_it_is() -> None:

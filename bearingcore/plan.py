@@ -7,6 +7,7 @@ is proven stable. A plan says what was chosen, the error to expect and what it c
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 from collections.abc import Iterable
@@ -23,7 +24,7 @@ from bearingcore.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.equilibrium import Equilibrium, equilibrium
 from bearingcore.modes import contact_damping, highest_natural_frequency, modes
 from bearingcore.motion import Motion, default_step_rate, is_flat, simulate
-from bearingcore.orbit import Orbit, orbit
+from bearingcore.orbit import NO_PERIOD, Orbit, common_ball_passes, orbit
 from bearingcore.scene import DOF_NAMES, Scene, check_dofs
 from bearingcore.spectrum import spectrum
 
@@ -299,8 +300,9 @@ class _Way(NamedTuple):
     """A way to march.
 
     Steps a second [Hz] for fixed ones, a tolerance for those that choose themselves, the other
-    NaN; its predicted error [dB], and calls and time for each second of motion (of an orbit: both
-    in all).
+    NaN; its predicted error [dB]; and for each second of motion (of an orbit: in all) calls, time,
+    and the `work`: as many calls with fixed steps as take that long. Ways are chosen by their work,
+    which does not hang on how busy the machine is.
     """
 
     step_rate: float
@@ -308,6 +310,7 @@ class _Way(NamedTuple):
     error: float
     calls: float
     cost: float
+    work: float
 
 
 def _motion(
@@ -330,7 +333,7 @@ def _motion(
         drop = settling_time(scene)
         if not march:
             # where no march that was tried is good enough an orbit may take its time
-            limit = way.cost * (drop + duration) if way.error <= budget else ORBIT_PATIENCE
+            limit = way.work * (drop + duration) if way.error <= budget else ORBIT_PATIENCE
             found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit)
             arrival = math.nan if found is None else _arrival(found, way, sample_rate)
             if found is not None and math.isnan(arrival):
@@ -380,7 +383,7 @@ def _jumps(scene: Scene) -> bool:
 def _better(one: _Way, other: _Way, budget: float) -> _Way:
     """The cheaper of two within the budget, else the more exact."""
     if one.error <= budget and other.error <= budget:
-        return min(one, other, key=lambda way: way.cost)
+        return min(one, other, key=lambda way: way.work)
     return min(one, other, key=lambda way: way.error)
 
 
@@ -450,34 +453,38 @@ def _stable_orbit(
     """The orbit where it is proven stable and within the budget, its way, or why there is none.
 
     Its spectrum is held against that of the same orbit in half the steps. None either where a march
-    takes no longer: `limit` [s]. The search ends there, so that no scene costs more to plan than
+    takes no more work than `limit`. The search ends there, so that no scene costs more to plan than
     that.
     """
+    passes = common_ball_passes(scene)
+    if passes is None:
+        return None, None, f"{NO_STABLE_ORBIT}: {NO_PERIOD}"
+    period = passes * scene.bearing.ball_spacing / scene.cage_speed
+    tangent = TANGENT_WORK[len(scene.active_dofs)]
     rate = asked or default_step_rate(scene, pilot.sample_rate, pilot.highest)
     time_ = np.arange(round(PILOT * pilot.sample_rate)) / pilot.sample_rate
 
-    def searched(start: Orbit | None, step_rate: float, left: float) -> tuple[Orbit, float]:
-        """The orbit and the time [s] it took; given up when that is more than is left.
-
-        Of the processor, as one look at a clock on the wall tells how busy others are.
-        """
+    def searched(start: Orbit | None, step_rate: float) -> tuple[Orbit, float, float]:
+        """The orbit, the work and the time [s] it took; given up when it is more than the limit."""
         began = time.thread_time()
+        of_a_period = tangent * 4.0 * math.ceil(period * step_rate)
+        periods = itertools.count(1)
         found = orbit(
             scene,
             start=start,
             step_rate=step_rate,
-            give_up=lambda: time.thread_time() - began > left,
+            give_up=lambda: next(periods) * of_a_period > limit,
         )
-        return found, time.thread_time() - began
+        return found, tangent * found.right_hand_side_calls, time.thread_time() - began
 
-    found, taken = searched(None, rate, limit)
+    found, work, seconds = searched(None, rate)
     for _ in range(1 if asked else ORBIT_DOUBLINGS):
-        if taken > limit:
-            return None, None, f"marched, as an orbit takes longer than {_duration(limit)}"
+        if work > limit:
+            return None, None, "marched, as an orbit takes longer"
         if not found.stable:
             through = f", through {found.through}" if found.through else ""
             return None, None, f"{NO_STABLE_ORBIT}: {found.status}{through}"
-        finer, more = searched(found, 2.0 * rate, limit)
+        finer, more, longer = searched(found, 2.0 * rate)
         apart = math.inf
         if finer.stable:
             coarse, fine = found.outer_acceleration(time_), finer.outer_acceleration(time_)
@@ -485,16 +492,20 @@ def _stable_orbit(
             safety = 2.0 * ORBIT_SAFETY if _jumps(scene) else ORBIT_SAFETY
             apart = safety * spectra_apart(coarse, fine, pilot.sample_rate, pilot.band)
         if apart <= pilot.budget or asked:
-            return found, _Way(rate, math.nan, apart, found.right_hand_side_calls, taken), ""
-        found, rate, taken = finer, 2.0 * rate, taken + more
+            way = _Way(rate, math.nan, apart, found.right_hand_side_calls, seconds, work)
+            return found, way, ""
+        found, rate, work, seconds = finer, 2.0 * rate, work + more, seconds + longer
     return None, None, "marched, as the steps of an orbit would have to be very short"
 
+
+TANGENT_WORK = {1: 4.0, 2: 5.0, 3: 5.0, 4: 6.0, 5: 7.0}
+"""Calls of a march that take as long as one with the tangent beside it, by directions."""
 
 ORBIT_SAFETY = 2.0
 """The same for orbits: what is compared is all there is."""
 
-ORBIT_PATIENCE = 1.0
-"""[s] that are spent on an orbit where marching is no alternative."""
+ORBIT_PATIENCE = 4e6
+"""Work that is spent on an orbit where marching is no alternative: about a second."""
 
 ORBIT_DOUBLINGS = 3
 """How often the steps of an orbit are halved before it is given up for a march."""
@@ -535,6 +546,11 @@ class _Pilot:
             n_dofs = 3  # the kernel for any directions
         return _seconds_a_call(kind, scene.bearing.n_balls, n_dofs, scene.contact_law)
 
+    @property
+    def adaptive_work(self) -> float:
+        """Calls with fixed steps that take as long as one where steps choose themselves."""
+        return 6.0 if is_flat(self.scene) else 2.0
+
     def _way(self, kind: str, setting: float, finer: float) -> _Way:
         found, calls = self.signal(kind, setting)
         truth = self.signal(kind, finer)[0]
@@ -544,7 +560,10 @@ class _Pilot:
             for since in (0, len(found) // 2)
         )
         rate, tolerance = (math.nan, setting) if kind == "adaptive" else (setting, math.nan)
-        return _Way(rate, tolerance, error, calls / PILOT, calls / PILOT * self.a_call(kind))
+        work = calls if kind == "fixed" else calls * self.adaptive_work
+        return _Way(
+            rate, tolerance, error, calls / PILOT, calls / PILOT * self.a_call(kind), work / PILOT
+        )
 
     def _at(self, rate: float) -> _Way:
         """What a rate is off by shows beside twice the rate.

@@ -122,7 +122,7 @@ def test_an_unstable_orbit_is_not_taken() -> None:
     assert slow.method == "orbit"
     assert slow.orbit is not None
     assert slow.orbit.stable
-    assert slow.seconds < 0.5 * slow.full_seconds
+    assert slow.evaluations < 0.5 * slow.full_evaluations
 
 
 def test_where_nothing_settles_errors_are_looked_for_as_long_as_the_motion_goes_on() -> None:

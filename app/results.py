@@ -76,9 +76,7 @@ class ComputedOnce(Generic[Answer]):
             future = self._known.get(key)
             mine = future is None
             if future is None:
-                future = self._known[key] = Future()
-                while len(self._known) > self._size:
-                    self._known.popitem(last=False)
+                future = self._add(key)
             else:
                 self._known.move_to_end(key)
         if mine:
@@ -92,10 +90,16 @@ class ComputedOnce(Generic[Answer]):
 
     def keep(self, answer: Answer, *key: Hashable) -> None:
         """Keep what was computed elsewhere."""
-        known: Future[Answer] = Future()
-        known.set_result(answer)
         with self._lock:
-            self._known.setdefault(key, known)
+            if key not in self._known:
+                self._add(key).set_result(answer)
+
+    def _add(self, key: tuple[Hashable, ...]) -> Future[Answer]:
+        """A place for one more answer; the lock is held."""
+        future = self._known[key] = Future[Answer]()
+        while len(self._known) > self._size:
+            self._known.popitem(last=False)
+        return future
 
     def knows(self, *key: Hashable) -> bool:
         """Whether the answer is there already."""
@@ -168,15 +172,15 @@ def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
     return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
 
 
-def _orbit(
-    scene: Scene, how: Marching, hasty: bool, give_up: Callable[[], bool] | None = None
-) -> Orbit:
-    """The orbit; where `hasty` is set, what a search of HASTY_PERIODS finds."""
+def _orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None) -> Orbit:
     rate = _coarse_step_rate(scene, how.sample_rate) if how.coarse else None
-    periods = itertools.count(1)
-    if hasty:
-        give_up = lambda: next(periods) >= HASTY_PERIODS  # noqa: E731
     return core.orbit(scene, step_rate=rate, give_up=give_up)
+
+
+def _hasty_orbit(scene: Scene, how: Marching) -> Orbit:
+    """What a search of HASTY_PERIODS finds."""
+    periods = itertools.count(1)
+    return _orbit(scene, how, lambda: next(periods) >= HASTY_PERIODS)
 
 
 def _affordable(duration: float, rate: float, by_hand: bool) -> float:
@@ -276,6 +280,7 @@ excerpts = ComputedOnce(_excerpt, 64)
 spectra = ComputedOnce(_spectra, 64)
 late_spectra = ComputedOnce(_late_spectra, 64)
 orbits = ComputedOnce(_orbit, 256)
+hasty_orbits = ComputedOnce(_hasty_orbit, 256)
 plans = ComputedOnce(_plan, 256)
 motion_plans = ComputedOnce(_plan, 24)  # with their orbits, some MB where those are long
 
@@ -659,23 +664,26 @@ class Results:
 
         The search is short while a hand moves.
         """
+        found = self._hasty_orbit
+        if found is None or self.moving or found.status != NOT_CONVERGED:
+            return found
+        return orbits(self.scene, self._marching)
+
+    @cached_property
+    def _hasty_orbit(self) -> Orbit | None:
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
-        found = orbits(self.scene, self._marching, True)
-        if self.moving or found.status != NOT_CONVERGED:
-            return found
-        return orbits(self.scene, self._marching, False)
+        return hasty_orbits(self.scene, self._marching)
 
     def seek_orbit(self, give_up: Callable[[], bool]) -> None:
         """Look for the orbit so that it is known afterwards, unless `give_up` says so before."""
-        if (self.ball_passes or 0) > LONGEST_ORBIT:
+        key = self.scene, self._marching
+        found = self._hasty_orbit
+        if found is None or found.status != NOT_CONVERGED or orbits.knows(*key):
             return
-        how = self._marching
-        found = orbits(self.scene, how, True)
-        if found.status == NOT_CONVERGED and not orbits.knows(self.scene, how, False):
-            found = _orbit(self.scene, how, False, give_up)
-            if not give_up():
-                orbits.keep(found, self.scene, how, False)
+        longer = _orbit(*key, give_up)
+        if not give_up():
+            orbits.keep(longer, *key)
 
     @cached_property
     def orbit_spectra(self) -> dict[str, Spectrum]:

@@ -312,6 +312,13 @@ class _Way(NamedTuple):
     cost: float
     work: float
 
+    @property
+    def told_by(self) -> tuple[str, float]:
+        """What `_told` calls it: its kind and setting."""
+        if math.isnan(self.step_rate):
+            return "adaptive", self.tolerance
+        return "fixed", self.step_rate
+
 
 def _motion(
     scene: Scene,
@@ -396,8 +403,7 @@ def _arrival(orbit: Orbit, way: _Way, sample_rate: float) -> float:
     Close to the orbit disturbances die in `dying_time`, but the way there may be longer, and a
     machine may have several steady motions: which one it goes to hangs on where it begins.
     """
-    adaptive = math.isnan(way.step_rate)
-    kind, setting = ("adaptive", way.tolerance) if adaptive else ("fixed", way.step_rate)
+    kind, setting = way.told_by
     dying = dying_time(orbit)
     for times in APPROACHES:
         since = times * max(dying, LEAST_APPROACH)
@@ -433,10 +439,8 @@ def _as_long_as_asked(scene: Scene, pilot: _Pilot, way: _Way, drop: float, durat
 
     Where nothing settles to an orbit, errors may grow for as long as the motion goes on.
     """
-    adaptive = math.isnan(way.step_rate)
-    kind = "adaptive" if adaptive else "fixed"
-    coarse = way.tolerance if adaptive else way.step_rate
-    fine = 1e-2 * coarse if adaptive else 2.0 * coarse
+    kind, coarse = way.told_by
+    fine = 1e-2 * coarse if kind == "adaptive" else 2.0 * coarse
     first = round(drop * pilot.sample_rate)
     with np.errstate(all="ignore"):
         found, truth = (
@@ -656,7 +660,7 @@ def settling_time(scene: Scene) -> float:
     known = rate[np.isfinite(rate)]
     if not known.size or known.min() <= 0.0:
         return 0.25
-    return min(max(math.log(1000.0) / float(known.min()), 0.05), 2.0)
+    return min(max(math.log(1.0 / DEAD) / float(known.min()), 0.05), 2.0)
 
 
 def _motion_offers(scene: Scene, pilot: _Pilot, seconds: float) -> tuple[Offer, ...]:

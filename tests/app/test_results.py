@@ -40,6 +40,17 @@ def test_the_least_used_leaves_first() -> None:
     assert calls == [1, 2, 3, 2]
 
 
+def test_what_is_kept_counts_as_what_was_computed() -> None:
+    calls = []
+    once = ComputedOnce(lambda key: calls.append(key) or key, 2)
+    for key in (1, 2, 3):
+        once.keep(10 * key, key)
+    once.keep(0, 3)
+    assert [once.knows(key) for key in (1, 2, 3)] == [False, True, True]
+    assert once(3) == 30
+    assert not calls
+
+
 def test_a_failure_reaches_everyone_and_is_not_kept() -> None:
     answers = iter([ValueError("no"), 5])
 
@@ -155,7 +166,7 @@ def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
 
     results.seek_orbit(overtaken)
     assert len(asked) <= 43
-    assert not orbits.knows(hopeless, results._marching, False)
+    assert not orbits.knows(hopeless, results._marching)
     results.seek_orbit(lambda: False)
     monkeypatch.setattr("app.results.core.orbit", None)
     assert results.orbit is not None

@@ -140,7 +140,7 @@ class Rows(LiveComponent):
     spec = param.Dict(default={})
     state = param.Dict(default={})
 
-    _stylesheets: ClassVar[list[str]] = [asset_text("controls.css")]
+    _stylesheets: ClassVar[list[str]] = [asset_text("button.css"), asset_text("controls.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)

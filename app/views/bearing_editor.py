@@ -44,6 +44,7 @@ class BearingRows(Rows):
 
     _esm = scripts("element.js", "rows.js", "bearing_picture.js", "bearing_editor.js")
     _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
         asset_text("controls.css"),
         asset_text("bearing_editor.css"),
     ]

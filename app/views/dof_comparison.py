@@ -38,6 +38,7 @@ class DofRows(Rows):
 
     _esm = scripts("element.js", "rows.js", "dof_comparison.js")
     _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
         asset_text("controls.css"),
         asset_text("dof_comparison.css"),
     ]

@@ -22,7 +22,11 @@ class LimitsStrip(LiveComponent):
     rows = param.List(default=[])
 
     _esm = asset_path("limits.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("footer.css"), asset_text("limits.css")]
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("footer.css"),
+        asset_text("limits.css"),
+    ]
 
 
 def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:

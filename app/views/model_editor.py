@@ -40,6 +40,7 @@ class ModelRows(Rows):
 
     _esm = scripts("element.js", "rows.js", "model_editor.js")
     _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
         asset_text("controls.css"),
         asset_text("model_editor.css"),
     ]

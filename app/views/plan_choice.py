@@ -38,7 +38,11 @@ class PlanChoice(LiveComponent):
     state = param.Dict(default={"plans": [], "resting": False, "chosen": {}, "by_hand": []})
 
     _esm = scripts("element.js", "plan_choice.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("footer.css"), asset_text("plan_choice.css")]
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("footer.css"),
+        asset_text("plan_choice.css"),
+    ]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         spec = {

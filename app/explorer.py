@@ -172,7 +172,7 @@ class Explorer:
         self._turns = Turns()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
         self._rest: Rest[Inputs, tuple[str, ...]] = Rest(
-            _planned, self._draw_by_plan, lambda: not self._worker.idle
+            _planned, self._draw_by_plan, self._worker.finished
         )
         self._rested: Inputs | None = None
         self.jobs = Jobs(lambda change: one_message(self._doc, change))
@@ -479,6 +479,7 @@ class Explorer:
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
+        self._turns.queued = 0.0
         if self._on_screen != self._shown:
             shown = self._shown
             if shown not in self._views:
@@ -502,7 +503,7 @@ class Explorer:
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await in_thread(_picture, results, slow, started, limits, slow=True)
+            picture = await self._turns.run_slow(_picture, results, slow, started, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
@@ -534,7 +535,7 @@ class Explorer:
         self._drawn_mark = self._drawn_mark if mark is None else mark
 
         def change() -> None:
-            self.wire.send(sources, ranges, self._drawn_mark)
+            self.wire.send(sources, ranges, self._drawn_mark, self._turns.queued)
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
             self.status.put(line=picture.status)

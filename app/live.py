@@ -168,6 +168,11 @@ class LatestWins(Generic[Inputs]):
         """Whether all that was submitted has been worked on or overtaken."""
         return not self._newest and (self._task is None or self._task.done())
 
+    async def finished(self) -> None:
+        """Wait until all that was submitted has been worked on or overtaken."""
+        while self._task is not None and not self._task.done():
+            await asyncio.wait({self._task})
+
     def submit(self, inputs: Inputs) -> None:
         """Take these inputs as the newest. Call it on the event loop of the session."""
         if self._stopped:

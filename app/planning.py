@@ -7,7 +7,7 @@ import dataclasses
 import logging
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Generic, TypeVar
 
@@ -31,7 +31,7 @@ from bearingcore.plan import (
 log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.25
-"""[s] without anything newer after which the hand counts as at rest."""
+"""[s] without anything newer after the last picture after which the hand counts as at rest."""
 
 #: plans of all sessions wait here for their turn: half of the machine stays with what moves
 _THREADS = ThreadPoolExecutor(
@@ -194,18 +194,18 @@ class Rest(Generic[Inputs, Thought]):
         runs in a thread; its second argument tells whether it was overtaken meanwhile.
     hand_over
         on the event loop, with what was thought, if nothing newer came.
-    busy
-        whether something more urgent goes on: thinking begins when it has ended.
+    drawn
+        waits until what was asked for is drawn: only then rest can begin.
     """
 
     def __init__(
         self,
         think: Callable[[Inputs, Callable[[], bool]], Thought],
         hand_over: Callable[[Inputs, Thought], None],
-        busy: Callable[[], bool],
+        drawn: Callable[[], Awaitable[None]],
         after: float = RESTS_AFTER,
     ) -> None:
-        self._think, self._hand_over, self._busy, self._after = think, hand_over, busy, after
+        self._think, self._hand_over, self._drawn, self._after = think, hand_over, drawn, after
         self._number = 0
         self._task: asyncio.Task[None] | None = None
 
@@ -226,9 +226,11 @@ class Rest(Generic[Inputs, Thought]):
             self._task.cancel()
 
     async def _run(self, inputs: Inputs, number: int) -> None:
+        # The page asks for the next picture only when the last is there. Counted from the question,
+        # a hand would seem to rest while it waits for a slow server, and thinking about what it has
+        # left behind would make the server slower still.
+        await self._drawn()
         await asyncio.sleep(self._after)
-        while self._busy():
-            await asyncio.sleep(0.02)
         waiting = _THREADS.submit(self._think, inputs, lambda: number != self._number)
         try:
             # cancelled before its turn, it never begins; later, nobody hears of it

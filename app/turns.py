@@ -30,6 +30,8 @@ class Turns:
 
     def __init__(self) -> None:
         self._cost: dict[Hashable, float] = {}
+        #: how long its pictures have waited for those of others, since somebody set it to 0 [s]
+        self.queued = 0.0
 
     def is_light(self, kind: Hashable) -> bool:
         """Whether the last picture of this kind was a light one."""
@@ -37,8 +39,10 @@ class Turns:
 
     async def run(self, kind: Hashable, function: Callable[..., Result], *args: object) -> Result:
         """Run `function` where its kind belongs, and remember what it cost."""
+        asked = time.perf_counter()
 
         def measured() -> Result:
+            self.queued += time.perf_counter() - asked
             before = time.thread_time()
             try:
                 return function(*args)
@@ -51,6 +55,16 @@ class Turns:
         async with turn:
             await asyncio.sleep(0.0)  # what browsers have said meanwhile
             return measured()
+
+    async def run_slow(self, function: Callable[..., Result], *args: object) -> Result:
+        """Run what takes long, in the threads that are for it."""
+        asked = time.perf_counter()
+
+        def begun() -> Result:
+            self.queued += time.perf_counter() - asked
+            return function(*args)
+
+        return await in_thread(begun, slow=True)
 
     def _note(self, kind: Hashable, seconds: float) -> None:
         if len(self._cost) >= _MOST_KINDS:

@@ -7,7 +7,7 @@ the sources the figures draw from and sets the ranges. Those sources are made wi
 
 The array is, in float32:
 
-    mark, number of sources, number of ranges,
+    mark, seconds in queues, number of sources, number of ranges,
     (source, columns, length) for each source sent,
     (range, start, end) for each range sent,
     the columns of the sources sent, one after the other.
@@ -15,8 +15,9 @@ The array is, in float32:
 Whole numbers up to 2**24 pass through float32 unharmed; NaN passes as NaN, a gap in a line.
 A source whose numbers are those of last time is not sent again, so its figure is not repainted.
 
-Tests and benchmarks read ``window.__frames`` (packets received) and ``window.__mark``
-(the `mark` of the newest packet: which inputs it belongs to).
+The controls read ``window.__mark`` (the `mark` of the newest packet: which inputs it belongs to),
+``window.__queued`` (how long these inputs waited for those of others [s]) and ``window.__arrived``
+(when it came [ms]); tests and benchmarks read ``window.__frames`` (packets received) too.
 """
 
 from __future__ import annotations
@@ -31,8 +32,8 @@ Columns = Mapping[str, np.ndarray]
 _UNPACK = """
 const t = cb_obj.data.packed
 const p = new Float32Array(t.buffer, t.byteOffset, t.length)
-const n_sources = p[1], n_ranges = p[2]
-let head = 3, body = 3 + 3*(n_sources + n_ranges)
+const n_sources = p[2], n_ranges = p[3]
+let head = 4, body = 4 + 3*(n_sources + n_ranges)
 const blocks = []
 for (let i = 0; i < n_sources; i++, head += 3) {
   const names = columns[p[head]], length = p[head + 2], data = {}
@@ -48,6 +49,8 @@ for (let i = 0; i < n_ranges; i++, head += 3)
 for (const [source, data] of blocks)
   source.data = data
 window.__frames = (window.__frames || 0) + 1
+window.__queued = p[1]
+window.__arrived = performance.now()
 window.__mark = p[0]
 """
 
@@ -61,7 +64,7 @@ class Wire:
         self._ranges: dict[str, Range1d] = {}
         self._sent_sources: dict[str, np.ndarray] = {}
         self._sent_ranges: dict[str, np.ndarray] = {}
-        self._packet = ColumnDataSource(data={"packed": np.zeros(3, np.float32)})
+        self._packet = ColumnDataSource(data={"packed": np.zeros(4, np.float32)})
         self._unpack = CustomJS(args=self._args(), code=_UNPACK)
         self._told = 0  # how many sources and ranges the browser's callback knows
         self._packet.js_on_change("data", self._unpack)
@@ -93,12 +96,14 @@ class Wire:
         data: Mapping[str, Columns],
         ranges: Mapping[str, tuple[float, float]] | None = None,
         mark: int = 0,
+        queued: float = 0.0,
     ) -> int:
         """Send what changed to the browser in one message; return its size [bytes].
 
-        `mark` travels with the packet, so that the browser can tell which inputs are drawn.
+        `mark` travels with the packet, so that the browser can tell which inputs are drawn;
+        `queued` is how long they waited for the inputs of others [s].
         """
-        packed = self.pack(data, ranges or {}, mark)
+        packed = self.pack(data, ranges or {}, mark, queued)
         if self._told != (known := len(self._sources) + len(self._ranges)):
             # Not when they are declared: the browser must have met them in a figure first.
             self._unpack.args = self._args()
@@ -111,6 +116,7 @@ class Wire:
         data: Mapping[str, Columns],
         ranges: Mapping[str, tuple[float, float]],
         mark: int = 0,
+        queued: float = 0.0,
     ) -> np.ndarray:
         """Pack what changed since the last packet into one float32 array."""
         heads: list[tuple[float, float, float]] = []
@@ -135,7 +141,7 @@ class Wire:
                 continue
             self._sent_ranges[name] = limits
             heads.append((range_order[name], start, end))
-        head = np.array([mark, n_sources, len(heads) - n_sources], np.float32)
+        head = np.array([mark, queued, n_sources, len(heads) - n_sources], np.float32)
         return np.concatenate([head, np.array(heads, np.float32).ravel(), *blocks])
 
     def forget(self) -> None:
@@ -150,11 +156,14 @@ class Wire:
         wanted = self._columns[name]
         if set(columns) != set(wanted):
             raise ValueError(f"source {name!r} has columns {wanted}, not {tuple(columns)}")
-        rows = [np.asarray(columns[column], np.float32).ravel() for column in wanted]
+        rows = [np.asarray(columns[column]) for column in wanted]
         if len({row.size for row in rows}) > 1:
             sizes = {column: row.size for column, row in zip(wanted, rows, strict=True)}
             raise ValueError(f"columns of source {name!r} differ in length: {sizes}")
-        return np.stack(rows)
+        block = np.empty((len(rows), rows[0].size), np.float32)
+        for packed, row in zip(block, rows, strict=True):
+            packed[:] = row.ravel()
+        return block
 
     def _args(self) -> dict[str, list]:
         return {

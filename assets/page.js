@@ -47,6 +47,22 @@
     window.dispatchEvent(new CustomEvent("explorer-play"))
   })
 
+  // Bokeh writes the style sheet of every part of a figure anew at each paint, the same or not, and
+  // the browser then works out the styles of the page again, ten times a picture. Where Bokeh
+  // changes what this is hung on, it is done as before.
+  const keep_styles = () => {
+    let sheet
+    try {
+      sheet = Bokeh.require("core/dom").InlineStyleSheet.prototype
+    } catch {
+      return
+    }
+    const { _update: write } = sheet
+    if (write) sheet._update = function (css) {
+      if (this.el.textContent !== css) write.call(this, css)
+    }
+  }
+
   // Figures that come later are marked and coloured as they come.
   const follow = () => {
     window.explorer_theme.follow()
@@ -54,6 +70,7 @@
   }
   const begun = () => {
     if (!window.Bokeh?.documents?.length) return setTimeout(begun, 30)
+    keep_styles()
     follow()
     let shown = root.dataset.tab
     window.addEventListener("explorer-tab", (event) => {

@@ -2,8 +2,10 @@
 //
 // What a hand moves is sent at once, but never more than two changes ahead of what is drawn
 // (`window.__mark` is the number of the newest change drawn): a slow server is asked less often,
-// and always for the newest position. The server judges everything; a refusal comes back as a
-// sentence that is shown beside its control.
+// and always for the newest position. A second change on the way bridges the network and the
+// repaint; where changes spend most of their way in the server's queue, behind those of other
+// people, it would only lengthen the queue, and one at a time is sent. The server judges
+// everything; a refusal comes back as a sentence that is shown beside its control.
 
 const AHEAD = 2           // changes that may be on their way
 const PATIENCE = 400      // ms until a change counts as lost
@@ -49,18 +51,32 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
   let pending = null, sent_at = 0, waiting = false
   let released = false, held = false
 
+  const on_way = new Map()  // when changes were sent
+  let crowded = false
+
   const drawn = () => window.__mark || 0
   const asked = () => window.__asked || 0
   const send = (message) => {
     window.__asked = asked() + 1
     sent_at = performance.now()
+    on_way.set(asked(), sent_at)
     model.send_msg({ mark: asked(), ...message })
+  }
+  const ahead = () => {
+    let way = 0
+    for (const [mark, began] of on_way) {
+      if (mark > drawn()) break
+      way = Math.max(way, window.__arrived - began)
+      on_way.delete(mark)
+    }
+    if (way) crowded = 1000 * window.__queued > way / 2
+    return crowded ? 1 : AHEAD
   }
   const late = () => performance.now() - sent_at > PATIENCE
   const pump = () => {
     waiting = false
     if (pending === null) return
-    if (asked() - drawn() >= AHEAD && !late()) {
+    if (asked() - drawn() >= ahead() && !late()) {
       waiting = true
       requestAnimationFrame(pump)
       return

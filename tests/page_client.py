@@ -19,6 +19,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
 _TOKEN = re.compile(rb'"token":"([^"]+)"')
+AHEAD, PATIENCE = 2, 0.4  # as in assets/rows.js
 LARGEST = 200 * 2**20  # bytes of a message that a client takes
 
 
@@ -30,6 +31,7 @@ class PageClient:
         self.on_packet = on_packet
         self.mark = 0
         self.drawn = 0
+        self.ahead = AHEAD  # changes that may be on their way now
         self.sources: dict[str, dict[str, np.ndarray]] = {}
         self.ranges: dict[str, tuple[float, float]] = {}
         self.messages: list[Any] = []  # of the server to the page's own components
@@ -41,6 +43,7 @@ class PageClient:
         self._known_sources: dict[int, tuple[str, list[str]]] = {}
         self._known_ranges: dict[int, str] = {}
         self._names: dict[str, str] = {}
+        self._on_way: dict[int, float] = {}  # when changes were asked for
         self._socket: WebSocketClientConnection | None = None
         self._task: asyncio.Task[None] | None = None
         self._replies: dict[str, asyncio.Future[Any]] = {}
@@ -74,6 +77,9 @@ class PageClient:
         self._socket = await websocket_connect(
             request, subprotocols=["bokeh", self.token], max_message_size=LARGEST
         )
+        stream = getattr(self._socket.protocol, "stream", None)
+        assert stream is not None
+        stream.set_nodelay(True)  # as browsers do
         self._task = asyncio.get_running_loop().create_task(self._read())
         while not self._welcome and not self.closed:
             await self.news(60.0)
@@ -126,6 +132,7 @@ class PageClient:
     async def ask(self, component: str = "Controls", **message: Any) -> int:
         """Ask for a change; return its mark."""
         self.mark += 1
+        self._on_way[self.mark] = time.perf_counter()
         await self.say(component, {"mark": self.mark, **message})
         return self.mark
 
@@ -200,9 +207,9 @@ class PageClient:
             self._packet(np.frombuffer(raw, np.float32))
 
     def _packet(self, packed: np.ndarray) -> None:
-        n_sources, n_ranges = int(packed[1]), int(packed[2])
-        heads = packed[3 : 3 + 3 * (n_sources + n_ranges)].reshape(-1, 3)
-        body = 3 + heads.size
+        n_sources, n_ranges = int(packed[2]), int(packed[3])
+        heads = packed[4 : 4 + 3 * (n_sources + n_ranges)].reshape(-1, 3)
+        body = 4 + heads.size
         for source, columns, length in heads[:n_sources].astype(int):
             name, names = self._known_sources[source]
             assert len(names) == columns
@@ -211,9 +218,13 @@ class PageClient:
             body += columns * length
         for index, start, end in heads[n_sources:]:
             self.ranges[self._known_ranges[int(index)]] = (float(start), float(end))
-        self.drawn = int(packed[0])
+        self.drawn, now = int(packed[0]), time.perf_counter()
+        arrived = [m for m in self._on_way if m <= self.drawn]
+        if arrived:
+            way = now - min(self._on_way.pop(m) for m in arrived)
+            self.ahead = 1 if packed[1] > 0.5 * way else AHEAD
         if self.on_packet is not None:
-            self.on_packet(self.drawn, time.perf_counter())
+            self.on_packet(self.drawn, now)
 
     # What is where in the document
 

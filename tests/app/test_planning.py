@@ -7,7 +7,7 @@ import dataclasses
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ from bokeh.models import Spacer
 
 from app import planning
 from app.explorer import Explorer, Section
+from app.live import LatestWins
 from app.planning import Rest, by_hand, chosen, plan_for, with_choices
 from app.results import Results, is_dear, plans
 from app.settings import MotionPlanning, Settings
@@ -209,16 +210,20 @@ def test_the_plan_in_full_has_a_row_for_each_kind_of_picture() -> None:
 # --- when the hand rests
 
 
+async def nothing_to_draw() -> None:
+    """All is drawn."""
+
+
 def rested(
     act: Callable[[Rest[int, int]], object],
-    busy: Callable[[], bool] = lambda: False,
+    drawn: Callable[[], Awaitable[None]] = nothing_to_draw,
     think: Callable[[int, Callable[[], bool]], int] = lambda number, _: 10 * number,
 ) -> list[tuple[int, int]]:
     """What is handed over when `act` begins things, 10 ms being rest."""
     handed: list[tuple[int, int]] = []
 
     async def live() -> None:
-        rest: Rest[int, int] = Rest(think, lambda *what: handed.append(what), busy, after=0.01)
+        rest: Rest[int, int] = Rest(think, lambda *what: handed.append(what), drawn, after=0.01)
         waited = act(rest)
         if asyncio.iscoroutine(waited):
             await waited
@@ -263,10 +268,36 @@ def test_what_was_overtaken_while_it_was_thought_about_is_told_so_and_never_draw
     assert told == [True]
 
 
-def test_it_waits_for_what_is_drawn_and_outlives_a_failure() -> None:
-    turns = iter([True, True, False, False, False])
-    assert rested(lambda rest: rest.begin(3), busy=lambda: next(turns)) == [(3, 30)]
+def test_rest_begins_when_what_was_asked_for_is_drawn() -> None:
+    """However long that takes: a hand that waits for a slow server does not rest."""
+    order: list[str] = []
+    worker: LatestWins[int]
 
+    async def draw(number: int) -> None:
+        await asyncio.sleep(0.05)
+        order.append(f"drawn {number}")
+
+    async def drawn() -> None:
+        await worker.finished()
+
+    def think(number: int, _: Callable[[], bool]) -> int:
+        order.append(f"thought {number}")
+        return number
+
+    async def act(rest: Rest[int, int]) -> None:
+        nonlocal worker
+        worker = LatestWins(draw)
+        for number in range(4):  # the page waits for each answer
+            worker.submit(number)
+            rest.begin(number)
+            while f"drawn {number}" not in order:
+                await asyncio.sleep(0.0)
+
+    assert rested(act, drawn, think) == [(3, 3)]
+    assert order == [*(f"drawn {number}" for number in range(4)), "thought 3"]
+
+
+def test_thinking_outlives_a_failure() -> None:
     def fails(number: int, _: Callable[[], bool]) -> int:
         raise RuntimeError(number)
 

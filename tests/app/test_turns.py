@@ -1,6 +1,7 @@
 """Light pictures in turn on the event loop, others in threads."""
 
 import asyncio
+import os
 import threading
 import time
 
@@ -76,6 +77,28 @@ def test_sessions_take_turns_and_between_two_the_loop_hears_what_was_said() -> N
     rounds = [set(order[k : k + 3]) for k in (0, 3, 6)]
     assert rounds == [set("abc")] * 3
     assert set(order_seen) >= set(range(9)), "the loop went round between any two pictures"
+
+
+def test_what_pictures_wait_for_others_is_known() -> None:
+    async def session() -> tuple[float, float, float]:
+        first, second, alone = Turns(), Turns(), Turns()
+        for turns in (first, second, alone):
+            await turns.run("kind", work, 0.0)
+            turns.queued = 0.0
+        await asyncio.gather(first.run("kind", time.sleep, 0.05), second.run("kind", work, 0.0))
+        await alone.run("kind", time.sleep, 0.05)
+        return first.queued, second.queued, alone.queued
+
+    first, second, alone = run(session())
+    assert second >= 0.05
+    assert max(first, alone) < second
+
+    async def slow() -> float:
+        turns = [Turns() for _ in range((os.cpu_count() or 2) + 1)]
+        await asyncio.gather(*(one.run_slow(time.sleep, 0.05) for one in turns))
+        return max(one.queued for one in turns)
+
+    assert run(slow()) >= 0.05
 
 
 def test_failures_come_through_and_the_next_has_its_turn() -> None:

@@ -15,8 +15,10 @@ def wire() -> Wire:
 
 
 def test_the_packet_says_what_it_holds() -> None:
-    packed = wire().pack({"b": {"z": [1, np.nan]}, "a": {"y": [3], "x": [2]}}, {"r": (5, 6)}, 7)
-    head = [7, 2, 1, 1, 1, 2, 0, 2, 1, 0, 5, 6]
+    packed = wire().pack(
+        {"b": {"z": [1, np.nan]}, "a": {"y": [3], "x": [2]}}, {"r": (5, 6)}, 7, 0.25
+    )
+    head = [7, 0.25, 2, 1, 1, 1, 2, 0, 2, 1, 0, 5, 6]
     np.testing.assert_array_equal(packed, np.float32([*head, 1, np.nan, 2, 3]))
     assert packed.dtype == np.float32
 
@@ -25,11 +27,11 @@ def test_what_did_not_change_is_not_sent_again() -> None:
     made = wire()
     first = {"a": {"x": [1, np.nan], "y": [0, 0]}, "b": {"z": [1]}}
     made.pack(first, {"r": (0, 2)})
-    np.testing.assert_array_equal(made.pack(first, {"r": (0, 2)}, 1), [1, 0, 0])
+    np.testing.assert_array_equal(made.pack(first, {"r": (0, 2)}, 1), [1, 0, 0, 0])
     first["b"]["z"] = [2]
-    np.testing.assert_array_equal(made.pack(first, {"r": (0, 2)}, 2), [2, 1, 0, 1, 1, 1, 2])
+    np.testing.assert_array_equal(made.pack(first, {"r": (0, 2)}, 2), [2, 0, 1, 0, 1, 1, 1, 2])
     made.forget()
-    assert made.pack(first, {"r": (0, 2)}, 3)[:3].tolist() == [3, 2, 1]
+    assert made.pack(first, {"r": (0, 2)}, 3)[:4].tolist() == [3, 0, 2, 1]
 
 
 @pytest.mark.parametrize(

@@ -28,9 +28,8 @@ import numpy as np
 from playwright.sync_api import Error, sync_playwright
 
 from tests.browser.helpers import chromium, explorer_server, serving
-from tests.page_client import PageClient
+from tests.page_client import PATIENCE, PageClient
 
-AHEAD, PATIENCE = 2, 0.4  # as in assets/rows.js
 FRAME = 1.0 / 60.0
 DRAG, REST = 5.0, 0.5  # [s]
 LOST = 5.0  # [s]
@@ -98,7 +97,7 @@ class Person:
                 await self._ask({"extent_deg": round(5.0 + 60.0 * share, 2)})
                 sent = time.perf_counter()
                 await asyncio.sleep(FRAME)
-                while self._client.mark - self._client.drawn >= AHEAD:
+                while self._client.mark - self._client.drawn >= self._client.ahead:
                     left = PATIENCE - (time.perf_counter() - sent)
                     if left <= 0.0 or self._client.closed:
                         break

@@ -76,6 +76,74 @@ def source(page: Page, name: str) -> dict[str, list[float]]:
     )
 
 
+@pytest.mark.parametrize(("queued", "sent_at_once"), [(0.0, 2), (1000.0, 1)])
+def test_a_queue_on_the_server_is_not_made_longer(
+    watch: tuple[Page, Watch], explorer: Server, queued: float, sent_at_once: int
+) -> None:
+    """Two changes may be on their way, but where they wait behind those of others only one."""
+    page, _ = watch
+    open_page(page, explorer)
+    page.evaluate(
+        "s => Object.defineProperty(window, '__queued', {get: () => s, set: () => {}})", queued
+    )
+    thumb = slider(page, "extent_deg")
+    move = """(slider, times) => {
+        const before = window.__asked || 0
+        for (let step = 1; step <= times; step++) {
+          slider.value = 20 + 5 * step
+          slider.dispatchEvent(new Event("input"))
+        }
+        return window.__asked - before
+    }"""
+    assert thumb.evaluate(move, 1) == 1
+    settle(page)
+    assert thumb.evaluate(move, 5) == sent_at_once
+    settle(page)
+    assert value(page, "extent_deg") == 45.0
+
+
+def test_a_repaint_writes_no_style_sheet_that_stays_the_same(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    """Each would have the browser work out the styles of the page anew."""
+    page, _ = watch
+    open_page(page, explorer)
+    page.evaluate(
+        """() => {
+        const texts = new Map()
+        window.__rewritten = window.__written = 0
+        const seen = (records) => {
+          for (const { target } of records) {
+            if (target.nodeName !== "STYLE") continue
+            window.__written++
+            if (texts.get(target) === target.textContent) window.__rewritten++
+            texts.set(target, target.textContent)
+          }
+        }
+        const observe = (root) => {
+          new MutationObserver(seen).observe(root, { subtree: true, childList: true })
+          for (const element of root.querySelectorAll("*")) {
+            if (element.nodeName === "STYLE") texts.set(element, element.textContent)
+            if (element.shadowRoot) observe(element.shadowRoot)
+          }
+        }
+        observe(document)
+        // what is to be found is found: a sheet of a figure written anew
+        const { InlineStyleSheet } = Bokeh.require("core/dom")
+        const extra = new InlineStyleSheet("a {}")
+        document.body.append(extra.el)
+        texts.set(extra.el, extra.el.textContent)
+        extra.el.textContent = extra.el.textContent
+      }"""
+    )
+    page.wait_for_function("window.__rewritten === 1")
+    paints = page.evaluate("window.__frames")
+    drag(page, slider(page, "extent_deg"), 0.3, 0.6)
+    settle(page)
+    assert page.evaluate("window.__frames") > paints
+    assert page.evaluate("window.__rewritten") == 1, "a style sheet was written anew as it was"
+
+
 def test_every_view_follows_the_slider(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)

@@ -172,7 +172,7 @@ class Explorer:
         self._turns = Turns()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
         self._rest: Rest[Inputs, tuple[str, ...]] = Rest(
-            _planned, self._draw_by_plan, self._worker.finished
+            _planned, self._draw_by_plan, self._worker.finished, self._turns, _kind_of_thought
         )
         self._rested: Inputs | None = None
         self.jobs = Jobs(lambda change: one_message(self._doc, change))
@@ -479,7 +479,7 @@ class Explorer:
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
-        self._turns.queued = 0.0
+        self._turns.worked = 0.0
         if self._on_screen != self._shown:
             shown = self._shown
             if shown not in self._views:
@@ -535,7 +535,7 @@ class Explorer:
         self._drawn_mark = self._drawn_mark if mark is None else mark
 
         def change() -> None:
-            self.wire.send(sources, ranges, self._drawn_mark, self._turns.queued)
+            self.wire.send(sources, ranges, self._drawn_mark, self._turns.worked)
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
             self.status.put(line=picture.status)
@@ -571,6 +571,12 @@ def _picture(
     drawings = [_drawing(results, view) for view in views]
     status = status_of(results, time.perf_counter() - started, shown)
     return Picture(drawings, status, rows_of(results.limits) if limits else None)
+
+
+def _kind_of_thought(inputs: Inputs) -> Hashable | None:
+    """What plans share that cost about the same. Those of motions may take seconds: no kind."""
+    curves = all(view in CURVES for view in inputs.planned)
+    return inputs.kind if curves and not inputs.seeks_orbit else None
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:

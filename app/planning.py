@@ -7,13 +7,14 @@ import dataclasses
 import logging
 import math
 import os
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Hashable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from app.settings import MotionPlanning, Settings
+from app.turns import Turns
 from bearingcore import Scene, orbit
 from bearingcore.modes import highest_natural_frequency
 from bearingcore.plan import (
@@ -185,13 +186,18 @@ def steps_by_hand(step_rate: float) -> str:
 # --- when the hand rests --------------------------------------------------------------------------
 
 
+class _OvertakenError(Exception):
+    """Something newer came meanwhile."""
+
+
 class Rest(Generic[Inputs, Thought]):
-    """Waits until the hand rests, thinks in a thread, and hands over; anything newer ends it.
+    """Waits until the hand rests, thinks, and hands over; anything newer ends it.
 
     Parameters
     ----------
     think
-        runs in a thread; its second argument tells whether it was overtaken meanwhile.
+        its second argument tells whether it was overtaken meanwhile. It runs in a thread, or in
+        turn with pictures where its `kind` was light before; what has no kind always in a thread.
     hand_over
         on the event loop, with what was thought, if nothing newer came.
     drawn
@@ -203,9 +209,12 @@ class Rest(Generic[Inputs, Thought]):
         think: Callable[[Inputs, Callable[[], bool]], Thought],
         hand_over: Callable[[Inputs, Thought], None],
         drawn: Callable[[], Awaitable[None]],
+        turns: Turns,
+        kind: Callable[[Inputs], Hashable | None],
         after: float = RESTS_AFTER,
     ) -> None:
         self._think, self._hand_over, self._drawn, self._after = think, hand_over, drawn, after
+        self._turns, self._kind = turns, kind
         self._number = 0
         self._task: asyncio.Task[None] | None = None
 
@@ -231,10 +240,18 @@ class Rest(Generic[Inputs, Thought]):
         # left behind would make the server slower still.
         await self._drawn()
         await asyncio.sleep(self._after)
-        waiting = _THREADS.submit(self._think, inputs, lambda: number != self._number)
+
+        def think() -> Thought:
+            thought = self._think(inputs, lambda: number != self._number)
+            if number != self._number:  # what it cost until then says nothing
+                raise _OvertakenError
+            return thought
+
         try:
             # cancelled before its turn, it never begins; later, nobody hears of it
-            thought = await asyncio.wrap_future(waiting)
+            thought = await self._turns.think(_THREADS, self._kind(inputs), think)
+        except _OvertakenError:
+            return
         except Exception:
             log.exception("planning failed")
             return

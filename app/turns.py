@@ -4,6 +4,9 @@ A thread that computes and the event loop take the interpreter from each other s
 picture, which costs as much as a light picture itself. With a class on board that is what everybody
 waits for. So what was light the last time, and is of the same kind now, is computed on the event
 loop: one session after the other, and between two of them all that browsers have said is heard.
+
+What a session thinks about while its hand rests would make the pictures of all others six times as
+dear from a thread. It has its turn too, where it is light, after all pictures that wait.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Hashable
+from concurrent.futures import Executor
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
@@ -20,9 +24,23 @@ Result = TypeVar("Result")
 
 LIGHT = 0.006
 """[s] of one core that a light picture may cost."""
+LIGHT_THOUGHT = 0.03
+"""[s] of one core that a light thought may cost."""
+PATIENCE = 2.0
+"""[s] that a light thought lets pictures pass."""
 _MOST_KINDS = 64
 
-_turns: WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock] = WeakKeyDictionary()
+
+class _Line:
+    """Who waits for a turn on one event loop."""
+
+    def __init__(self) -> None:
+        self.turn = asyncio.Lock()
+        self.thought = asyncio.Lock()
+        self.pictures = 0  # that wait
+
+
+_lines: WeakKeyDictionary[asyncio.AbstractEventLoop, _Line] = WeakKeyDictionary()
 
 
 class Turns:
@@ -30,43 +48,84 @@ class Turns:
 
     def __init__(self) -> None:
         self._cost: dict[Hashable, float] = {}
-        #: how long its pictures have waited for those of others, since somebody set it to 0 [s]
-        self.queued = 0.0
+        #: what its pictures have cost of one core, since somebody set it to 0 [s]
+        self.worked = 0.0
 
-    def is_light(self, kind: Hashable) -> bool:
-        """Whether the last picture of this kind was a light one."""
-        return self._cost.get(kind, LIGHT) < LIGHT
+    def is_light(self, kind: Hashable, light: float = LIGHT) -> bool:
+        """Whether pictures of this kind were light of late."""
+        return self._cost.get(kind, light) < light
 
     async def run(self, kind: Hashable, function: Callable[..., Result], *args: object) -> Result:
         """Run `function` where its kind belongs, and remember what it cost."""
-        asked = time.perf_counter()
 
         def measured() -> Result:
-            self.queued += time.perf_counter() - asked
-            before = time.thread_time()
-            try:
-                return function(*args)
-            finally:
-                self._note(kind, time.thread_time() - before)
+            return self._measured(kind, function, *args)
 
         if not self.is_light(kind):
             return await in_thread(measured)
-        turn = _turns.setdefault(asyncio.get_running_loop(), asyncio.Lock())
-        async with turn:
+        line = _line()
+        line.pictures += 1
+        try:
+            await line.turn.acquire()
+        finally:
+            line.pictures -= 1
+        try:
             await asyncio.sleep(0.0)  # what browsers have said meanwhile
             return measured()
+        finally:
+            line.turn.release()
 
     async def run_slow(self, function: Callable[..., Result], *args: object) -> Result:
         """Run what takes long, in the threads that are for it."""
-        asked = time.perf_counter()
+        return await in_thread(self._measured, None, function, *args, slow=True)
 
-        def begun() -> Result:
-            self.queued += time.perf_counter() - asked
-            return function(*args)
+    async def think(
+        self,
+        threads: Executor,
+        kind: Hashable | None,
+        function: Callable[..., Result],
+        *args: object,
+    ) -> Result:
+        """Run what nobody waits for: in `threads`, or where it is light after all pictures.
 
-        return await in_thread(begun, slow=True)
+        What has no kind is never light. Cancelled before it had its turn it never begins.
+        """
+        kind = None if kind is None else ("thought", kind)
 
-    def _note(self, kind: Hashable, seconds: float) -> None:
+        def measured() -> Result:
+            before = time.thread_time()
+            result = function(*args)
+            self._note(kind, time.thread_time() - before)
+            return result
+
+        if kind is None or not self.is_light(kind, LIGHT_THOUGHT):
+            return await asyncio.wrap_future(threads.submit(measured))
+        line = _line()
+        async with line.thought:
+            end = time.monotonic() + PATIENCE
+            while line.pictures and time.monotonic() < end:
+                await asyncio.sleep(0.01)
+            async with line.turn:
+                return measured()
+
+    def _measured(
+        self, kind: Hashable | None, function: Callable[..., Result], *args: object
+    ) -> Result:
+        before = time.thread_time()
+        result = function(*args)
+        cost = time.thread_time() - before
+        self._note(kind, cost)
+        self.worked += cost
+        return result
+
+    def _note(self, kind: Hashable | None, seconds: float) -> None:
+        if kind is None:
+            return
         if len(self._cost) >= _MOST_KINDS:
             self._cost.clear()
-        self._cost[kind] = seconds
+        # what was found among results that are known says little about the next
+        self._cost[kind] = max(seconds, 0.5 * self._cost.get(kind, 0.0))
+
+
+def _line() -> _Line:
+    return _lines.setdefault(asyncio.get_running_loop(), _Line())

@@ -7,7 +7,7 @@ the sources the figures draw from and sets the ranges. Those sources are made wi
 
 The array is, in float32:
 
-    mark, seconds in queues, number of sources, number of ranges,
+    mark, seconds of work, number of sources, number of ranges,
     (source, columns, length) for each source sent,
     (range, start, end) for each range sent,
     the columns of the sources sent, one after the other.
@@ -16,8 +16,9 @@ Whole numbers up to 2**24 pass through float32 unharmed; NaN passes as NaN, a ga
 A source whose numbers are those of last time is not sent again, so its figure is not repainted.
 
 The controls read ``window.__mark`` (the `mark` of the newest packet: which inputs it belongs to),
-``window.__queued`` (how long these inputs waited for those of others [s]) and ``window.__arrived``
-(when it came [ms]); tests and benchmarks read ``window.__frames`` (packets received) too.
+``window.__worked`` (what it took of one core [s]; all else of its way is waiting) and
+``window.__arrived`` (when it came [ms]); tests and benchmarks read ``window.__frames`` (packets
+received) too.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ for (let i = 0; i < n_ranges; i++, head += 3)
 for (const [source, data] of blocks)
   source.data = data
 window.__frames = (window.__frames || 0) + 1
-window.__queued = p[1]
+window.__worked = p[1]
 window.__arrived = performance.now()
 window.__mark = p[0]
 """
@@ -96,14 +97,14 @@ class Wire:
         data: Mapping[str, Columns],
         ranges: Mapping[str, tuple[float, float]] | None = None,
         mark: int = 0,
-        queued: float = 0.0,
+        worked: float = 0.0,
     ) -> int:
         """Send what changed to the browser in one message; return its size [bytes].
 
         `mark` travels with the packet, so that the browser can tell which inputs are drawn;
-        `queued` is how long they waited for the inputs of others [s].
+        `worked` is what it took of one core [s].
         """
-        packed = self.pack(data, ranges or {}, mark, queued)
+        packed = self.pack(data, ranges or {}, mark, worked)
         if self._told != (known := len(self._sources) + len(self._ranges)):
             # Not when they are declared: the browser must have met them in a figure first.
             self._unpack.args = self._args()
@@ -116,7 +117,7 @@ class Wire:
         data: Mapping[str, Columns],
         ranges: Mapping[str, tuple[float, float]],
         mark: int = 0,
-        queued: float = 0.0,
+        worked: float = 0.0,
     ) -> np.ndarray:
         """Pack what changed since the last packet into one float32 array."""
         heads: list[tuple[float, float, float]] = []
@@ -141,7 +142,7 @@ class Wire:
                 continue
             self._sent_ranges[name] = limits
             heads.append((range_order[name], start, end))
-        head = np.array([mark, queued, n_sources, len(heads) - n_sources], np.float32)
+        head = np.array([mark, worked, n_sources, len(heads) - n_sources], np.float32)
         return np.concatenate([head, np.array(heads, np.float32).ravel(), *blocks])
 
     def forget(self) -> None:

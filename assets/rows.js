@@ -2,13 +2,19 @@
 //
 // What a hand moves is sent at once, but never more than two changes ahead of what is drawn
 // (`window.__mark` is the number of the newest change drawn): a slow server is asked less often,
-// and always for the newest position. A second change on the way bridges the network and the
-// repaint; where changes spend most of their way in the server's queue, behind those of other
-// people, it would only lengthen the queue, and one at a time is sent. The server judges
-// everything; a refusal comes back as a sentence that is shown beside its control.
+// and always for the newest position. The server judges everything; a refusal comes back as a
+// sentence that is shown beside its control.
+//
+// The second change on the way bridges the network and the repaint. Where many people share a
+// server, changes wait there behind those of others, each as long as all others take. So one at a
+// time is sent then, and it waits here for a part of that time, where it is still the hand's
+// newest position: as many pictures come, each of a position not so long ago.
 
 const AHEAD = 2           // changes that may be on their way
 const PATIENCE = 400      // ms until a change counts as lost
+const CROWDED = 50        // ms of waiting for others; a repaint takes less
+const HELD = 0.6          // the part of them to be waited here ...
+const LONGEST_HELD = 150  // ms ... and no longer
 
 const format = (value, step) => {
   if (value === null) return ""
@@ -52,7 +58,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
   let released = false, held = false
 
   const on_way = new Map()  // when changes were sent
-  let crowded = false
+  let network = Infinity, held_back = 0
 
   const drawn = () => window.__mark || 0
   const asked = () => window.__asked || 0
@@ -62,21 +68,30 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     on_way.set(asked(), sent_at)
     model.send_msg({ mark: asked(), ...message })
   }
-  const ahead = () => {
-    let way = 0
+  // A picture has come: how long its change waited for others tells how to send the next.
+  const learn = () => {
+    let way = -Infinity
     for (const [mark, began] of on_way) {
       if (mark > drawn()) break
       way = Math.max(way, window.__arrived - began)
       on_way.delete(mark)
     }
-    if (way) crowded = 1000 * window.__queued > way / 2
-    return crowded ? 1 : AHEAD
+    if (way < 0) return
+    const elsewhere = Math.max(0, way - 1000 * window.__worked)
+    network = Math.min(network, elsewhere)
+    const waited = held_back + elsewhere - network
+    held_back = waited > CROWDED ? Math.min(HELD * waited, LONGEST_HELD) : 0
+  }
+  const may_send = () => {
+    learn()
+    return asked() - drawn() < (held_back ? 1 : AHEAD)
+      && performance.now() >= (window.__arrived || 0) + held_back
   }
   const late = () => performance.now() - sent_at > PATIENCE
   const pump = () => {
     waiting = false
     if (pending === null) return
-    if (asked() - drawn() >= ahead() && !late()) {
+    if (!may_send() && !late()) {
       waiting = true
       requestAnimationFrame(pump)
       return

@@ -19,7 +19,9 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
 _TOKEN = re.compile(rb'"token":"([^"]+)"')
-AHEAD, PATIENCE = 2, 0.4  # as in assets/rows.js
+# as in assets/rows.js
+AHEAD, PATIENCE = 2, 0.4
+CROWDED, HELD, LONGEST_HELD = 0.05, 0.6, 0.15
 LARGEST = 200 * 2**20  # bytes of a message that a client takes
 
 
@@ -31,7 +33,9 @@ class PageClient:
         self.on_packet = on_packet
         self.mark = 0
         self.drawn = 0
-        self.ahead = AHEAD  # changes that may be on their way now
+        self._network = float("inf")  # the least time a change has been on its way [s]
+        self._held = 0.0  # how long the next is held back [s]
+        self._arrived = 0.0
         self.sources: dict[str, dict[str, np.ndarray]] = {}
         self.ranges: dict[str, tuple[float, float]] = {}
         self.messages: list[Any] = []  # of the server to the page's own components
@@ -136,6 +140,16 @@ class PageClient:
         await self.say(component, {"mark": self.mark, **message})
         return self.mark
 
+    async def turn(self) -> None:
+        """Wait until the page would send its next change."""
+        sent = time.perf_counter()
+        while self.mark - self.drawn >= (1 if self._held else AHEAD):
+            left = PATIENCE - (time.perf_counter() - sent)
+            if left <= 0.0 or self.closed:
+                return
+            await self.news(left)
+        await asyncio.sleep(self._arrived + self._held - time.perf_counter())
+
     async def show(self, tab: str, component: str = "") -> None:
         """Open a tab, and wait for a component of it."""
         await self.say("Tabs", {"show": tab})
@@ -221,8 +235,12 @@ class PageClient:
         self.drawn, now = int(packed[0]), time.perf_counter()
         arrived = [m for m in self._on_way if m <= self.drawn]
         if arrived:
+            self._arrived = now
             way = now - min(self._on_way.pop(m) for m in arrived)
-            self.ahead = 1 if packed[1] > 0.5 * way else AHEAD
+            elsewhere = max(0.0, way - float(packed[1]))
+            self._network = min(self._network, elsewhere)
+            waited = self._held + elsewhere - self._network
+            self._held = min(HELD * waited, LONGEST_HELD) if waited > CROWDED else 0.0
         if self.on_packet is not None:
             self.on_packet(self.drawn, now)
 

@@ -19,6 +19,7 @@ from app.live import LatestWins
 from app.planning import Rest, by_hand, chosen, plan_for, with_choices
 from app.results import Results, is_dear, plans
 from app.settings import MotionPlanning, Settings
+from app.turns import Turns
 from app.views.base import View
 from app.views.plan import PlanInFull, how_of, remarks_of
 from app.views.status import status_of
@@ -223,7 +224,9 @@ def rested(
     handed: list[tuple[int, int]] = []
 
     async def live() -> None:
-        rest: Rest[int, int] = Rest(think, lambda *what: handed.append(what), drawn, after=0.01)
+        rest: Rest[int, int] = Rest(
+            think, lambda *what: handed.append(what), drawn, Turns(), hash, 0.01
+        )
         waited = act(rest)
         if asyncio.iscoroutine(waited):
             await waited

@@ -1,13 +1,13 @@
 """Light pictures in turn on the event loop, others in threads."""
 
 import asyncio
-import os
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from app.turns import LIGHT, Turns
+from app.turns import LIGHT, LIGHT_THOUGHT, Turns
 from tests.app.loops import run
 
 
@@ -29,7 +29,7 @@ def test_what_was_light_is_done_on_the_event_loop_next_time() -> None:
                 ("one", 0.0),  # nobody knows what it costs
                 ("one", 0.0),
                 ("two", 0.0),  # another kind
-                ("one", 2.0 * LIGHT),  # it was light
+                ("one", 1.5 * LIGHT),  # it was light
                 ("one", 0.0),  # it was not
                 ("one", 0.0),
             )
@@ -79,26 +79,95 @@ def test_sessions_take_turns_and_between_two_the_loop_hears_what_was_said() -> N
     assert set(order_seen) >= set(range(9)), "the loop went round between any two pictures"
 
 
-def test_what_pictures_wait_for_others_is_known() -> None:
-    async def session() -> tuple[float, float, float]:
-        first, second, alone = Turns(), Turns(), Turns()
-        for turns in (first, second, alone):
+def test_what_pictures_cost_is_known_however_long_they_waited() -> None:
+    async def session() -> tuple[float, float]:
+        busy, waits = Turns(), Turns()
+        for turns in (busy, waits):
             await turns.run("kind", work, 0.0)
-            turns.queued = 0.0
-        await asyncio.gather(first.run("kind", time.sleep, 0.05), second.run("kind", work, 0.0))
-        await alone.run("kind", time.sleep, 0.05)
-        return first.queued, second.queued, alone.queued
+            turns.worked = 0.0
+        await asyncio.gather(busy.run("kind", work, 0.05), waits.run("kind", time.sleep, 0.05))
+        await busy.run_slow(work, 0.05)
+        await waits.run_slow(time.sleep, 0.05)
+        return busy.worked, waits.worked
 
-    first, second, alone = run(session())
-    assert second >= 0.05
-    assert max(first, alone) < second
+    busy, waits = run(session())
+    assert busy >= 0.1
+    assert waits < 0.05
 
-    async def slow() -> float:
-        turns = [Turns() for _ in range((os.cpu_count() or 2) + 1)]
-        await asyncio.gather(*(one.run_slow(time.sleep, 0.05) for one in turns))
-        return max(one.queued for one in turns)
 
-    assert run(slow()) >= 0.05
+def test_light_thoughts_let_all_pictures_pass_and_heavy_ones_stay_in_threads() -> None:
+    order: list[str] = []
+
+    def note(name: str) -> str:
+        order.append(name)
+        return threading.current_thread().name
+
+    async def live() -> None:
+        here = threading.current_thread().name
+        turns = [Turns() for _ in range(4)]
+        with ThreadPoolExecutor(1, "thought") as threads:
+            for one in turns:  # nobody knows what they cost
+                assert await one.run("kind", work, 0.0) != here
+                assert (await one.think(threads, "kind", work, 0.0)).startswith("thought")
+            doing = [one.run("kind", note, f"picture {n}") for n, one in enumerate(turns[1:])]
+            doing.insert(2, turns[0].think(threads, "kind", note, "thought"))
+            assert set(await asyncio.gather(*doing)) == {here}
+            assert order[-1] == "thought"
+
+            assert (await turns[1].think(threads, None, work, 0.0)).startswith("thought")
+            await turns[1].think(threads, "kind", work, 2.0 * LIGHT_THOUGHT)
+            heavy = await turns[1].think(threads, "kind", work, 0.0)
+            assert heavy.startswith("thought")
+
+            # known results are found at once; that does not make the others light
+            await turns[2].think(threads, "kind", work, 8.0 * LIGHT_THOUGHT)
+            await turns[2].think(threads, "kind", work, 0.0)
+            assert (await turns[2].think(threads, "kind", work, 0.0)).startswith("thought")
+
+    run(live())
+
+
+def test_a_thought_has_its_turn_however_many_pictures_wait(monkeypatch) -> None:
+    monkeypatch.setattr("app.turns.PATIENCE", 0.02)
+    stop = False
+
+    async def drag(turns: Turns) -> None:
+        while not stop:
+            await turns.run("kind", work, 0.002)
+
+    async def live() -> str:
+        nonlocal stop
+        turns = [Turns() for _ in range(3)]
+        with ThreadPoolExecutor(1, "thought") as threads:
+            for one in turns:
+                await one.run("kind", work, 0.0)
+                await one.think(threads, "kind", work, 0.0)
+            hands = [asyncio.ensure_future(drag(one)) for one in turns]
+            where = await turns[0].think(threads, "kind", work, 0.0)
+            stop = True
+            await asyncio.gather(*hands)
+            return "here" if where == threading.current_thread().name else where
+
+    assert run(live()) == "here"
+
+
+def test_a_thought_that_was_overtaken_in_the_line_never_begins() -> None:
+    began: list[int] = []
+
+    async def live() -> None:
+        turns, other = Turns(), Turns()
+        with ThreadPoolExecutor(1) as threads:
+            await turns.think(threads, "kind", work, 0.0)
+            await other.run("kind", work, 0.0)
+            picture = asyncio.ensure_future(other.run("kind", work, 0.01))
+            thought = asyncio.ensure_future(turns.think(threads, "kind", began.append, 1))
+            await asyncio.sleep(0.0)
+            thought.cancel()
+            await picture
+            await turns.think(threads, "kind", began.append, 2)
+
+    run(live())
+    assert began == [2]
 
 
 def test_failures_come_through_and_the_next_has_its_turn() -> None:
@@ -110,6 +179,7 @@ def test_failures_come_through_and_the_next_has_its_turn() -> None:
         for _ in range(2):  # in a thread and on the loop
             with pytest.raises(RuntimeError, match="a bug"):
                 await turns.run("kind", fail)
+            await turns.run("kind", work, 0.0)
         return await turns.run("kind", work, 0.0) == threading.current_thread().name
 
     assert run(session())

@@ -6,7 +6,9 @@ changes ahead of what is drawn. Two are real browsers. All of them run on this m
 their share of its cores, which is printed; a real class brings its own.
 
 The time of an update is that from the change of a slider to the arrival of a packet that holds it
-or a newer one, in browsers to the end of the repaint. An update is lost where the last change of a
+or a newer one, in browsers to the end of the repaint. As the page asks for the newest position only,
+and when it is likely to be drawn soon, what a hand feels is longer: from each of its positions,
+sixty a second, asked for or not, to a picture of that or a newer one. An update is lost where the last change of a
 drag is not drawn within five seconds. Each person has a defect as deep and a load as high as
 nobody else's; every picture is looked at for the depth, and every 50th is computed anew here and
 compared number by number. A scene leaks where anything else comes back.
@@ -28,7 +30,7 @@ import numpy as np
 from playwright.sync_api import Error, sync_playwright
 
 from tests.browser.helpers import chromium, explorer_server, serving
-from tests.page_client import PATIENCE, PageClient
+from tests.page_client import PageClient
 
 FRAME = 1.0 / 60.0
 DRAG, REST = 5.0, 0.5  # [s]
@@ -48,6 +50,7 @@ class Notes:
 
     first_picture: float = float("nan")
     times: list[float] = field(default_factory=list)
+    felt: list[float] = field(default_factory=list)
     drags: int = 0
     lost: int = 0
     leaks: int = 0
@@ -68,6 +71,7 @@ class Person:
         self._asked: dict[int, float] = {}
         self._values: dict[int, dict[str, float]] = {}
         self._pictures = 0
+        self._felt_until = 0.0
         self._seen = 0
         self.depth = 20.0 + 2.5 * number  # [micrometres], nobody else's
         self.load = -(40.0 + 3.0 * number)  # [N]
@@ -91,17 +95,12 @@ class Person:
         end = time.perf_counter() + seconds
         phase = 0.37 * self._number
         while time.perf_counter() < end and not self._client.closed:
-            began = time.perf_counter()
+            began = self._felt_until = time.perf_counter()
             while (now := time.perf_counter()) - began < DRAG and now < end:
                 share = abs(((now - began) / 2.0 + phase) % 2.0 - 1.0)
                 await self._ask({"extent_deg": round(5.0 + 60.0 * share, 2)})
-                sent = time.perf_counter()
                 await asyncio.sleep(FRAME)
-                while self._client.mark - self._client.drawn >= self._client.ahead:
-                    left = PATIENCE - (time.perf_counter() - sent)
-                    if left <= 0.0 or self._client.closed:
-                        break
-                    await self._client.news(left)
+                await self._client.turn()
             phase += 0.61
             self.notes.drags += 1
             if not await self._client.until_drawn(seconds=LOST):
@@ -133,7 +132,10 @@ class Person:
 
     def _packet(self, mark: int, now: float) -> None:
         for asked in [m for m in self._asked if m <= mark]:
-            self.notes.times.append(now - self._asked.pop(asked))
+            then = self._asked.pop(asked)
+            self.notes.times.append(now - then)
+            self.notes.felt += [now - t for t in np.arange(then, self._felt_until, -FRAME)]
+            self._felt_until = max(then, self._felt_until)
         values = self._values.get(mark)
         if values is None or mark <= self._seen:
             return  # the same scene once more, drawn as planned for a hand that rests
@@ -181,6 +183,8 @@ def differences(notes: Notes) -> int:
 
 # Real browsers
 
+_FIRST_PAINT = """() => window.__mark !== undefined
+  && [...Bokeh.index.query((view) => typeof view._actual_paint === "function")].length > 0"""
 _NOTE_TIMES = """() => {
   window.__times = {}
   let asked = window.__asked || 0
@@ -189,10 +193,16 @@ _NOTE_TIMES = """() => {
     set: (mark) => { asked = mark; window.__times[mark] = performance.now() },
   })
   window.__updates = []
+  window.__felt = []
+  let moves = []
+  window.addEventListener("input", () => moves.push(performance.now()), true)
   const seen = (mark, now) => {
     for (const m of Object.keys(window.__times))
       if (Number(m) <= mark) {
-        window.__updates.push(now - window.__times[m])
+        const asked = window.__times[m]
+        window.__updates.push(now - asked)
+        window.__felt.push(...moves.filter((moved) => moved <= asked).map((moved) => now - moved))
+        moves = moves.filter((moved) => moved > asked)
         delete window.__times[m]
       }
   }
@@ -223,7 +233,7 @@ def browse(url: str, seconds: float, go: Any, found: list[Notes]) -> None:
             page.on("pageerror", lambda error: notes.troubles.append(str(error)))
             began = time.perf_counter()
             page.goto(url, timeout=120_000)
-            page.wait_for_function("window.__mark !== undefined", timeout=120_000)
+            page.wait_for_function(_FIRST_PAINT, timeout=120_000)
             notes.first_picture = time.perf_counter() - began
             page.evaluate(_NOTE_TIMES)
             thumb = page.locator("#control-extent_deg")
@@ -248,6 +258,7 @@ def browse(url: str, seconds: float, go: Any, found: list[Notes]) -> None:
                     notes.lost += 1
                 time.sleep(REST)
             notes.times = [0.001 * t for t in page.evaluate("window.__updates")]
+            notes.felt = [0.001 * t for t in page.evaluate("window.__felt")]
     except Error as error:
         notes.troubles.append(str(error))
 
@@ -377,14 +388,18 @@ def _print(
         f"{machine['took']:.0f} s; {os.cpu_count()} cores, {chosen.num_procs} process(es)"
     )
     print(f"{'':<12}{'updates':>9}{'a second':>10}{'median':>9}{'95 %':>9}{'99 %':>9}{'most':>9}")
-    for name, notes in (("clients", clients), ("browsers", browsers)):
-        times = np.array([t for one in notes for t in one.times])
+    everyone = [*clients, *browsers]
+    for name, found in (
+        ("clients", [one.times for one in clients]),
+        ("browsers", [one.times for one in browsers]),
+        ("hands", [one.felt for one in everyone]),
+    ):
+        times = np.array([t for one in found for t in one])
         if not times.size:
             continue
         shares = np.percentile(1000.0 * times, [50.0, 95.0, 99.0, 100.0])
         row = "".join(f"{share:>6.0f} ms" for share in shares)
         print(f"{name:<12}{times.size:>9}{times.size / machine['took']:>10.0f}{row}")
-    everyone = [*clients, *browsers]
     wrong = sum(differences(one) for one in clients)
     firsts = sorted(one.first_picture for one in everyone)
     print(

@@ -6,18 +6,19 @@ changes ahead of what is drawn. Two are real browsers. All of them run on this m
 their share of its cores, which is printed; a real class brings its own.
 
 The time of an update is that from the change of a slider to the arrival of a packet that holds it
-or a newer one, in browsers to the end of the repaint. As the page asks for the newest position only,
-and when it is likely to be drawn soon, what a hand feels is longer: from each of its positions,
-sixty a second, asked for or not, to a picture of that or a newer one. An update is lost where the last change of a
-drag is not drawn within five seconds. Each person has a defect as deep and a load as high as
-nobody else's; every picture is looked at for the depth, and every 50th is computed anew here and
-compared number by number. A scene leaks where anything else comes back.
+or a newer one, in browsers to the end of the repaint. As the page asks for the newest position
+only, and when it is likely to be drawn soon, what a hand feels is longer: from each of its
+positions, sixty a second, asked for or not, to a picture of that or a newer one. An update is lost
+where the last change of a drag is not drawn within five seconds. Each person has a defect as deep
+and a load as high as nobody else's; every picture is looked at for the depth, and every 50th is
+computed anew here and compared number by number. A scene leaks where anything else comes back.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import math
 import os
 import sys
 import threading
@@ -71,7 +72,7 @@ class Person:
         self._asked: dict[int, float] = {}
         self._values: dict[int, dict[str, float]] = {}
         self._pictures = 0
-        self._felt_until = 0.0
+        self._felt_until = math.inf
         self._seen = 0
         self.depth = 20.0 + 2.5 * number  # [micrometres], nobody else's
         self.load = -(40.0 + 3.0 * number)  # [N]
@@ -134,8 +135,9 @@ class Person:
         for asked in [m for m in self._asked if m <= mark]:
             then = self._asked.pop(asked)
             self.notes.times.append(now - then)
-            self.notes.felt += [now - t for t in np.arange(then, self._felt_until, -FRAME)]
-            self._felt_until = max(then, self._felt_until)
+            if then > self._felt_until:
+                self.notes.felt += [now - t for t in np.arange(then, self._felt_until, -FRAME)]
+                self._felt_until = then
         values = self._values.get(mark)
         if values is None or mark <= self._seen:
             return  # the same scene once more, drawn as planned for a hand that rests

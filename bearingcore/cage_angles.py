@@ -33,6 +33,9 @@ MOST_NODES = 4000
 LEAST_INTERVAL = 1e-7
 """Intervals below this part of a ball spacing are not divided any more."""
 
+SAME_ANGLE = 1e-12
+"""[rad] Kinks nearer than this to each other or to an end differ by rounding alone."""
+
 _TERMS = np.triu_indices(5)
 
 ROOT_SPLIT = 1.0 / 16.0
@@ -101,7 +104,10 @@ def path_kinks(scene: Scene, first: float, last: float) -> Array:
         s_floor = min(float(defect.edge_row(scene.bearing)[4]), 0.5 * defect.extent)
         found.append(at + inwards * s_floor / rate)
     angles = np.array(sorted(found))
-    return angles[(angles >= first) & (angles <= last)]
+    angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]
+    for end in (first, last):
+        angles[np.abs(angles - end) < SAME_ANGLE] = end
+    return angles[np.diff(angles, prepend=-math.inf) > SAME_ANGLE]
 
 
 def curves_of(state: Equilibrium, curves: str) -> Array:

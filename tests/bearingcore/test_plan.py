@@ -64,6 +64,14 @@ def test_nodes_stand_where_balls_touch() -> None:
     assert nodes.touches.size >= int(changes.sum()) > 0
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_kink_at_the_end_of_the_ball_spacing_makes_no_interval_without_length() -> None:
+    """A ball meets an edge there, but for rounding, and between such nodes there is no slope."""
+    scene = LIEW_LIM.replace(extent=0.06400044829220426, depth=39.67938498703571e-6)
+    for curves in ("load", "stiffness", "modes"):
+        assert np.diff(place(scene, curves, 5e-3).angles).min() > 1e-12
+
+
 @pytest.mark.parametrize(("seed", "view", "k"), [(1, "modes", 129), (3, "stiffness", 67)])
 def test_stiffness_jumps_where_groove_centres_pass_under_load(seed: int, view: str, k: int) -> None:
     """Too little for a test point beside the jump to notice, and more than the budget."""

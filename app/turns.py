@@ -48,7 +48,7 @@ class Turns:
 
     def __init__(self) -> None:
         self._cost: dict[Hashable, float] = {}
-        #: what its pictures have cost of one core, since somebody set it to 0 [s]
+        #: how long its pictures took once they had their turn, since somebody set it to 0 [s]
         self.worked = 0.0
 
     def is_light(self, kind: Hashable, light: float = LIGHT) -> bool:
@@ -111,11 +111,10 @@ class Turns:
     def _measured(
         self, kind: Hashable | None, function: Callable[..., Result], *args: object
     ) -> Result:
-        before = time.thread_time()
+        began, before = time.perf_counter(), time.thread_time()
         result = function(*args)
-        cost = time.thread_time() - before
-        self._note(kind, cost)
-        self.worked += cost
+        self._note(kind, time.thread_time() - before)
+        self.worked += time.perf_counter() - began
         return result
 
     def _note(self, kind: Hashable | None, seconds: float) -> None:

@@ -16,7 +16,7 @@ Whole numbers up to 2**24 pass through float32 unharmed; NaN passes as NaN, a ga
 A source whose numbers are those of last time is not sent again, so its figure is not repainted.
 
 The controls read ``window.__mark`` (the `mark` of the newest packet: which inputs it belongs to),
-``window.__worked`` (what it took of one core [s]; all else of its way is waiting) and
+``window.__worked`` (how long it took once it had its turn [s]; all else of its way is waiting) and
 ``window.__arrived`` (when it came [ms]); tests and benchmarks read ``window.__frames`` (packets
 received) too.
 """
@@ -102,7 +102,7 @@ class Wire:
         """Send what changed to the browser in one message; return its size [bytes].
 
         `mark` travels with the packet, so that the browser can tell which inputs are drawn;
-        `worked` is what it took of one core [s].
+        `worked` is how long they took once they had their turn [s].
         """
         packed = self.pack(data, ranges or {}, mark, worked)
         if self._told != (known := len(self._sources) + len(self._ranges)):

@@ -12,7 +12,7 @@
 
 const AHEAD = 2           // changes that may be on their way
 const PATIENCE = 400      // ms until a change counts as lost
-const CROWDED = 50        // ms of waiting for others; a repaint takes less
+const CROWDED = 80        // ms of waiting; repaints take less, the rest is for others
 const HELD = 0.6          // the part of them to be waited here ...
 const LONGEST_HELD = 150  // ms ... and no longer
 
@@ -58,7 +58,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
   let released = false, held = false
 
   const on_way = new Map()  // when changes were sent
-  let network = Infinity, held_back = 0
+  let network = Infinity, held_back = 0, answered = 0
 
   const drawn = () => window.__mark || 0
   const asked = () => window.__asked || 0
@@ -77,6 +77,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
       on_way.delete(mark)
     }
     if (way < 0) return
+    answered = window.__arrived
     const elsewhere = Math.max(0, way - 1000 * window.__worked)
     network = Math.min(network, elsewhere)
     const waited = held_back + elsewhere - network
@@ -85,7 +86,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
   const may_send = () => {
     learn()
     return asked() - drawn() < (held_back ? 1 : AHEAD)
-      && performance.now() >= (window.__arrived || 0) + held_back
+      && performance.now() >= answered + held_back
   }
   const late = () => performance.now() - sent_at > PATIENCE
   const pump = () => {

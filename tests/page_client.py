@@ -21,7 +21,7 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 _TOKEN = re.compile(rb'"token":"([^"]+)"')
 # as in assets/rows.js
 AHEAD, PATIENCE = 2, 0.4
-CROWDED, HELD, LONGEST_HELD = 0.05, 0.6, 0.15
+CROWDED, HELD, LONGEST_HELD = 0.08, 0.6, 0.15
 LARGEST = 200 * 2**20  # bytes of a message that a client takes
 
 

@@ -580,7 +580,7 @@ def _kind_of_thought(inputs: Inputs) -> Hashable | None:
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
-    """Those of `inputs.planned` that could be planned; in a thread.
+    """Those of `inputs.planned` that could be planned; in a thread, or in turn where that is light.
 
     The plans stay known, and so does an orbit that is looked for.
     """

@@ -186,10 +186,6 @@ def steps_by_hand(step_rate: float) -> str:
 # --- when the hand rests --------------------------------------------------------------------------
 
 
-class _OvertakenError(Exception):
-    """Something newer came meanwhile."""
-
-
 class Rest(Generic[Inputs, Thought]):
     """Waits until the hand rests, thinks, and hands over; anything newer ends it.
 
@@ -244,14 +240,12 @@ class Rest(Generic[Inputs, Thought]):
         def think() -> Thought:
             thought = self._think(inputs, lambda: number != self._number)
             if number != self._number:  # what it cost until then says nothing
-                raise _OvertakenError
+                raise asyncio.CancelledError
             return thought
 
         try:
             # cancelled before its turn, it never begins; later, nobody hears of it
             thought = await self._turns.think(_THREADS, self._kind(inputs), think)
-        except _OvertakenError:
-            return
         except Exception:
             log.exception("planning failed")
             return

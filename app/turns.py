@@ -91,39 +91,36 @@ class Turns:
         What has no kind is never light. Cancelled before it had its turn it never begins.
         """
         kind = None if kind is None else ("thought", kind)
-
-        def measured() -> Result:
-            before = time.thread_time()
-            result = function(*args)
-            self._note(kind, time.thread_time() - before)
-            return result
-
         if kind is None or not self.is_light(kind, LIGHT_THOUGHT):
-            return await asyncio.wrap_future(threads.submit(measured))
+            return await asyncio.wrap_future(threads.submit(self._noted, kind, function, *args))
         line = _line()
         async with line.thought:
             end = time.monotonic() + PATIENCE
             while line.pictures and time.monotonic() < end:
                 await asyncio.sleep(0.01)
             async with line.turn:
-                return measured()
+                return self._noted(kind, function, *args)
 
     def _measured(
         self, kind: Hashable | None, function: Callable[..., Result], *args: object
     ) -> Result:
-        began, before = time.perf_counter(), time.thread_time()
-        result = function(*args)
-        self._note(kind, time.thread_time() - before)
+        began = time.perf_counter()
+        result = self._noted(kind, function, *args)
         self.worked += time.perf_counter() - began
         return result
 
-    def _note(self, kind: Hashable | None, seconds: float) -> None:
-        if kind is None:
-            return
-        if len(self._cost) >= _MOST_KINDS:
-            self._cost.clear()
-        # what was found among results that are known says little about the next
-        self._cost[kind] = max(seconds, 0.5 * self._cost.get(kind, 0.0))
+    def _noted(
+        self, kind: Hashable | None, function: Callable[..., Result], *args: object
+    ) -> Result:
+        before = time.thread_time()
+        result = function(*args)
+        cost = time.thread_time() - before
+        if kind is not None:
+            if len(self._cost) >= _MOST_KINDS:
+                self._cost.clear()
+            # what was found among results that are known says little about the next
+            self._cost[kind] = max(cost, 0.5 * self._cost.get(kind, 0.0))
+        return result
 
 
 def _line() -> _Line:

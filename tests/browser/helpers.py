@@ -186,6 +186,22 @@ class Watch:
         self.frames_sent += 1
 
 
+def move(slider: Locator, *values: float) -> int:
+    """Move a slider to one value after the other at once; how many changes the page sent then."""
+    sent = slider.evaluate(
+        """(slider, values) => {
+          const before = window.__asked || 0
+          for (const value of values) {
+            slider.value = value
+            slider.dispatchEvent(new Event("input"))
+          }
+          return (window.__asked || 0) - before
+        }""",
+        list(values),
+    )
+    return int(sent)
+
+
 def drag(page: Page, slider: Locator, start: float, end: float, steps: int = 12) -> None:
     """Drag the thumb of a slider with the mouse; `start` and `end` are fractions of its track."""
     slider.scroll_into_view_if_needed()

@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from bearingcore import equilibrium, presets
-from tests.browser.helpers import Server, Watch, choose_tab, drag, explorer_server
+from tests.browser.helpers import Server, Watch, choose_tab, drag, explorer_server, move
 
 #: every view, and the tab it stands on
 VIEWS = {
@@ -84,15 +84,7 @@ def test_a_queue_on_the_server_is_not_made_longer(
     page, _ = watch
     open_page(page, explorer)
     thumb = slider(page, "extent_deg")
-    move = """(slider, values) => {
-        const before = window.__asked || 0
-        for (const value of values) {
-          slider.value = value
-          slider.dispatchEvent(new Event("input"))
-        }
-        return window.__asked - before
-    }"""
-    assert thumb.evaluate(move, [20]) == 1
+    assert move(thumb, 20) == 1
     settle(page)  # the time on the network is known
     page.evaluate(
         """waited => {
@@ -102,10 +94,10 @@ def test_a_queue_on_the_server_is_not_made_longer(
       }""",
         waited,
     )
-    assert thumb.evaluate(move, [22]) == 1
+    assert move(thumb, 22) == 1
     settle(page)
     asked = page.evaluate("window.__asked")
-    sent = thumb.evaluate(move, [25, 30, 35, 40, 45])
+    sent = move(thumb, 25, 30, 35, 40, 45)
     page.wait_for_function(f"window.__asked > {asked + sent}")  # the newest, a little later
     settle(page)
     assert number(page, "extent_deg").input_value() == "45"
@@ -121,11 +113,10 @@ def test_a_repaint_writes_no_style_sheet_that_stays_the_same(
     page.evaluate(
         """() => {
         const texts = new Map()
-        window.__rewritten = window.__written = 0
+        window.__rewritten = 0
         const seen = (records) => {
           for (const { target } of records) {
             if (target.nodeName !== "STYLE") continue
-            window.__written++
             if (texts.get(target) === target.textContent) window.__rewritten++
             texts.set(target, target.textContent)
           }

@@ -15,7 +15,7 @@ from app.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from app.views.matrix_cells import TERM_UNITS
 from app.wire import Wire
 from bearingcore import STIFFNESS_TERMS, Maps, presets
-from tests.browser.helpers import Server, Watch, drag
+from tests.browser.helpers import Server, Watch, drag, move
 from tests.browser.test_explorer import open_page, pixels, settle, slider, source
 
 LIEW_LIM = presets["liew-lim"]
@@ -152,18 +152,7 @@ def test_every_change_that_is_waited_for_is_drawn(
     open_maps(page, explorer)
     frames = page.evaluate("window.__frames")
     for step in range(1, 13):
-        value = -2000 - 40 * step
-        page.evaluate(
-            """value => {
-              const find = (root) => root.querySelector("#control-fy_n") ??
-                [...root.querySelectorAll("*")].map(e => e.shadowRoot && find(e.shadowRoot))
-                  .find(Boolean)
-              const slider = find(document)
-              slider.value = value
-              slider.dispatchEvent(new Event("input"))
-            }""",
-            value,
-        )
+        move(slider(page, "fy_n"), -2000 - 40 * step)
         page.wait_for_function("window.__mark >= window.__asked", timeout=2000)
     assert page.evaluate("window.__frames") - frames >= 12
     assert slider(page, "fy_n").input_value() == "-2480"

@@ -39,7 +39,8 @@ from bearingcore.adaptive import simulate_adaptive
 from bearingcore.defect import RACES
 from bearingcore.equilibrium import default_cage_angles
 from bearingcore.modes import highest_natural_frequency
-from bearingcore.motion import default_step_rate, is_flat
+from bearingcore.motion import default_step_rate
+from bearingcore.packing import is_planar
 from bearingcore.orbit import NOT_CONVERGED, common_ball_passes
 from bearingcore.passes import ball_drop
 from bearingcore.plan import CURVES, SETTLED
@@ -229,7 +230,7 @@ def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
     except ValueError:
         return False  # there is no motion
     touched = duration * rate * scene.bearing.n_balls
-    return touched * (1.0 if is_flat(scene) else GENERAL_COST) > MOST_TOUCHED
+    return touched * (1.0 if is_planar(scene) else GENERAL_COST) > MOST_TOUCHED
 
 
 GENERAL_COST = 4.0

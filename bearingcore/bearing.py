@@ -267,7 +267,7 @@ class Bearing:
 
         Its axial origin lies where the balls touch, A0 (sin α_f − sin α0) further along z: at the
         same loads δz is smaller by that and all else is equal. Two things are not the same, as
-        both hang on α0 and not on the angle under load: a defect lowers the ball along the unloaded
+        both depend on α0 and not on the angle under load: a defect lowers the ball along the unloaded
         line of contact, here at α_f; and the cage turns a little faster.
         """
         return dataclasses.replace(
@@ -285,19 +285,8 @@ class Bearing:
         return 2.0 * math.pi / self.n_balls
 
     @cached_property
-    def contact_numbers(self) -> tuple[int, float, float, float, float, float]:
-        """N_b, cos α0, sin α0, A0, r_L, K: what the contact kernels need, in their order."""
-        ca, sa = math.cos(self.contact_angle), math.sin(self.contact_angle)
-        A0, rL, K = (
-            self.groove_center_distance,
-            self.radial_clearance,
-            self.load_deflection_factor,
-        )
-        return self.n_balls, ca, sa, A0, rL, K
-
-    @cached_property
     def _ratio(self) -> float:
-        """D_b cos α0 / D_p, the number that all kinematics hang on."""
+        """D_b cos α0 / D_p, the number that all kinematics depend on."""
         return self.ball_diameter * math.cos(self.contact_angle) / self.pitch_diameter
 
     @property

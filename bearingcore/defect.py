@@ -153,7 +153,8 @@ class Defect:
         if inner and self.edge == "exact":
             code = kernels.INNER_EXACT
         turn = self.turn_ratio(bearing)
-        return np.array([self.center, turn, 0.5 * self.extent, h, s_floor, code, R, r_b, 0.0, 0.0])
+        edge = (self.center, turn, 0.5 * self.extent, h, s_floor, code, R, r_b)
+        return np.array([*edge, 0.0, 0.0, kernels.EVERY_ROW])
 
     def surface(self, angle: ArrayLike, bearing: Bearing) -> NDArray[np.float64]:
         """Actual depth [m] of the race at angles [rad], cage angle 0: what was cut."""
@@ -197,14 +198,12 @@ def edge_drop(
     rows = row[None, :].copy()
     rows[0, 0] = 0.0
     drop = np.full(away.size, math.inf)
-    drop[near] = kernels.ball_path(x, np.zeros_like(x), rows, np.zeros(0))
+    drop[near] = kernels.ball_path(x, np.zeros_like(x), 0, kernels.Path(rows, np.zeros(0)))
     return drop.reshape(np.shape(s))
 
 
 @lru_cache(maxsize=256)
-def path_tables(
-    defects: tuple[Defect, ...], bearing: Bearing
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """What the kernels need to know of all defects: rows of numbers, and paths as tables.
 
     The rows (n, len(kernels.PATH_COLUMNS)) describe one square defect each, or a stretch of the
@@ -234,7 +233,9 @@ def path_tables(
             tables.append(table)
         rows.append(row)
     columns = len(kernels.PATH_COLUMNS)
-    return np.array(rows).reshape(len(rows), columns), np.concatenate([*tables, np.zeros(0)])
+    return kernels.Path(
+        np.array(rows).reshape(len(rows), columns), np.concatenate([*tables, np.zeros(0)])
+    )
 
 
 def drop_into(
@@ -249,7 +250,7 @@ def drop_into(
     """
     angles = np.asarray(ball_angle, dtype=float) + np.zeros_like(cage_angle, dtype=float)
     cage = np.asarray(cage_angle, dtype=float) + np.zeros_like(angles)
-    drop = kernels.ball_path(angles.ravel(), cage.ravel(), *path_tables(defects, bearing))
+    drop = kernels.ball_path(angles.ravel(), cage.ravel(), 0, path_tables(defects, bearing))
     return drop.reshape(angles.shape)
 
 

@@ -23,7 +23,8 @@ from bearingcore.adaptive import simulate_adaptive
 from bearingcore.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.equilibrium import Equilibrium, equilibrium
 from bearingcore.modes import contact_damping, highest_natural_frequency, modes
-from bearingcore.motion import Motion, default_step_rate, is_flat, simulate
+from bearingcore.motion import Motion, default_step_rate, simulate
+from bearingcore.packing import is_planar
 from bearingcore.orbit import NO_PERIOD, Orbit, common_ball_passes, orbit
 from bearingcore.scene import DOF_NAMES, Scene, check_dofs
 from bearingcore.spectrum import spectrum
@@ -546,14 +547,14 @@ class _Pilot:
         """Time [s] of a right-hand side, with its share of everything else."""
         scene = self.scene
         n_dofs = len(scene.active_dofs)
-        if n_dofs == 2 and not is_flat(scene):
+        if n_dofs == 2 and not is_planar(scene):
             n_dofs = 3  # the kernel for any directions
         return _seconds_a_call(kind, scene.bearing.n_balls, n_dofs, scene.contact_law)
 
     @property
     def adaptive_work(self) -> float:
         """Calls with fixed steps that take as long as one where steps choose themselves."""
-        return 6.0 if is_flat(self.scene) else 2.0
+        return 6.0 if is_planar(self.scene) else 2.0
 
     def _way(self, kind: str, setting: float, finer: float) -> _Way:
         found, calls = self.signal(kind, setting)

@@ -37,6 +37,7 @@ from bearingcore import checks
 from bearingcore.equilibrium import Equilibrium, equilibrium
 from bearingcore.hertz import in_series
 from bearingcore.motion import STEPS_A_PASSAGE
+from bearingcore.packing import typical_compression
 from bearingcore.scene import Scene
 
 STATIC_PRESSURE = 4.2e9
@@ -275,7 +276,7 @@ def _compression(scene: Scene, load: float) -> Limit:
     if math.isnan(load):
         return _unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
     bearing = scene.bearing
-    compression = (load / bearing.load_deflection_factor) ** (2.0 / 3.0)
+    compression = typical_compression(bearing, load)
     share = compression / bearing.groove_center_distance
     crossed = share > GREATEST_COMPRESSION
     sentence = (

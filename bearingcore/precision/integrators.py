@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore import kernels
+from bearingcore.motion import moving_system
+from bearingcore.precision.compiled_methods import march_generalised_alpha, march_verlet
 from bearingcore.precision.problem import Array, MotionProblem
 
 MOST_CALLS = 200_000_000
@@ -77,57 +79,39 @@ def _told(done: int, n_steps: int, step_rate: float) -> str:
     return "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
 
 
-def _masses(problem: MotionProblem) -> tuple[Array, Array]:
-    return 1.0 / problem.bodies[1], 1.0 / problem.bodies[2]
-
-
 def _runge_kutta(
     problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
 ) -> March:
     """The program's own: variables that do not jump where the contact law allows them."""
-    if problem.scene.contact_law != "published":
-        return _plain_runge_kutta(problem, step_rate, duration, sample_rate)
-    n_steps = _steps(step_rate, duration)
-    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    y = problem.start.copy()
-    kernels.turn_smooth(y, 1.0, *problem.packed)
-    if not problem.flat:
-        done = kernels.march_smooth(y, n_steps, 1.0 / step_rate, *problem.packed, history)
-        return March(history, step_rate, 4 * n_steps, _told(done, n_steps, step_rate))
-    cage_speed, _, _, _, rL, K, c, _ = problem.numbers
-    n_balls = problem.scene.bearing.n_balls
-    paths = (problem.rows, problem.tables)
-    force, _, _, stiffness, damping = problem.bodies
-    inner, outer = _masses(problem)
-    done = kernels.march_flat(
-        y, n_steps, 1.0 / step_rate, 0.0, cage_speed, *paths, force, inner, outer, stiffness,
-        damping, n_balls, rL, K, c, history,
-    )  # fmt: skip
-    return March(history, step_rate, 4 * n_steps, _told(done, n_steps, step_rate))
+    system = moving_system(problem.scene, problem.dofs)
+    return _fixed(kernels.march, 4, problem, system, step_rate, duration)
 
 
 def _plain_runge_kutta(
     problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
 ) -> March:
-    n_steps = _steps(step_rate, duration)
-    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    cage_speed, ca, sa, A0, rL, K, c, pull = problem.numbers
-    force, _, _, stiffness, damping = problem.bodies
-    done = kernels.march(
-        problem.start.copy(), n_steps, 1.0 / step_rate, 0.0, cage_speed, problem.rows,
-        problem.tables, force, problem.active, *_masses(problem), stiffness, damping,
-        problem.scene.bearing.n_balls, ca, sa, A0, rL, K, c, pull > 0.0, history,
-    )  # fmt: skip
-    return March(history, step_rate, 4 * n_steps, _told(done, n_steps, step_rate))
+    return _fixed(kernels.march, 4, problem, problem.system, step_rate, duration)
 
 
 def _verlet(problem: MotionProblem, step_rate: float, duration: float, sample_rate: float) -> March:
+    return _fixed(march_verlet, 1, problem, problem.system, step_rate, duration)
+
+
+def _fixed(
+    march: Callable[..., int],
+    calls: int,
+    problem: MotionProblem,
+    system: kernels.System,
+    step_rate: float,
+    duration: float,
+) -> March:
+    """Explicit steps of one length, so many right-hand sides each."""
     n_steps = _steps(step_rate, duration)
     history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    done = kernels.march_verlet(
-        problem.start.copy(), n_steps, 1.0 / step_rate, *problem.packed, history
-    )
-    return March(history, step_rate, n_steps, _told(done, n_steps, step_rate))
+    y = problem.start.copy()
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    done = march(y, 1.0 / step_rate, 0.0, system, history)
+    return March(history, step_rate, calls * n_steps, _told(done, n_steps, step_rate))
 
 
 def _generalised_alpha(am: float, af: float) -> Marcher:
@@ -136,8 +120,8 @@ def _generalised_alpha(am: float, af: float) -> Marcher:
     ) -> March:
         n_steps = _steps(step_rate, duration)
         history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-        done, calls, unsolved = kernels.march_generalised_alpha(
-            problem.start.copy(), n_steps, 1.0 / step_rate, am, af, *problem.packed, history
+        done, calls, unsolved = march_generalised_alpha(
+            problem.start.copy(), 1.0 / step_rate, (am, af), 0.0, problem.system, history
         )
         failure = _told(done, n_steps, step_rate)
         if not failure and unsolved > n_steps // 100:
@@ -158,10 +142,12 @@ def _adaptive(stop_at_kinks: bool) -> Marcher:
             # a sliver of a step across each: smooth steps begin and end on the right side of it
             kinks = problem.kinks(duration)
             stops = np.sort(np.concatenate([kinks - KINK_SLIVER, kinks + KINK_SLIVER]))
+        adaptive = kernels.Adaptive(
+            1.0 / sample_rate, tolerance, problem.scale, stops, MOST_CALLS
+        )
         filled, _, _, calls = kernels.march_adaptive(
-            problem.start.copy(), 1.0 / sample_rate, tolerance, problem.scale, stops, MOST_CALLS,
-            *problem.packed, history,
-        )  # fmt: skip
+            problem.start.copy(), adaptive, 0.0, problem.system, history
+        )
         failure = (
             "" if filled > n else f"the step shrank to nothing at {filled / sample_rate:.2g} s"
         )
@@ -228,7 +214,7 @@ class _Limited:
 def history_of(problem: MotionProblem, time: Array, states: Array) -> Array:
     """History (n, 6, directions) of states (n, 4 directions) at times (n,) [s]."""
     n = len(problem.dofs)
-    rates = kernels.motion_rates(time, np.ascontiguousarray(states), *problem.packed)
+    rates = kernels.motion_rates(time, np.ascontiguousarray(states), 0.0, problem.system)
     history = np.empty((len(time), 6, n))
     for body in range(2):
         columns = slice(2 * body * n, (2 * body + 1) * n)

@@ -21,7 +21,7 @@ import numpy as np
 from bearingcore import Scene, equilibrium, presets
 from bearingcore.cage_angles import LEAST_INTERVAL, curves_of, swings
 from bearingcore.modes import highest_natural_frequency
-from bearingcore.motion import length_units
+from bearingcore.packing import length_units
 from bearingcore.plan import BAND, SETTLED, VIBRATION, Plan, plan, spectra_apart
 from bearingcore.precision.problem import motion_problem
 from bearingcore.precision.references import motion_reference

@@ -2,7 +2,7 @@
 
 ::
 
-    ... the scene, as `bearingcore.scene_file` has it ...
+    ... the scene, as `bearingcore.model.scene_file` has it ...
 
     [sweep]
     outputs = ["k_yy_mean", "loaded_balls_*", "band_*"]
@@ -26,8 +26,8 @@ from typing import Any
 
 import numpy as np
 
-from bearingcore import checks
-from bearingcore.scene_file import LARGEST_TEXT, scene_from_data
+from bearingcore.common import checks
+from bearingcore.model.scene_file import LARGEST_TEXT, scene_from_data
 from bearingcore.sweep.grid import MOST_AXES, MOST_VALUES, Grid
 from bearingcore.sweep.outputs import Settings
 

@@ -7,8 +7,10 @@ from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import EDGES, RACES, Defect
 from bearingcore.model.floor import MeasuredFloor, RoughFloor, read_floor
+from bearingcore.model.load import Load
 from bearingcore.model.presets import preset_notes, presets
-from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
+from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Scene
+from bearingcore.model.support import Support
 from bearingcore.signals.envelope_band import impulsive_band
 from bearingcore.signals.recording import Recording, Table, read_table
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum

@@ -49,7 +49,7 @@ from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
 from bearingcore import Scene
-from bearingcore.plan.choose import CURVES
+from bearingcore.plan import CURVES
 
 log = logging.getLogger(__name__)
 

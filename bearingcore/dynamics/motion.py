@@ -17,15 +17,13 @@ from bearingcore.dynamics.modes import contact_damping, highest_natural_frequenc
 from bearingcore.model.defect import path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import equilibrium
+from bearingcore.statics.passes import STEPS_A_PASSAGE
 
 STEPS_A_CYCLE = 16.0
 """Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
 error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim bearing, in five
 directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
 that asks for them, as steps stay stable down to 2.2."""
-
-STEPS_A_PASSAGE = 24.0
-"""Least number of steps while a ball passes a defect, by default."""
 
 MOST_STEPS = 10_000_000
 

@@ -13,8 +13,8 @@ from bearingcore.common import checks
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import body_numbers, is_flat, packed_numbers, static_start
 from bearingcore.model.scene import Scene
-from bearingcore.statics.cage_angles import path_kinks
 from bearingcore.statics.equilibrium import equilibrium
+from bearingcore.statics.passes import path_kinks
 
 Array = NDArray[np.float64]
 

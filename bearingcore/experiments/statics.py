@@ -22,9 +22,9 @@ from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
 from bearingcore.model.defect import path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene
-from bearingcore.statics.cage_angles import CURVES, curves_of, path_kinks, place, swings
+from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
-from bearingcore.statics.passes import ball_drop
+from bearingcore.statics.passes import ball_drop, path_kinks
 
 Array = NDArray[np.float64]
 
@@ -467,7 +467,7 @@ def angles_experiment(
     scene
         whose curves are drawn.
     curves
-        "load", "stiffness" or "modes": see `bearingcore.statics.cage_angles`. The mean is that of the
+        "load", "stiffness" or "modes": see `plan.cage_angles`. The mean is that of the
         same curves.
     progress, cancelled
         see `points`.

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,6 +42,8 @@ class RoughFloor:
     seed
         whole number; the same seed is the same surface, and a longer defect only continues it.
     """
+
+    kind: ClassVar[str] = "rough"
 
     rms_height: float
     correlation_length: float
@@ -109,6 +112,8 @@ class MeasuredFloor:
     depths
         at those places, over the defect's depth: 0 is the sound race, 1 the deepest point.
     """
+
+    kind: ClassVar[str] = "measured"
 
     places: tuple[float, ...]
     depths: tuple[float, ...]

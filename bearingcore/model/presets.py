@@ -8,7 +8,9 @@ from types import MappingProxyType
 
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import Defect
-from bearingcore.model.scene import Load, Scene, Support
+from bearingcore.model.load import Load
+from bearingcore.model.scene import Scene
+from bearingcore.model.support import Support
 
 # Table 1 of the paper gives masses and the radial support; the rest, which its motion in x and y
 # never uses, is assumed: the same spring and damper along z, and rings that tilt with the inertia

@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bearingcore.common import checks
+from bearingcore.model import scene_file
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import Defect, path_tables
+from bearingcore.model.load import Load
+from bearingcore.model.support import Support
 
 DOF_NAMES = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
@@ -20,94 +20,6 @@ DOF_NAMES = ("x", "y", "z", "rx", "ry")
 CONTACT_LAWS = ("published", "no tension")
 """`published`: viscous damping in every loaded contact (Eq. 18), which can pull as a ball leaves.
 `no tension`: the same, never below zero."""
-
-
-@dataclass(frozen=True)
-class Load:
-    """Static load on the inner ring (Eq. 2): forces [N] and moments [N·m]. Gravity-like: fy < 0."""
-
-    fx: float = 0.0
-    fy: float = 0.0
-    fz: float = 0.0
-    mx: float = 0.0
-    my: float = 0.0
-
-    def __post_init__(self) -> None:
-        for field in dataclasses.fields(self):
-            value = checks.number(field.name, getattr(self, field.name))
-            object.__setattr__(self, field.name, value)
-
-    @property
-    def vector(self) -> NDArray[np.float64]:
-        """(Fx, Fy, Fz, Mx, My), shape (5,) [N, N·m]."""
-        return np.array([self.fx, self.fy, self.fz, self.mx, self.my])
-
-
-@dataclass(frozen=True)
-class Support:
-    """Two rigid bodies: the inner ring with the shaft, and the outer ring with the housing, which
-    stands on springs and dampers to ground (Eqs. 22, 23).
-
-    Masses [kg], stiffness [N/m] and damping [N·s/m] along x, y, z; about x and y (rx, ry)
-    stiffness [N·m/rad], damping [N·m·s/rad] and moments of inertia [kg·m²]. What is None is not
-    known: a motion that needs it is refused by name.
-    """
-
-    inner_mass: float
-    outer_mass: float
-    stiffness_x: float
-    stiffness_y: float
-    damping_x: float
-    damping_y: float
-    stiffness_z: float | None = None
-    damping_z: float | None = None
-    stiffness_rx: float | None = None
-    stiffness_ry: float | None = None
-    damping_rx: float | None = None
-    damping_ry: float | None = None
-    inner_inertia: float | None = None
-    outer_inertia: float | None = None
-
-    def __post_init__(self) -> None:
-        for field in dataclasses.fields(self):
-            value = getattr(self, field.name)
-            if value is None and field.default is None:
-                continue
-            if field.name.startswith("damping"):
-                value = checks.number(field.name, value, at_least=0.0)
-            else:
-                value = checks.number(field.name, value, above=0.0)
-            object.__setattr__(self, field.name, value)
-
-    def _along(self, what: str, dofs: Iterable[str]) -> NDArray[np.float64]:
-        values = []
-        for dof in dofs:
-            value = getattr(self, f"{what}_{dof}")
-            if value is None:
-                raise checks.refuse(
-                    f"{what}_{dof}", None, f"a number, as {dof} is among the free directions"
-                )
-            values.append(value)
-        return np.array(values)
-
-    def stiffness(self, dofs: Iterable[str]) -> NDArray[np.float64]:
-        """Stiffness to ground along `dofs` [N/m, N·m/rad]. ValueError where it is not known."""
-        return self._along("stiffness", dofs)
-
-    def damping(self, dofs: Iterable[str]) -> NDArray[np.float64]:
-        """Damping to ground along `dofs` [N·s/m, N·m·s/rad]. ValueError where it is not known."""
-        return self._along("damping", dofs)
-
-    def inertia(self, body: str, dofs: Iterable[str]) -> NDArray[np.float64]:
-        """Mass [kg] or moment of inertia [kg·m²] of `body` ("inner", "outer") along `dofs`."""
-        values = []
-        for dof in dofs:
-            name = f"{body}_inertia" if dof in ("rx", "ry") else f"{body}_mass"
-            value = getattr(self, name)
-            if value is None:
-                raise checks.refuse(name, None, f"a number, as {dof} is among the free directions")
-            values.append(value)
-        return np.array(values)
 
 
 @dataclass(frozen=True)
@@ -204,11 +116,35 @@ class Scene:
         """The same scene without its defects."""
         return dataclasses.replace(self, defect=Defect.none())
 
+    def to_data(self) -> dict[str, Any]:
+        """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
+        defects = [scene_file.to_data(defect) for defect in self.defects]
+        return {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+
+    @classmethod
+    def from_data(cls, data: object) -> Scene:
+        """The scene of `to_data`.
+
+        Raises
+        ------
+        ValueError
+            that names the table and field, what stands there and what is allowed.
+        """
+        table = scene_file.table("scene", data)
+        version = table.pop("version", scene_file.VERSION)
+        if version != scene_file.VERSION or isinstance(version, bool):
+            raise checks.refuse("version", version, str(scene_file.VERSION))
+        if table.get("defect", []) == []:
+            table["defect"] = Defect.none()
+        elif isinstance(table["defect"], list) and len(table["defect"]) == 1:
+            only = table["defect"][0]
+            table["defect"] = scene_file.from_data(Defect, "defect 1", only)
+        table.setdefault("load", {})
+        return scene_file.from_data(cls, "scene", table, top=True)
+
     def to_toml(self) -> str:
         """The scene as text that `from_toml` reads; SI units and radians."""
-        from bearingcore.model.scene_file import to_toml  # that module needs this one
-
-        return to_toml(self)
+        return scene_file.to_toml(self.to_data())
 
     @classmethod
     def from_toml(cls, text: str) -> Scene:
@@ -219,9 +155,7 @@ class Scene:
         ValueError
             that names the table and field, what stands there and what is allowed.
         """
-        from bearingcore.model.scene_file import from_toml
-
-        return from_toml(text)
+        return cls.from_data(scene_file.from_toml(text))
 
     def replace(self, **changes: Any) -> Self:
         """A scene with fields changed, its own or those of its parts, by name.

@@ -14,6 +14,12 @@ from bearingcore.model.scene import Scene
 
 TWO_PI = 2.0 * math.pi
 
+SAME_ANGLE = 1e-12
+"""[rad] Kinks nearer than this to each other or to an end differ by rounding alone."""
+
+STEPS_A_PASSAGE = 24.0
+"""Least number of time steps while a ball passes a defect that keep its edges in a motion."""
+
 
 class Crossing(NamedTuple):
     """A ball centre passing an edge of a defect."""
@@ -65,3 +71,26 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
                     found.append(Crossing(at, ball, index, enters))
                     at += period
     return sorted(found)
+
+
+def path_kinks(scene: Scene, first: float, last: float) -> NDArray[np.float64]:
+    """Cage angles [rad] from first to last, rising, at which a ball meets an edge or a floor.
+
+    The path of a ball has a corner, or its curvature jumps, there and only there, as long as
+    floors are flat and defects stand apart.
+    """
+    found = []
+    for crossing in crossings(scene, first - math.pi, last + math.pi):
+        defect = scene.defects[crossing.defect]
+        rate = abs(1.0 - defect.turn_ratio(scene.bearing))
+        inwards = 1.0 if crossing.enters else -1.0
+        at = crossing.cage_angle
+        found.append(at)
+        # too short for the floor, it turns up again in the middle
+        s_floor = min(float(defect.edge_row(scene.bearing)[4]), 0.5 * defect.extent)
+        found.append(at + inwards * s_floor / rate)
+    angles = np.array(sorted(found))
+    angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]
+    for end in (first, last):
+        angles[np.abs(angles - end) < SAME_ANGLE] = end
+    return angles[np.diff(angles, prepend=-math.inf) > SAME_ANGLE]

@@ -34,10 +34,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.dynamics.motion import STEPS_A_PASSAGE
 from bearingcore.model.hertz import in_series
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.passes import STEPS_A_PASSAGE
 
 STATIC_PRESSURE = 4.2e9
 """Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""

@@ -1,9 +1,9 @@
 """Draw the README's charts of speed against accuracy: ``python -m tests.benchmarks.charts``.
 
-Runs every experiment of `bearingcore.experiments` on the paper's scenes, prints all points as tables
-and writes SVG figures to assets/figures/. Error is up, cost is to the right, both logarithmic, once
-as time and once as evaluations. A method that failed stands as a cross on the upper edge, with its
-name; the grey band is where the two families of the reference differ.
+Runs every experiment of `bearingcore.experiments` on the paper's scenes, prints all points as
+tables and writes SVG figures to assets/figures/. Error is up, cost is to the right, both
+logarithmic, once as time and once as evaluations. A method that failed stands as a cross on the
+upper edge, with its name; the grey band is where the two families of the reference differ.
 """
 
 from __future__ import annotations

@@ -23,8 +23,9 @@ from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import length_units
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.references import motion_reference
-from bearingcore.plan.choose import BAND, SETTLED, VIBRATION, Plan, plan, spectra_apart
-from bearingcore.statics.cage_angles import LEAST_INTERVAL, curves_of, swings
+from bearingcore.plan import SETTLED, VIBRATION, Plan, plan
+from bearingcore.plan.cage_angles import LEAST_INTERVAL, curves_of, swings
+from bearingcore.plan.pilot import BAND, spectra_apart
 
 SAMPLE_RATE = 65536.0
 

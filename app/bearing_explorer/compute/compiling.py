@@ -15,7 +15,7 @@ import threading
 from pathlib import Path
 
 from bearingcore import kernels, presets
-from bearingcore.plan.choose import SETTLED, plan
+from bearingcore.plan import SETTLED, plan
 
 _NICE = 10
 _lock = threading.Lock()
@@ -35,7 +35,11 @@ def begin() -> None:
         path = os.pathsep.join(path for path in sys.path if path)
         try:
             _helper = subprocess.Popen(
-                [sys.executable, "-c", "from bearing_explorer.compute import compiling; compiling.compile_all()"],
+                [
+                    sys.executable,
+                    "-c",
+                    "from bearing_explorer.compute import compiling; compiling.compile_all()",
+                ],
                 env={**os.environ, "PYTHONPATH": path},
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,

@@ -113,7 +113,7 @@ class Jobs:
     Parameters
     ----------
     assign
-        runs a change of the page's models and sends it, as `bearing_explorer.server.live.one_message` does.
+        runs a change of the page's models and sends it, as `live.one_message` does.
     """
 
     def __init__(self, assign: Callable[[Change], Awaitable[None]]) -> None:

@@ -17,17 +17,9 @@ from bearing_explorer.compute.scheduler import Turns
 from bearing_explorer.state.settings import MotionPlanning, Settings
 from bearingcore import Scene, orbit
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.plan.choose import (
-    BAND,
-    BUDGETS,
-    CURVES,
-    ORBIT_SAFETY,
-    PILOT,
-    SETTLED,
-    Plan,
-    plan,
-    spectra_apart,
-)
+from bearingcore.plan import BUDGETS, CURVES, SETTLED, Plan, plan
+from bearingcore.plan.motions import ORBIT_SAFETY
+from bearingcore.plan.pilot import BAND, PILOT, spectra_apart
 
 log = logging.getLogger(__name__)
 

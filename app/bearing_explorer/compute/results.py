@@ -41,13 +41,13 @@ from bearingcore.dynamics.motion import default_step_rate, is_flat
 from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
 from bearingcore.dynamics.repeated import repeated
 from bearingcore.model.defect import RACES
-from bearingcore.plan.choose import CURVES, SETTLED
+from bearingcore.plan import CURVES, SETTLED
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import ball_drop
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
-    from bearingcore.plan.choose import Plan
+    from bearingcore.plan import Plan
 
 Answer = TypeVar("Answer")
 

@@ -15,7 +15,7 @@ import numpy as np
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
 from bearingcore.dynamics.orbit import Orbit
-from bearingcore.plan.choose import CURVES
+from bearingcore.plan import CURVES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -100,13 +100,13 @@ def _motion(script: Script, results: Results) -> None:
     planned = chosen is not None and chosen.cage_angles is None
     if planned and chosen is not None and chosen.orbit is not None:
         script.core("orbit")
-        script.part("repeated", "repeated")
+        script.part("dynamics.repeated", "repeated")
         script.add(
             f"found = orbit(scene, step_rate={short(_least_rate(chosen.orbit))})",
             f"motion = repeated(found, {duration}, {rate})  # the periodic orbit, again and again",
         )
     elif planned and chosen is not None and chosen.method == "adaptive steps":
-        script.part("adaptive", "simulate_adaptive")
+        script.part("dynamics.adaptive", "simulate_adaptive")
         script.add(
             f"motion = simulate_adaptive(scene, {duration}, {rate}, "
             f"tolerance={short(chosen.tolerance)})"
@@ -138,7 +138,7 @@ def _anything(script: Script, results: Results, view: Any) -> None:
 def _bearing(script: Script, results: Results, view: Any) -> None:
     script.numpy()
     script.core("equilibrium")
-    script.part("passes", "ball_drop")
+    script.part("statics.passes", "ball_drop")
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
         "now = equilibrium(scene, [cage_angle])",
@@ -186,7 +186,7 @@ def _load_distribution(script: Script, results: Results, view: Any) -> None:
 def _depth_profile(script: Script, results: Results, view: Any) -> None:
     profile = results.profile
     script.numpy()
-    script.part("passes", "ball_drop")
+    script.part("statics.passes", "ball_drop")
     first, last = float(profile.angle[0]), float(profile.angle[-1])
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
@@ -412,7 +412,7 @@ def _stability_map(script: Script, results: Results, view: Any) -> None:
         _nothing_yet(script)
         return
     script.numpy()
-    script.part("stability_map", "stability_map")
+    script.part("dynamics.stability_map", "stability_map")
     script.add(
         "found = stability_map(",
         "    scene,",
@@ -450,7 +450,7 @@ def _explore(script: Script, results: Results, view: Any) -> None:
             f'values = swept["{choice.output}"]{mode}.values',
         )
     else:
-        script.part("sizing_error", "extent_error")
+        script.part("diagnosis.sizing_error", "extent_error")
         script.add(
             f"x, y = {x[1]}, {y[1]}",
             "values = np.full((y.size, x.size), np.nan)",
@@ -471,7 +471,7 @@ def _speed_run(script: Script, results: Results, view: Any) -> None:
         _nothing_yet(script)
         return
     script.numpy()
-    script.part("speed_run", "speed_run")
+    script.part("dynamics.speed_run", "speed_run")
     speeds = found.run.shaft_speed
     step = found.run.frequency[1] - found.run.frequency[0]
     script.add(
@@ -496,7 +496,7 @@ def _accuracy(script: Script, results: Results, view: Any) -> None:
         return
     chart = "stability_chart(scene, duration=0.1)"
     call = _EXPERIMENTS.get(getattr(found.result, "name", ""), chart)
-    script.part("precision", call.partition("(")[0])
+    script.part("experiments", call.partition("(")[0])
     which = "trials" if call is chart else "points"
     script.add(f"result = {call}", f"for point in result.{which}:", "    print(point)")
 

@@ -97,7 +97,7 @@ class Measurement:
     editor
         of the scene that is measured.
     assign
-        runs a change of the page's models and sends it, as `bearing_explorer.server.live.one_message` does.
+        runs a change of the page's models and sends it, as `live.one_message` does.
     draw
         asks for a drawing.
     """

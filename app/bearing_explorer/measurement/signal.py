@@ -1,6 +1,6 @@
 """A measured signal beside a scene: spectra and envelopes of both, computed when first asked for.
 
-As with `bearing_explorer.compute.results`, everything that is drawn of a measurement passes through here.
+As with `compute.results`, everything that is drawn of a measurement passes through here.
 """
 
 from __future__ import annotations

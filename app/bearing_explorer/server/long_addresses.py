@@ -13,11 +13,12 @@ from tornado.httputil import HTTPServerRequest
 from tornado.routing import Matcher, Rule
 from tornado.web import RequestHandler
 
+from bearing_explorer.state.address import TOO_LONG
+
 LONGEST = 16_000
 """Characters of an address that reaches the page; links of the page have at most half of that."""
 LONGEST_HEADER = 2_500_000
 """Bytes of headers that are read before a connection is cut: browsers send addresses of 2 MB."""
-TOO_LONG = "too-long"
 
 
 class _IsLong(Matcher):

@@ -42,7 +42,6 @@ from functools import cache, lru_cache
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from bearing_explorer.server.long_addresses import TOO_LONG
 from bearing_explorer.state.quantities import (
     DEFECT_FIELDS,
     QUANTITIES,
@@ -69,6 +68,9 @@ from bearingcore import (
 )
 from bearingcore.model.drawing import OPTIONAL_FIELDS
 from bearingcore.model.floor import MOST_ROWS
+
+TOO_LONG = "too-long"
+"""Version of an address that the server put in place of one that was far too long."""
 
 VERSION = "1"
 LONGEST_LINK = 7_000

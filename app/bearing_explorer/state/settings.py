@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bearingcore.plan.choose import BUDGETS, CURVES, SETTLED
+from bearingcore.plan import BUDGETS, CURVES, SETTLED
 
 STEADY = ("auto", "orbit", "march")
 """What the settled vibration is taken from: the program's choice, the periodic orbit, a march."""

@@ -554,5 +554,5 @@ def legend(result: Experiment | StabilityChart | None) -> str:
         f" {html.escape(words)}</span>"
         for color, sign, words in items
     )
-    look = f"{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"
-    return f'<div style="{look}">{spans}</div>'
+    box = f"{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"
+    return f'<div style="{box}">{spans}</div>'

@@ -1,6 +1,6 @@
 """What a view is: figures made once, numbers pushed through the wire, one live sentence.
 
-A view never computes physics. It says in `needs` which attributes of `bearing_explorer.compute.results.Results` it
+A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes, and give it

@@ -216,7 +216,7 @@ class BearingDrawing(View):
             "text_color": style.FAINT_INK,
         }
         loads = wire.source("bearing_load_words", "x", "y", "kind", "value", "angle")
-        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **style)
+        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
         scale = wire.source("bearing_scale_words", "x", "y", "scale")
         plot.text(
             "x",

@@ -17,11 +17,11 @@ from bearing_explorer.server.packed_source import Wire
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.plan_choice import TITLES
 from bearing_explorer.widgets.status import DOF_SYMBOLS, scientific
-from bearingcore.plan.choose import CURVES, SETTLED
+from bearingcore.plan import CURVES, SETTLED
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-    from bearingcore.plan.choose import Plan
+    from bearingcore.plan import Plan
 
 HEADS = (
     "What is drawn",

@@ -15,7 +15,7 @@ from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import Wire
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
-from bearingcore.plan.choose import SETTLED
+from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results

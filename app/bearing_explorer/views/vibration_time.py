@@ -14,7 +14,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import Wire
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearingcore.plan.choose import SETTLED
+from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results

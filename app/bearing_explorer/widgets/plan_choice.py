@@ -11,7 +11,7 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute import compiling
 from bearing_explorer.compute.planning import CHOICES, by_hand, chosen
 from bearing_explorer.server.live import LiveComponent
-from bearingcore.plan.choose import SETTLED
+from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results

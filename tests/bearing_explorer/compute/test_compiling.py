@@ -12,7 +12,7 @@ from bearing_explorer.compute import compiling
 from bearing_explorer.session import Inputs, _planned
 
 from bearingcore import kernels, orbit, presets
-from bearingcore.plan.choose import SETTLED
+from bearingcore.plan import SETTLED
 
 
 class Helper:

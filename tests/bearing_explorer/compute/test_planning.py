@@ -24,7 +24,7 @@ from bearing_explorer.widgets.status import status_of
 from bokeh.models import Spacer
 
 from bearingcore import equilibrium, presets
-from bearingcore.plan.choose import BUDGETS, SETTLED
+from bearingcore.plan import BUDGETS, SETTLED
 from tests.bearing_explorer.loops import run
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]

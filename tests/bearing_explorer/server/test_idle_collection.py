@@ -58,14 +58,14 @@ def test_garbage_of_many_young_collections_is_due_without_being_asked_for() -> N
 
 _PROCESS = """
 import asyncio, gc, weakref
-from app import collecting
+from bearing_explorer.server import idle_collection
 import panel.io.document as panel_document
 
 class Session:
     pass
 
 async def live():
-    collecting.begin(lambda: 60.0)
+    idle_collection.begin(lambda: 60.0)
     session = Session()
     session.itself = session
     gone = weakref.ref(session)

@@ -34,7 +34,6 @@ from bearingcore import (
     RoughFloor,
     presets,
 )
-from bearingcore.model.scene_file import scene_data
 
 FROZEN = tomllib.loads((Path(__file__).parent / "frozen_links.toml").read_text("utf-8"))["link"]
 
@@ -143,7 +142,7 @@ def test_links_of_earlier_days_open(link: dict) -> None:
     place = opened(link["text"], editor)
     assert place.note == ""
     assert (place.cage_angle, place.tab) == (link.get("cage_angle", 0.0), link.get("tab", ""))
-    same(scene_data(editor.scene), link["scene"])
+    same(editor.scene.to_data(), link["scene"])
 
 
 def same(found: object, kept: object) -> None:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
-from bearingcore.model.scene_file import LARGEST_TEXT, scene_data, scene_from_data
+from bearingcore.model.scene_file import LARGEST_TEXT
 
 
 @pytest.mark.parametrize("name", list(presets))
@@ -33,7 +33,7 @@ def test_floors_several_defects_and_options_come_back() -> None:
 
 def test_a_sound_scene_has_no_defect_table() -> None:
     sound = presets["fan-rig"].sound()
-    assert scene_data(sound)["defect"] == []
+    assert sound.to_data()["defect"] == []
     assert Scene.from_toml(sound.to_toml()).defects == ()
 
 
@@ -68,10 +68,10 @@ def test_all_digits_are_kept(extent: float, depth: float, fy: float) -> None:
     ],
 )
 def test_wrong_data_are_refused_by_name(change, words: str) -> None:
-    data = scene_data(presets["fan-rig"])
+    data = presets["fan-rig"].to_data()
     change(data)
     with pytest.raises(ValueError, match=words):
-        scene_from_data(data)
+        Scene.from_data(data)
 
 
 @pytest.mark.parametrize("text", ["", "= 3", "[[[", "a" * 100, "x = " + "[" * 5000])
@@ -105,4 +105,4 @@ _JUNK = st.recursive(
 @given(_JUNK)
 def test_nothing_but_a_clear_refusal_comes_of_junk(junk: object) -> None:
     with pytest.raises(ValueError, match=r"."):
-        scene_from_data(junk)
+        Scene.from_data(junk)

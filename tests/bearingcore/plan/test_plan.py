@@ -11,18 +11,11 @@ import pytest
 
 from bearingcore import equilibrium, orbit, presets, simulate
 from bearingcore.dynamics.orbit import NOT_CONVERGED
-from bearingcore.plan.choose import (
-    BUDGETS,
-    SETTLED,
-    VIBRATION,
-    VIEWS,
-    _arrival,
-    _Way,
-    dying_time,
-    plan,
-)
-from bearingcore.statics.cage_angles import curves_of, path_kinks, place, swings
-from bearingcore.statics.passes import ball_drop
+from bearingcore.plan import BUDGETS, SETTLED, VIBRATION, VIEWS, plan
+from bearingcore.plan.cage_angles import curves_of, place, swings
+from bearingcore.plan.motions import arrival_time, dying_time
+from bearingcore.plan.pilot import Way
+from bearingcore.statics.passes import ball_drop, path_kinks
 from tests.benchmarks.plans import held_curves, held_motion, random_scenes
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -159,11 +152,11 @@ def test_a_plan_waits_until_the_motion_from_rest_has_come_to_its_orbit() -> None
 
 def test_an_orbit_that_the_motion_never_comes_to_is_known_as_such() -> None:
     found = orbit(FAN_RIG)
-    way = _Way(65536.0, math.nan, 0.0, 0.0, 0.0, 0.0)
-    arrival = _arrival(found, way, 65536.0)
+    way = Way(65536.0, math.nan, 0.0, 0.0, 0.0, 0.0)
+    arrival = arrival_time(found, way, 65536.0)
     assert 0.05 <= arrival <= 2.0 * dying_time(found)
     elsewhere = dataclasses.replace(found, scene=FAN_RIG.replace(fy=-90.0))
-    assert math.isnan(_arrival(elsewhere, way, 65536.0))
+    assert math.isnan(arrival_time(elsewhere, way, 65536.0))
 
 
 def test_the_search_for_an_orbit_ends_where_a_march_is_cheaper() -> None:

@@ -18,7 +18,7 @@ from bearingcore.common import checks
 from bearingcore.dynamics.modes import two_body_matrix
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
-from bearingcore.statics.passes import ball_drop, crossings
+from bearingcore.statics.passes import ball_drop, path_kinks
 
 Array = NDArray[np.float64]
 
@@ -32,9 +32,6 @@ FIRST_NODES = 20
 MOST_NODES = 4000
 LEAST_INTERVAL = 1e-7
 """Intervals below this part of a ball spacing are not divided any more."""
-
-SAME_ANGLE = 1e-12
-"""[rad] Kinks nearer than this to each other or to an end differ by rounding alone."""
 
 _TERMS = np.triu_indices(5)
 
@@ -85,29 +82,6 @@ class CageAngles:
     predicted_error: float
     solved: int
     met: bool
-
-
-def path_kinks(scene: Scene, first: float, last: float) -> Array:
-    """Cage angles [rad] from first to last, rising, at which a ball meets an edge or a floor.
-
-    The path of a ball has a corner, or its curvature jumps, there and only there, as long as
-    floors are flat and defects stand apart.
-    """
-    found = []
-    for crossing in crossings(scene, first - math.pi, last + math.pi):
-        defect = scene.defects[crossing.defect]
-        rate = abs(1.0 - defect.turn_ratio(scene.bearing))
-        inwards = 1.0 if crossing.enters else -1.0
-        at = crossing.cage_angle
-        found.append(at)
-        # too short for the floor, it turns up again in the middle
-        s_floor = min(float(defect.edge_row(scene.bearing)[4]), 0.5 * defect.extent)
-        found.append(at + inwards * s_floor / rate)
-    angles = np.array(sorted(found))
-    angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]
-    for end in (first, last):
-        angles[np.abs(angles - end) < SAME_ANGLE] = end
-    return angles[np.diff(angles, prepend=-math.inf) > SAME_ANGLE]
 
 
 def curves_of(state: Equilibrium, curves: str) -> Array:

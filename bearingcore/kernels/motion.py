@@ -22,8 +22,6 @@ the contacts (`planar`), and nothing else of its own.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from bearingcore.kernels.compiling import borrowing, compiled, inlined
@@ -38,8 +36,17 @@ from bearingcore.kernels.contact import (
 )
 from bearingcore.kernels.path import BLOCK, lay_out_balls, new_passage
 from bearingcore.kernels.planar import planar_forces, planar_push
-from bearingcore.kernels.structs import PLANAR, SMOOTH, VELOCITIES, Forces, March, Place, TangentMarch
+from bearingcore.kernels.structs import (
+    PLANAR,
+    SMOOTH,
+    VELOCITIES,
+    Forces,
+    Place,
+    Steps,
+    TangentSteps,
+)
 from bearingcore.kernels.tangent import contact_slopes, new_slopes, saltation, tangent_rates
+
 
 @compiled
 def new_forces(n_contacts):
@@ -189,9 +196,7 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     if not planar:
         push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
     for a in range(n):
-        k[n + a], k[3 * n + a] = accelerations(
-            rotor, a, f[active[a]], y[2 * n + a], k[2 * n + a]
-        )
+        k[n + a], k[3 * n + a] = accelerations(rotor, a, f[active[a]], y[2 * n + a], k[2 * n + a])
     return count
 
 
@@ -288,9 +293,9 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
 
 
 @compiled
-def new_march(size, n_contacts):
+def new_steps(size, n_contacts):
     """Empty work space of steps."""
-    return March(
+    return Steps(
         new_passage(BLOCK + 1, n_contacts),
         new_forces(n_contacts),
         np.zeros((4, size)),
@@ -306,7 +311,7 @@ def march(y, h, start_angle, system, history):
     of the outer ring, at every step. Returns the number of steps after which all was still finite,
     which is looked at once in half a BLOCK.
     """
-    work = new_march(y.size, system.contacts.angle.size)
+    work = new_steps(y.size, system.contacts.angle.size)
     return runge_kutta(y, None, h, start_angle, system, history, work, None)
 
 
@@ -318,8 +323,8 @@ def march_with_tangent(y, Y, h, start_angle, system, history):
     those of the motion, without corrections.
     """
     n_contacts = system.contacts.angle.size
-    work = new_march(y.size, n_contacts)
-    tangent = TangentMarch(
+    work = new_steps(y.size, n_contacts)
+    tangent = TangentSteps(
         new_slopes(Y.shape[0], Y.shape[1], n_contacts),
         np.zeros((4, Y.shape[0], Y.shape[1])),
         np.zeros((Y.shape[0], Y.shape[1])),
@@ -361,7 +366,7 @@ def rates_at(angle, y, k, system, passage, work):
 
 @compiled
 def motion_rates(times, states, start_angle, system):
-    """dy/dt (m, 4 n) of the variables that the rotor marches, at times (m,) [s], states (m, 4 n)."""
+    """dy/dt (m, 4 n) of what the rotor marches, at times (m,) [s] and states (m, 4 n)."""
     n_contacts = system.contacts.angle.size
     passage = new_passage(1, n_contacts)
     work = new_forces(n_contacts)

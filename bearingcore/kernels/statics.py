@@ -249,7 +249,7 @@ def without_faint(q, noise, place, contacts, load, g, H):
     x = components(q)
     for j in range(factor.size):
         Q, _, _ = carried(x, place, j, contacts)
-        if Q <= noise:
+        if noise >= Q:
             factor[j] = 0.0
     energy_gradient_hessian(q, load.force, place, with_factors(contacts, factor), g, H)
     return least_pivot(H, load.active)
@@ -335,9 +335,7 @@ def descend(q, place, contacts, load, work, most):
             if residual <= RESIDUAL_AIM or settled or stuck:
                 noise = FAINT * max(residual, RESIDUAL_AIM) * whole
                 if faintest < noise:
-                    least = without_faint(
-                        q, noise, place, contacts, load, G[1 - now], H[1 - now]
-                    )
+                    least = without_faint(q, noise, place, contacts, load, G[1 - now], H[1 - now])
                     if not least > NO_PIVOT:
                         now = 1 - now
                 if least < DOUBTFUL_PIVOT:

@@ -277,7 +277,7 @@ class Slopes(NamedTuple):
     pushing: NDArray[np.bool_]
 
 
-class March(NamedTuple):
+class Steps(NamedTuple):
     """Work space of steps: ball positions, the equations of motion's, rates of the four stages
     (4, 4 n), and the state tried (4 n,).
     """
@@ -288,7 +288,7 @@ class March(NamedTuple):
     trial: Array
 
 
-class TangentMarch(NamedTuple):
+class TangentSteps(NamedTuple):
     """What the tangent needs beside: its slopes, rates (4, 4 n, columns), and what is tried."""
 
     slopes: Slopes

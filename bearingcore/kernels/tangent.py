@@ -97,9 +97,10 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
             k2 = (Q + damping * along) * bend
             for b in range(5):
                 for a in range(5):
-                    Px[a, b] += e[a] * (
-                        k1 * e[b] + damping * (sigma * t[b] + w * e_turn[b])
-                    ) + k2 * t[a] * t[b]
+                    Px[a, b] += (
+                        e[a] * (k1 * e[b] + damping * (sigma * t[b] + w * e_turn[b]))
+                        + k2 * t[a] * t[b]
+                    )
                     Pv[a, b] += damping * e[a] * e[b]
 
 
@@ -138,9 +139,7 @@ def tangent_rates(Y, kY, rotor, slopes):
     for a in range(n):
         for column in range(columns):
             kY[a, column] = Y[n + a, column] - rotor.inverse_inner[a] * rows[a, column]
-            kY[2 * n + a, column] = (
-                Y[3 * n + a, column] + rotor.inverse_outer[a] * rows[a, column]
-            )
+            kY[2 * n + a, column] = Y[3 * n + a, column] + rotor.inverse_outer[a] * rows[a, column]
             rows[n + a, column] = 0.0
     for a in range(n):
         for b in range(n):

@@ -13,14 +13,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import checks, kernels
-from bearingcore.equilibrium import STIFFNESS_TERMS, TERM_INDICES, default_cage_angles, equilibrium
-from bearingcore.maps import stiffness_maps
-from bearingcore.modes import modes_at
-from bearingcore.motion import simulate
-from bearingcore.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
-from bearingcore.scene import DOF_NAMES, Scene
-from bearingcore.speed_run import SETTLING
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.dynamics.modes import modes_at
+from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
+from bearingcore.dynamics.speed_run import SETTLING
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.equilibrium import (
+    STIFFNESS_TERMS,
+    TERM_UNITS,
+    default_cage_angles,
+    equilibrium,
+)
+from bearingcore.statics.maps import stiffness_maps
 
 Array = NDArray[np.float64]
 
@@ -97,18 +103,13 @@ class Output:
     per_mode: bool = False
 
 
-def _stiffness_unit(term: str) -> str:
-    tilts = sum(DOF_NAMES[i].startswith("r") for i in TERM_INDICES[term])
-    return ("N/m", "N/rad", "N·m/rad")[tilts]
-
-
 def _table() -> dict[str, Output]:
     table: dict[str, Output] = {}
     over = "over the cage angles of a period"
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
-                _stiffness_unit(term), f"{which} stiffness {term} {over}", STATICS
+                TERM_UNITS[term], f"{which} stiffness {term} {over}", STATICS
             )
     for which in ("mean", "least", "greatest"):
         table[f"loaded_balls_{which}"] = Output(

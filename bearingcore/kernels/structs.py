@@ -117,6 +117,10 @@ class Descent(NamedTuple):
         gradient and Hessian where the ring stands and where it is tried.
     L : (5, 5), p : (5,) [m], trial : (5,) [m]
         Cholesky factor, step, and the displacement tried.
+    start : (5,) [m]
+        where the descent with softened contacts begins.
+    soft, firm : (contacts,) [N/m^exponent]
+        factors of softened contacts, and of those that carry more than rounding.
     """
 
     g: Array
@@ -124,6 +128,9 @@ class Descent(NamedTuple):
     L: Array
     p: Array
     trial: Array
+    start: Array
+    soft: Array
+    firm: Array
 
 
 class MapPaths(NamedTuple):

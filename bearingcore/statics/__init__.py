@@ -1,0 +1,1 @@
+"""Static answers of a scene: what its contacts carry and what that costs."""

@@ -101,7 +101,9 @@ class Film:
     @property
     def sentence(self) -> str:
         """The thinner film in words, and what was left out."""
-        thinner = self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
+        thinner = (
+            self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
+        )
         return f"{thinner.sentence} {LEFT_OUT}"
 
     def limits(self) -> tuple[Limit, ...]:
@@ -132,8 +134,8 @@ class Film:
 
 
 LEFT_OUT = (
-    "For smooth races with enough oil at one temperature: the edges of a defect, heat and starvation "
-    "are left out, and all of them make the film thinner."
+    "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
+    "starvation are left out, and all of them make the film thinner."
 )
 
 
@@ -178,8 +180,8 @@ def film(
     *,
     viscosity: float,
     pressure_viscosity: float = MINERAL_OIL,
-    roughness_inner: float = 0.2e-6,
-    roughness_outer: float = 0.2e-6,
+    roughness_inner: float = 0.1e-6,
+    roughness_outer: float = 0.1e-6,
     roughness_ball: float = 0.05e-6,
     state: Equilibrium | None = None,
 ) -> Film:
@@ -194,7 +196,7 @@ def film(
     pressure_viscosity
         ξ [1/Pa]; a usual mineral oil by default.
     roughness_inner, roughness_outer, roughness_ball
-        σ [m], root mean square, of each surface; usual ones of ground and honed races by default.
+        σ [m], root mean square, of each surface; usual ones of honed races by default.
         The root of the sum of squares counts, and must be above 0.
     state
         the scene's static equilibrium, if it is there already; None computes one period.
@@ -251,10 +253,12 @@ def _race_film(race: str, load: float, k: float, h: float, sigma: float) -> Race
         kind, so = LUBRICATION[1], "their peaks touch now and then"
     else:
         kind, so = LUBRICATION[2], "ball and race hardly ever touch"
-    standing = " The shaft stands still and draws no oil in." if h == 0.0 else ""
+    if h == 0.0:
+        standing = f"The shaft stands still and draws no oil between ball and {race} race."
+        return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
     sentence = (
         f"The film on the {race} race is {h * 1e6:.3g} µm thick where a ball carries most "
         f"({load:.4g} N), {ratio:.3g} times the roughness of the surfaces ({sigma * 1e6:.3g} µm): "
-        f"{kind} lubrication, {so}.{standing}"
+        f"{kind} lubrication, {so}."
     )
     return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)

@@ -36,8 +36,8 @@ from typing import NamedTuple
 from bearingcore import checks
 from bearingcore.bearing import Bearing
 from bearingcore.drawing import WIDEST_CONFORMITY
-from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
 from bearingcore.scene import Scene
+from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
 
 POSITIONS = ("load line", "all")
 """Over which places of the balls loads are averaged: one of them on the line of the radial load, as
@@ -236,13 +236,14 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float) -> tuple[float, f
     (ISO 16281.) ValueError where the bearing does not carry its groove radii.
     """
     D, Z = bearing.ball_diameter, bearing.n_balls
-    r_i, r_e = bearing.inner_groove_radius, bearing.outer_groove_radius
-    for name, radius in (("inner_groove_radius", r_i), ("outer_groove_radius", r_e)):
+    conformity = []
+    for name in ("inner_groove_radius", "outer_groove_radius"):
+        radius = getattr(bearing, name)
         if radius is None:
             raise checks.refuse(name, radius, "a number, where life is asked for")
-    assert r_i is not None and r_e is not None
+        conformity.append(radius / D)
     cosine = math.cos(bearing.contact_angle)
-    B = 1.044 * _race_ratio(D * cosine / bearing.pitch_diameter, r_i / D, r_e / D)
+    B = 1.044 * _race_ratio(D * cosine / bearing.pitch_diameter, *conformity)
     # a full share of the rating each: Q_max is proportional to 1/(Z cos α)
     share = dynamic_load_rating / (Z * cosine)
     Q_ci = share / 0.407 * (1.0 + B ** (10.0 / 3.0)) ** 0.3
@@ -260,10 +261,10 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     """Basic dynamic load rating C_r [N] of a ball bearing from its dimensions, by ISO 281.
 
     C_r = b_m f_c (cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm, b_m = 1.3.
-    f_c is the standard's table as a formula, 0.2 % from each of its numbers: it holds for grooves of
-    0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones lower
-    it, and a bearing whose grooves are not known counts as one with those. Catalogues give more
-    where a maker vouches for better steel.
+    f_c is the standard's table as a formula, 0.2 % from each of its numbers: it holds for grooves
+    of 0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones
+    lower it, and a bearing whose grooves are not known counts as one with those. Catalogues give
+    more where a maker vouches for better steel.
     """
     D, Z = bearing.ball_diameter * 1e3, bearing.n_balls
     cosine = math.cos(bearing.contact_angle)
@@ -307,8 +308,8 @@ def _million_revolutions(Q_ci: float, Q_ce: float, loads: RaceLoads) -> float:
 
 LEFT_OUT = (
     "This counts the changed load distribution only. The standard rates smooth races: pressure on "
-    "the edges of a defect, the blow of each ball and debris are left out, so that a damaged bearing "
-    "fails sooner. It is an upper bound, not a promise."
+    "the edges of a defect, the blow of each ball and debris are left out, so that a damaged "
+    "bearing fails sooner. It is an upper bound, not a promise."
 )
 
 

@@ -53,7 +53,7 @@ PANELS_ON_A_FLOOR = 96
 POINTS = 4
 """Gauss points in a panel."""
 
-SHAFT_ANGLES, SHAFT_ANGLES_BOTH = 61, 181
+SHAFT_ANGLES, SHAFT_ANGLES_BOTH = 61, 361
 """Shaft angles in a turn, with defects in the inner race alone, and in both: the second kind meet
 the balls at every place of the inner race, so no panel can end there. Odd, so that no wave of a
 series is its own mirror image."""
@@ -79,13 +79,14 @@ def snapshot_loads(
 ) -> RaceLoads:
     """The means over the balls at one cage angle [rad], as a standard takes them.
 
-    Right for a healthy bearing alone.
+    Right for a healthy bearing alone. Half a ball spacing on is looked at too: where the bearing
+    carries nothing there, it has no life.
     """
-    state = equilibrium(scene, [cage_angle])
+    state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     reason = _unknown(state)
     if reason:
         return RaceLoads(math.nan, math.nan, math.nan, reason)
-    Q = state.ball_load
+    Q = state.ball_load[:1]
     even = np.full(1, 1.0)
     return _in_order(
         turning_race,
@@ -120,7 +121,7 @@ def _in_order(turning_race: str, turning: float, standing: float, heaviest: floa
 
 
 def _mean(loads: Array, weights: Array, power: float) -> float:
-    """Power mean of loads (n, N_b) with weights (n,) that sum to 1, scaled so that none overflow."""
+    """Power mean of loads (n, N_b) with weights (n,) that sum to 1; scaled, so none overflows."""
     size = float(loads.max(initial=0.0))
     if size == 0.0:
         return 0.0

@@ -161,7 +161,7 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
     ],
 )
 def test_faults_are_named(table: str | bytes, told: list[str]) -> None:
-    with pytest.raises(ValueError, match="table of bearings|heading") as refused:
+    with pytest.raises(ValueError, match=r"table of bearings|heading") as refused:
         read_catalogue(table)
     for words in told:
         assert words in str(refused.value)

@@ -12,7 +12,9 @@ exponent of load against life                 | p      | load_exponent        |
 exponent of the scatter of lives              | e      | scatter              |
 D_b cos α0 / D_p                              | γ      |                      |
 
-    L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e),  p = 3, e = 10/9 for balls.
+    L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e),
+
+p = 3, e = 10/9 for balls, p = 4, e = 9/8 for rollers.
 
 Which loads are averaged, and how: `bearingcore.statics.race_loads`.
 
@@ -31,6 +33,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 from bearingcore import checks
@@ -58,14 +61,31 @@ LARGE_BALL = 25.4
 """[mm] above which ISO 281 lets the rating grow less with the ball."""
 
 
-class LifeLaw(NamedTuple):
-    """Exponents of a kind of contact: load against life p, scatter of lives e."""
+class ContactLife(NamedTuple):
+    """What ISO 16281 says of a kind of contact.
+
+    Load against life p and scatter of lives e; then, for the rating of each race, what part of
+    C_r/(Z cos α) each takes, what rows count together, and how races share: a factor, and powers of
+    (1 − γ)/(1 + γ) and of what the grooves are to each other.
+    """
 
     load_exponent: float
     scatter: float
+    inner_part: float
+    outer_part: float
+    row_power: float
+    race_factor: float
+    gamma_power: float
+    groove_power: float
 
 
-POINT_CONTACT = LifeLaw(3.0, 10.0 / 9.0)
+POINT_CONTACT = ContactLife(3.0, 10.0 / 9.0, 0.407, 0.389, 0.7, 1.044, 1.72, 0.41)
+
+LINE_CONTACT = ContactLife(4.0, 9.0 / 8.0, 0.378, 0.364, 7.0 / 9.0, 1.038, 143.0 / 108.0, 0.0)
+"""Of rollers, loaded evenly along their length. The standard divides the ratings by λν = 0.83 and
+adds up the true load along each roller with its edge stress; where that load is not computed the
+factor that stands for it stays in C_r, and half a load zone lasts as long as ISO 281 says. Divided
+by it, but without edge stress, lives would come out at double."""
 
 
 class Row(NamedTuple):
@@ -203,12 +223,12 @@ def life(
         raise checks.refuse(
             "turning_race", turning_race, '"inner" for a damaged bearing: its load stands still'
         )
-    Q_ci, Q_ce = race_ratings(scene.bearing, C)
+    Q_ci, Q_ce = ratings = race_ratings(scene.bearing, C)
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
     healthy = _loads(healthy_scene, positions, turning_race)
     loads = _loads(scene, positions, turning_race) if damaged else healthy
-    L = _million_revolutions(Q_ci, Q_ce, loads)
-    L_healthy = _million_revolutions(Q_ci, Q_ce, healthy)
+    L = million_revolutions(POINT_CONTACT, ratings, (loads.inner, loads.outer))
+    L_healthy = million_revolutions(POINT_CONTACT, ratings, (healthy.inner, healthy.outer))
     turns_an_hour = scene.shaft_speed / (2.0 * math.pi) * 3600.0
     hours = 1e6 * L / turns_an_hour if turns_an_hour else math.nan
     P = 0.0 if math.isinf(L) else C * L ** (-1.0 / POINT_CONTACT.load_exponent)
@@ -235,26 +255,55 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float) -> tuple[float, f
 
     (ISO 16281.) ValueError where the bearing does not carry its groove radii.
     """
-    D, Z = bearing.ball_diameter, bearing.n_balls
     conformity = []
     for name in ("inner_groove_radius", "outer_groove_radius"):
         radius = getattr(bearing, name)
         if radius is None:
             raise checks.refuse(name, radius, "a number, where life is asked for")
-        conformity.append(radius / D)
+        conformity.append(radius / bearing.ball_diameter)
     cosine = math.cos(bearing.contact_angle)
-    B = 1.044 * _race_ratio(D * cosine / bearing.pitch_diameter, *conformity)
-    # a full share of the rating each: Q_max is proportional to 1/(Z cos α)
-    share = dynamic_load_rating / (Z * cosine)
-    Q_ci = share / 0.407 * (1.0 + B ** (10.0 / 3.0)) ** 0.3
-    Q_ce = share / 0.389 * (1.0 + B ** (-10.0 / 3.0)) ** 0.3
+    return ratings_of_races(
+        POINT_CONTACT,
+        dynamic_load_rating / (bearing.n_balls * cosine),
+        bearing.ball_diameter * cosine / bearing.pitch_diameter,
+        _groove_ratio(*conformity),
+    )
+
+
+def ratings_of_races(
+    contact: ContactLife, share: float, gamma: float, groove_ratio: float = 1.0, rows: int = 1
+) -> tuple[float, float]:
+    """Q_ci, Q_ce [N] of a kind of contact (ISO 16281).
+
+    Parameters
+    ----------
+    contact
+        POINT_CONTACT or LINE_CONTACT.
+    share
+        C_r/(Z cos α) [N], Z the rolling elements of a row: a load on half of them presses each by
+        some such part.
+    gamma
+        γ.
+    groove_ratio
+        (r_i/r_e) (2 r_e − D)/(2 r_i − D) of balls.
+    rows
+        that C_r is the rating of.
+    """
+    power = contact.load_exponent * contact.scatter
+    B = (
+        contact.race_factor
+        * ((1.0 - gamma) / (1.0 + gamma)) ** contact.gamma_power
+        * groove_ratio**contact.groove_power
+    )
+    of_a_row = share / rows**contact.row_power
+    Q_ci = of_a_row / contact.inner_part * (1.0 + B**power) ** (1.0 / power)
+    Q_ce = of_a_row / contact.outer_part * (1.0 + B**-power) ** (1.0 / power)
     return Q_ci, Q_ce
 
 
-def _race_ratio(gamma: float, f_i: float, f_e: float) -> float:
-    """Q_ci/Q_ce of Lundberg and Palmgren; f are groove radii over the ball diameter."""
-    grooves = f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
-    return float(((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * grooves**0.41)
+def _groove_ratio(f_i: float, f_e: float) -> float:
+    """What the grooves do to Q_ci/Q_ce; f are groove radii over the ball diameter."""
+    return f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
 
 
 def dynamic_load_rating(bearing: Bearing) -> float:
@@ -285,24 +334,31 @@ def dynamic_load_rating(bearing: Bearing) -> float:
 
 def _capacity_factor(gamma: float, f_i: float, f_e: float) -> float:
     """f_c of Lundberg and Palmgren, with the 38.2 that meets the table of ISO 281."""
-    B = 1.04 * _race_ratio(gamma, f_i, f_e)
+    B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * _groove_ratio(f_i, f_e) ** 0.41
     shape = gamma**0.3 * (1.0 - gamma) ** 1.39 / (1.0 + gamma) ** (1.0 / 3.0)
     groove = (2.0 * f_i / (2.0 * f_i - 1.0)) ** 0.41
     return float(38.2 * shape * groove * (1.0 + B ** (10.0 / 3.0)) ** -0.3)
 
 
+@lru_cache(maxsize=256)
 def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
+    law = POINT_CONTACT.load_exponent, POINT_CONTACT.scatter
     if positions == "all":
-        return race_loads(scene, *POINT_CONTACT, turning_race)
+        return race_loads(scene, *law, turning_race)
     load = scene.load
     line = math.atan2(load.fy, load.fx) if load.fx or load.fy else 0.0
-    return snapshot_loads(scene, line % scene.bearing.ball_spacing, *POINT_CONTACT, turning_race)
+    return snapshot_loads(scene, line % scene.bearing.ball_spacing, *law, turning_race)
 
 
-def _million_revolutions(Q_ci: float, Q_ce: float, loads: RaceLoads) -> float:
-    """L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e) (ISO 16281)."""
-    p, e = POINT_CONTACT
-    failing = (loads.inner / Q_ci) ** (p * e) + (loads.outer / Q_ce) ** (p * e)
+def million_revolutions(
+    contact: ContactLife, ratings: tuple[float, float], loads: tuple[float, float]
+) -> float:
+    """L_10r [10⁶ turns] from Q_ci, Q_ce and Q_ei, Q_ee [N] (ISO 16281); infinite under no load.
+
+    L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e).
+    """
+    p, e = contact.load_exponent, contact.scatter
+    failing = sum((load / rating) ** (p * e) for load, rating in zip(loads, ratings, strict=True))
     return math.inf if failing == 0.0 else float(failing ** (-1.0 / e))
 
 

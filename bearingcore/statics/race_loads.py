@@ -32,6 +32,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -143,11 +144,16 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
     corners = [corner % spacing for defect in defects for corner in _corners(defect, scene)]
     ends = np.unique(np.concatenate([even, corners]))
     ends = ends[np.diff(ends, prepend=-1.0) > 1e-12]
-    x, w = np.polynomial.legendre.leggauss(POINTS)
+    x, w = _gauss(POINTS)
     half, middle = 0.5 * np.diff(ends), 0.5 * (ends[1:] + ends[:-1])
     places = middle[:, None] + half[:, None] * x
     weights = half[:, None] * w / spacing
     return places.ravel(), weights.ravel()
+
+
+@lru_cache(maxsize=8)
+def _gauss(n: int) -> tuple[Array, Array]:
+    return np.polynomial.legendre.leggauss(n)
 
 
 def _corners(defect: Defect, scene: Scene) -> list[float]:

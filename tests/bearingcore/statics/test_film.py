@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from bearingcore import presets
+from bearingcore import equilibrium, presets
 from bearingcore.statics.film import (
     LUBRICATION,
     Film,
@@ -118,16 +118,18 @@ def test_a_standing_shaft_has_no_film() -> None:
     assert found.limits()[0].crossed
 
 
-@pytest.mark.parametrize("changes", [{"fy": 0.0}, {"n_balls": 2, "race": "inner", "fx": 9.0}])
-def test_no_known_load_no_film(changes: dict[str, float]) -> None:
+@pytest.mark.parametrize(
+    ("changes", "why"), [({"fy": 0.0}, "no ball is loaded"), ({"n_balls": 2}, "no cage angle")]
+)
+def test_no_known_load_no_film(changes: dict[str, float], why: str) -> None:
+    """Two balls beside the load line carry nothing."""
     scene = presets["6205"].replace(**changes)
-    found = film(scene, **OIL)
-    if math.isnan(found.inner.load) or found.inner.load == 0.0:
-        assert math.isnan(found.inner.thickness)
-        assert "not known" in found.inner.sentence
-        assert not found.limits()[0].crossed
-    else:
-        assert found.inner.thickness > 0.0
+    found = film(scene, **OIL, state=equilibrium(scene, [0.0]))
+    assert math.isnan(found.inner.thickness)
+    assert math.isnan(found.outer.film_parameter)
+    assert "not known" in found.sentence
+    assert why in found.inner.sentence
+    assert not found.limits()[0].crossed
 
 
 def test_table_repeats_the_result() -> None:
@@ -156,3 +158,5 @@ def test_bad_input_is_named(changes: dict[str, float], name: str) -> None:
 def test_a_bearing_without_drawing_is_refused() -> None:
     with pytest.raises(ValueError, match="inner_groove_radius"):
         film(presets["fan-rig"], **OIL)
+    with pytest.raises(ValueError, match="state"):
+        film(presets["6205"], **OIL, state=equilibrium(presets["6206"]))

@@ -10,10 +10,15 @@ import pytest
 
 from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
 from bearingcore.statics.life import (
+    LINE_CONTACT,
+    POINT_CONTACT,
+    ContactLife,
     Life,
     dynamic_load_rating,
     life,
+    million_revolutions,
     race_ratings,
+    ratings_of_races,
 )
 from bearingcore.statics.race_loads import race_loads
 
@@ -120,6 +125,35 @@ def test_half_a_load_zone_is_what_the_rating_means(contact_angle_deg: float) -> 
     found = life(scene, C, positions="all")
     assert found.million_revolutions == pytest.approx((C / radial) ** 3, rel=0.04)
     assert found.equivalent_load == pytest.approx(radial, rel=0.013)
+
+
+@pytest.mark.parametrize(
+    ("contact", "exponent", "rows", "tolerance"),
+    [
+        (POINT_CONTACT, 1.5, 1, 2e-3),
+        (LINE_CONTACT, 10.0 / 9.0, 1, 0.02),
+        (POINT_CONTACT, 1.5, 2, 2e-3),
+        (LINE_CONTACT, 10.0 / 9.0, 2, 0.02),
+    ],
+)
+@pytest.mark.parametrize("gamma", [0.05, 0.15, 0.3])
+def test_a_load_of_the_rating_lasts_a_million_turns(
+    contact: ContactLife, exponent: float, rows: int, tolerance: float, gamma: float
+) -> None:
+    """Half a load zone, Q = Q_max cos^n φ, by sums of its own: Harris' J_r, then ISO 281's life.
+
+    Two rows carry half each, and fail as one chain.
+    """
+    phi = (np.arange(4000) + 0.5) / 4000 * 2.0 * math.pi
+    shape = np.maximum(np.cos(phi), 0.0) ** exponent
+    J_r = float(np.mean(shape * np.cos(phi)))
+    assert pytest.approx({1.5: 0.2288}.get(exponent, 0.2453), rel=3e-3) == J_r
+    Q = shape / J_r / rows  # under a radial load of Z cos α
+    p, pe = contact.load_exponent, contact.load_exponent * contact.scatter
+    loads = float(np.mean(Q**p) ** (1.0 / p)), float(np.mean(Q**pe) ** (1.0 / pe))
+    ratings = ratings_of_races(contact, 1.0, gamma, rows=rows)
+    chain = rows ** (-1.0 / contact.scatter)
+    assert chain * million_revolutions(contact, ratings, loads) == pytest.approx(1.0, rel=tolerance)
 
 
 def test_life_falls_as_the_cube_of_the_load_where_the_load_zone_stays() -> None:

@@ -26,8 +26,8 @@ from functools import lru_cache
 from importlib import resources
 from types import MappingProxyType
 
-from bearingcore import checks
-from bearingcore.bearing import Bearing
+from bearingcore.common import checks
+from bearingcore.model.bearing import Bearing
 
 NEEDED = ("name", "balls", "ball_diameter_mm", "pitch_diameter_mm")
 

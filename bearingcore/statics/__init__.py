@@ -1,1 +1,1 @@
-"""Static answers of a scene: what its contacts carry and what that costs."""
+"""The bearing at rest: equilibrium, stiffness maps, what a load asks of the contacts."""

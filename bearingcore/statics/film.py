@@ -31,13 +31,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bearingcore import checks
-from bearingcore.bearing import Bearing
-from bearingcore.equilibrium import Equilibrium, equilibrium
-from bearingcore.scene import Scene
+from bearingcore.common import checks
+from bearingcore.model.bearing import Bearing
+from bearingcore.model.scene import Scene
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.life import Row
 from bearingcore.statics.pressure import RACES, heaviest_ball
-from bearingcore.validity import Limit
+from bearingcore.statics.validity import Limit
 
 TOUCHING, PARTED = 1.0, 3.0
 """Film parameter below which peaks of the surfaces touch all the time, and above which they hardly

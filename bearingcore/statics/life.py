@@ -36,10 +36,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from bearingcore import checks
-from bearingcore.bearing import Bearing
-from bearingcore.drawing import WIDEST_CONFORMITY
-from bearingcore.scene import Scene
+from bearingcore.common import checks
+from bearingcore.model.bearing import Bearing
+from bearingcore.model.drawing import WIDEST_CONFORMITY
+from bearingcore.model.scene import Scene
 from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
 
 POSITIONS = ("load line", "all")

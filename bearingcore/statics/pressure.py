@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearingcore import checks
-from bearingcore.equilibrium import Equilibrium, equilibrium
-from bearingcore.scene import Scene
+from bearingcore.common import checks
+from bearingcore.model.scene import Scene
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.life import Row
 
 RACES = ("inner", "outer")

@@ -38,9 +38,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.defect import Defect
-from bearingcore.equilibrium import Equilibrium, equilibrium
-from bearingcore.scene import Scene
+from bearingcore.model.defect import Defect
+from bearingcore.model.scene import Scene
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
 Array = NDArray[np.float64]
 

@@ -1,0 +1,1 @@
+"""Signals as such, measured or simulated: reading, spectra, envelopes, averages."""

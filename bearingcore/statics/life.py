@@ -119,6 +119,8 @@ class Life:
         P, under which ISO 281 gives the same life.
     healthy_million_revolutions
         L_10r [10⁶ turns] of the same bearing without its defects, averaged in the same way.
+    status
+        code of `kernels` of the first cage angle whose loads are not known, else CONVERGED.
     sentence
         the result in words, with what it leaves out.
     """
@@ -136,6 +138,7 @@ class Life:
     hours: float
     equivalent_load: float
     healthy_million_revolutions: float
+    status: int
     sentence: str
 
     @property
@@ -246,6 +249,7 @@ def life(
         hours=hours,
         equivalent_load=P,
         healthy_million_revolutions=L_healthy,
+        status=loads.status,
         sentence=_sentence(scene, loads.reason, L, hours, L_healthy, P / C),
     )
 

@@ -38,6 +38,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import kernels
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
@@ -66,13 +67,15 @@ FINER = 4
 class RaceLoads(NamedTuple):
     """The load [N] that tires each race as much as all that it carries, and the greatest of all.
 
-    NaN where some cage angle has no answer; `reason` then says why, and is empty otherwise.
+    NaN where the loads of some cage angle are not known; `status` (a code of `kernels`) and
+    `reason` then say why, and are CONVERGED and empty otherwise.
     """
 
     inner: float
     outer: float
     heaviest: float
-    reason: str
+    status: int = kernels.CONVERGED
+    reason: str = ""
 
 
 def snapshot_loads(
@@ -84,9 +87,8 @@ def snapshot_loads(
     carries nothing there, it has no life.
     """
     state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
-    reason = _unknown(state)
-    if reason:
-        return RaceLoads(math.nan, math.nan, math.nan, reason)
+    if unknown := _unknown(state):
+        return unknown
     Q = state.ball_load[:1]
     even = np.full(1, 1.0)
     return _in_order(
@@ -105,9 +107,8 @@ def race_loads(
         return _with_turning_defects(scene, load_exponent, scatter)
     places, weights = _panels(scene, "outer")
     state = equilibrium(scene, places)
-    reason = _unknown(state)
-    if reason:
-        return RaceLoads(math.nan, math.nan, math.nan, reason)
+    if unknown := _unknown(state):
+        return unknown
     return _in_order(
         turning_race,
         turning=_mean(state.ball_load, weights, load_exponent),
@@ -118,7 +119,7 @@ def race_loads(
 
 def _in_order(turning_race: str, turning: float, standing: float, heaviest: float) -> RaceLoads:
     inner, outer = (turning, standing) if turning_race == "inner" else (standing, turning)
-    return RaceLoads(inner, outer, heaviest, "")
+    return RaceLoads(inner, outer, heaviest)
 
 
 def _mean(loads: Array, weights: Array, power: float) -> float:
@@ -129,10 +130,13 @@ def _mean(loads: Array, weights: Array, power: float) -> float:
     return size * float(weights @ np.mean((loads / size) ** power, axis=1)) ** (1.0 / power)
 
 
-def _unknown(state: Equilibrium) -> str:
-    """Why the loads of some cage angle are not known; empty where all are."""
+def _unknown(state: Equilibrium) -> RaceLoads | None:
+    """NaN with the reason, where the loads of some cage angle are not known; None where all are."""
     failed = np.flatnonzero(~np.isfinite(state.ball_load).all(axis=1))
-    return state.reason(int(failed[0])) if failed.size else ""
+    if not failed.size:
+        return None
+    first = int(failed[0])
+    return RaceLoads(math.nan, math.nan, math.nan, int(state.status[first]), state.reason(first))
 
 
 def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
@@ -181,13 +185,12 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
         state = equilibrium(turned, (places + psi_0) * ratio / (ratio - 1.0))
-        reason = _unknown(state)
-        if reason:
-            return RaceLoads(math.nan, math.nan, math.nan, reason)
+        if unknown := _unknown(state):
+            return unknown
         loads[k] = state.ball_load
     size = float(loads.max())
     if size == 0.0:
-        return RaceLoads(0.0, 0.0, 0.0, "")
+        return RaceLoads(0.0, 0.0, 0.0)
     used = (loads / size) ** load_exponent
     inner = weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1)
     # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between steps
@@ -199,7 +202,7 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     passing = np.fft.irfft(along, FINER * n) * (FINER * n)
     outer = np.mean(np.maximum(passing, 0.0) ** scatter)
     root = 1.0 / (load_exponent * scatter)
-    return RaceLoads(size * float(inner) ** root, size * float(outer) ** root, size, "")
+    return RaceLoads(size * float(inner) ** root, size * float(outer) ** root, size)
 
 
 def _turned(scene: Scene, angle: float) -> tuple[Defect, ...]:

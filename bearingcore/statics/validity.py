@@ -28,12 +28,14 @@ the kernels tell them apart exactly.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.hertz import in_series
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
@@ -91,6 +93,18 @@ class Limit:
     unit: str
     crossed: bool
     sentence: str
+
+
+def limits_table(found: Sequence[Limit]) -> ResultTable:
+    """Limits as a table: a row each; what is not known is NaN."""
+    return table_of(
+        ("limit_of", "", [one.name for one in found], "what is looked at"),
+        ("value", "", [one.value for one in found]),
+        ("limit", "", [one.limit for one in found]),
+        ("unit", "", [one.unit for one in found]),
+        ("crossed", "", [one.crossed for one in found]),
+        ("sentence", "", [one.sentence for one in found]),
+    )
 
 
 def limits(

@@ -22,7 +22,7 @@ from bearingcore.dynamics.speed_run import SETTLING
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
-    TERM_INDICES,
+    TERM_UNITS,
     default_cage_angles,
     equilibrium,
 )
@@ -106,18 +106,13 @@ class Output:
     per_mode: bool = False
 
 
-def _stiffness_unit(term: str) -> str:
-    tilts = sum(DOF_NAMES[i].startswith("r") for i in TERM_INDICES[term])
-    return ("N/m", "N/rad", "N·m/rad")[tilts]
-
-
 def _table() -> dict[str, Output]:
     table: dict[str, Output] = {}
     over = "over the cage angles of a period"
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
-                _stiffness_unit(term), f"{which} stiffness {term} {over}", STATICS
+                TERM_UNITS[term], f"{which} stiffness {term} {over}", STATICS
             )
     for which in ("mean", "least", "greatest"):
         table[f"loaded_balls_{which}"] = Output(

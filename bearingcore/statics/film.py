@@ -32,10 +32,10 @@ import math
 from dataclasses import dataclass
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
-from bearingcore.statics.life import Row
 from bearingcore.statics.pressure import RACES, heaviest_ball
 from bearingcore.statics.validity import Limit
 
@@ -120,17 +120,28 @@ class Film:
             for film in (self.inner, self.outer)
         )
 
-    def table(self) -> tuple[Row, ...]:
-        """Names, symbols, numbers and SI units."""
-        rows = [Row("mean speed through the contact", "u", self.rolling_speed, "m/s")]
-        for film in (self.inner, self.outer):
-            race = f", {film.race} race"
-            rows += [
-                Row(f"least film thickness{race}", "h_min", film.thickness, "m"),
-                Row(f"roughness of ball and race{race}", "σ", film.roughness, "m"),
-                Row(f"film parameter{race}", "Λ", film.film_parameter, ""),
-            ]
-        return tuple(rows)
+    def table(self) -> ResultTable:
+        """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
+        races = (self.inner, self.outer)
+        return table_of(
+            ("race", "", [film.race for film in races]),
+            (
+                "rolling_speed",
+                "m/s",
+                [self.rolling_speed] * 2,
+                "mean speed of ball and race through the contact",
+            ),
+            ("ball_load", "N", [film.load for film in races], "of the heaviest loaded ball"),
+            ("film_thickness", "m", [film.thickness for film in races], "where it is least"),
+            ("roughness", "m", [film.roughness for film in races], "of ball and race together"),
+            (
+                "film_parameter",
+                "1",
+                [film.film_parameter for film in races],
+                "film thickness over roughness",
+            ),
+            ("sentence", "", [film.sentence for film in races]),
+        )
 
 
 LEFT_OUT = (

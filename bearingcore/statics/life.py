@@ -37,6 +37,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.drawing import WIDEST_CONFORMITY
 from bearingcore.model.scene import Scene
@@ -86,15 +87,6 @@ LINE_CONTACT = ContactLife(4.0, 9.0 / 8.0, 0.378, 0.364, 7.0 / 9.0, 1.038, 143.0
 adds up the true load along each roller with its edge stress; where that load is not computed the
 factor that stands for it stays in C_r, and half a load zone lasts as long as ISO 281 says. Divided
 by it, but without edge stress, lives would come out at double."""
-
-
-class Row(NamedTuple):
-    """A line of a result's table."""
-
-    name: str
-    symbol: str
-    value: float
-    unit: str
 
 
 @dataclass(frozen=True)
@@ -153,20 +145,28 @@ class Life:
             return 1.0 if math.isinf(self.million_revolutions) else 0.0
         return self.million_revolutions / self.healthy_million_revolutions
 
-    def table(self) -> tuple[Row, ...]:
-        """Names, symbols, numbers and SI units."""
-        return (
-            Row("reference rating life", "L_10r", self.million_revolutions, "10⁶ turns"),
-            Row("reference rating life", "L_10h", self.hours, "h"),
-            Row("life of the healthy bearing", "", self.healthy_million_revolutions, "10⁶ turns"),
-            Row("life over that of the healthy bearing", "", self.share_of_healthy, ""),
-            Row("dynamic load rating", "C_r", self.dynamic_load_rating, "N"),
-            Row("equivalent load", "P", self.equivalent_load, "N"),
-            Row("greatest load of a ball", "Q_max", self.heaviest_load, "N"),
-            Row("rating load of a ball, inner race", "Q_ci", self.inner_rating, "N"),
-            Row("rating load of a ball, outer race", "Q_ce", self.outer_rating, "N"),
-            Row("equivalent load of a ball, inner race", "Q_ei", self.inner_load, "N"),
-            Row("equivalent load of a ball, outer race", "Q_ee", self.outer_load, "N"),
+    def table(self) -> ResultTable:
+        """One row: life, loads, ratings, in words what they say."""
+        of_ball = "load of a ball under which the {} race lasts 10⁶ turns"
+        as_tiring = "load of a ball that tires the {} race as all it carries"
+        return table_of(
+            ("million_revolutions", "", self.million_revolutions, "L_10r, in 10⁶ turns"),
+            ("life", "h", self.hours, "L_10h"),
+            (
+                "healthy_million_revolutions",
+                "",
+                self.healthy_million_revolutions,
+                "L_10r without the defects, in 10⁶ turns",
+            ),
+            ("share_of_healthy", "1", self.share_of_healthy, "life over the healthy bearing's"),
+            ("dynamic_load_rating", "N", self.dynamic_load_rating, "C_r"),
+            ("equivalent_load", "N", self.equivalent_load, "P, of the same life by ISO 281"),
+            ("heaviest_load", "N", self.heaviest_load, "greatest load of a ball"),
+            ("inner_rating", "N", self.inner_rating, of_ball.format("inner")),
+            ("outer_rating", "N", self.outer_rating, of_ball.format("outer")),
+            ("inner_load", "N", self.inner_load, as_tiring.format("inner")),
+            ("outer_load", "N", self.outer_load, as_tiring.format("outer")),
+            ("sentence", "", [self.sentence]),
         )
 
 

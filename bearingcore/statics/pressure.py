@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
-from bearingcore.statics.life import Row
 
 RACES = ("inner", "outer")
 
@@ -92,20 +92,32 @@ class ContactPressures:
     inner: RacePressure
     outer: RacePressure
 
-    def table(self) -> tuple[Row, ...]:
-        """Names, symbols, numbers and SI units."""
-        rows = [
-            Row("load of the heaviest loaded ball", "Q", self.ball.load, "N"),
-            Row("angle of that ball", "φ_j", self.ball.ball_angle, "rad"),
-        ]
-        for contact in (self.inner, self.outer):
-            race = f", {contact.race} race"
-            rows += [
-                Row(f"semi-axis across the rolling{race}", "a", contact.semi_axis_across, "m"),
-                Row(f"semi-axis along the rolling{race}", "b", contact.semi_axis_along, "m"),
-                Row(f"greatest contact pressure{race}", "p", contact.greatest_pressure, "Pa"),
-            ]
-        return tuple(rows)
+    def table(self) -> ResultTable:
+        """A row a race: load and place of the ball, semi-axes, pressure."""
+        races = (self.inner, self.outer)
+        return table_of(
+            ("race", "", [contact.race for contact in races]),
+            ("ball_load", "N", [contact.load for contact in races], "of the heaviest loaded ball"),
+            ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
+            (
+                "semi_axis_across",
+                "m",
+                [contact.semi_axis_across for contact in races],
+                "of the contact ellipse, across the rolling",
+            ),
+            (
+                "semi_axis_along",
+                "m",
+                [contact.semi_axis_along for contact in races],
+                "of the contact ellipse, along the rolling",
+            ),
+            (
+                "greatest_pressure",
+                "Pa",
+                [contact.greatest_pressure for contact in races],
+                "in the middle of the ellipse",
+            ),
+        )
 
 
 def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:

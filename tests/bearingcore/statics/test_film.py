@@ -135,10 +135,13 @@ def test_no_known_load_no_film(changes: dict[str, float], why: str) -> None:
 def test_table_repeats_the_result() -> None:
     found = film(presets["6205"], **OIL)
     assert isinstance(found, Film)
-    values = [row.value for row in found.table()]
-    for race in (found.inner, found.outer):
-        assert race.thickness in values
-        assert race.film_parameter in values
+    table = found.table()
+    for i, race in enumerate((found.inner, found.outer)):
+        assert table["race"][i] == race.race
+        assert table["film_thickness"][i] == race.thickness
+        assert table["film_parameter"][i] == race.film_parameter
+    assert table.unit("film_thickness") == "m"
+    assert "film_thickness_um" in table.in_units().csv()
 
 
 @pytest.mark.parametrize(

@@ -52,8 +52,8 @@ MOST_BYTES = 2**20
 MOST_BEARINGS = 2000
 LONGEST_NAME, LONGEST_NOTE = 80, 2000
 
-MOST_FAULTS = 10
-"""That are told at once."""
+LONGEST_REFUSAL = 500
+"""Characters up to which faults are told at once; the others are counted."""
 
 _SEPARATORS = (";", "\t", ",")
 
@@ -124,12 +124,20 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
             first_line[entry.name] = number
         faults += here
     if faults:
-        more = len(faults) - MOST_FAULTS
-        told = faults[:MOST_FAULTS] + ([f"and {more} more"] if more > 0 else [])
-        raise ValueError("table of bearings: " + "; ".join(told))
+        raise ValueError("table of bearings: " + _together(faults))
     if not found:
         raise checks.refuse("table of bearings", "headings alone", "a line for each bearing")
     return found
+
+
+def _together(faults: list[str]) -> str:
+    """The first faults as a sentence, at least one, and how many more there are."""
+    told = faults[0]
+    for count, fault in enumerate(faults[1:], start=1):
+        if len(told) + len(fault) > LONGEST_REFUSAL:
+            return f"{told}; and {len(faults) - count} more"
+        told += f"; {fault}"
+    return told
 
 
 def catalogue_text(bearings: Iterable[CatalogueBearing]) -> str:

@@ -155,7 +155,7 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
             ["line 2, column dynamic_load_rating_kn", "above 0"],
         ),
         (f"{HEAD}\na;x;7;39\nb;9;y;39", ["line 2, column balls", "line 3, column ball_diam"]),
-        (f"{HEAD}\n" + "a;x;7;39\n" * 30, ["and 20 more"]),
+        (f"{HEAD}\n" + "a;x;7;39\n" * 30, ["line 2, column balls", " more"]),
         (f"{HEAD}\n" + "a;9;7;39\n" * (MOST_BEARINGS + 1), [f"at most {MOST_BEARINGS}"]),
         (b" " * (MOST_BYTES + 1), [f"at most {MOST_BYTES}"]),
     ],
@@ -165,4 +165,4 @@ def test_faults_are_named(table: str | bytes, told: list[str]) -> None:
         read_catalogue(table)
     for words in told:
         assert words in str(refused.value)
-    assert len(str(refused.value)) < 6000
+    assert len(str(refused.value)) < 700

@@ -44,7 +44,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         return np.full(n, float(value))
 
     return kernels.Contacts(
-        angle=bearing.ball_spacing * np.arange(n),
+        angle=bearing.ball_spacing * np.arange(n, dtype=float),
         arm=each(0.0),
         reach=each(1.0),
         line_r=each(math.cos(bearing.contact_angle)),

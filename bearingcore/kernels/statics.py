@@ -231,6 +231,7 @@ def with_factors(contacts, factor):
         contacts.line_z,
         contacts.distance,
         contacts.clearance,
+        contacts.offset,
         factor,
         contacts.exponent,
         contacts.rows,
@@ -254,6 +255,17 @@ def without_faint(q, noise, place, contacts, load, work, other):
     H = work.H[other]
     energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
     return least_pivot(H, load.active)
+
+
+@compiled
+def pressed_load(q, place, contacts):
+    """Sum [N] of what all contacts carry."""
+    x = components(q)
+    total = 0.0
+    for j in range(contacts.factor.size):
+        Q, _, _ = carried(x, place, j, contacts)
+        total += Q
+    return total
 
 
 @inlined
@@ -303,6 +315,7 @@ def descend(q, place, contacts, load, work, most):
     residual = math.inf
     limit = RESIDUAL_LIMIT
     stuck = False
+    preloaded = False
     slope = 0.0
     V = 0.0
     scale = 0.0
@@ -326,6 +339,8 @@ def descend(q, place, contacts, load, work, most):
                 norm += g[i] * g[i]
                 stiffest = max(stiffest, H[now, i, i])
             whole = math.sqrt(carried_load + max(taken, 0.0))
+            if preloaded:
+                whole = pressed_load(q, place, contacts)
             if whole <= nothing:
                 return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
             before = residual
@@ -400,11 +415,13 @@ def descend(q, place, contacts, load, work, most):
         now = 1 - now
         if iteration < 0:
             if size == 0.0:
-                # only a clearance so large that the ring, held axially, is wedged presses balls
+                # only a clearance so large that the ring, held axially, is wedged presses balls,
+                # or rows that press each other
+                preloaded = contacts.rows.shape[0] > 1
                 for i in range(5):
                     size += (G[now, i] + F[i]) ** 2
-                size = math.sqrt(size)
-                if size == 0.0 or axial:
+                size = pressed_load(q, place, contacts) if preloaded else math.sqrt(size)
+                if size == 0.0 or (axial and not preloaded):
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
                 lost = ROUNDING * (contacts.distance[hard] + contacts.clearance[hard])
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)

@@ -48,6 +48,8 @@ class Contacts(NamedTuple):
         unloaded distance A0 of the groove curvature centres.
     clearance [m]
         radial clearance r_L.
+    offset [m]
+        axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
     factor [N/m^exponent], exponent
         of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
     rows : (k, 2)
@@ -61,6 +63,7 @@ class Contacts(NamedTuple):
     line_z: Array
     distance: Array
     clearance: Array
+    offset: Array
     factor: Array
     exponent: Array
     rows: Integers

@@ -6,9 +6,8 @@ import re
 
 from playwright.sync_api import Page, expect
 
+from tests.browser.explorer_page import open_page, pixels, place, settle, show, source, wait, words
 from tests.browser.helpers import Server, Watch
-from tests.browser.test_explorer import open_page, pixels, settle, show, source
-from tests.browser.test_orbits import place, wait, words
 
 
 def test_a_measured_step_is_taken_over_and_given_back(

@@ -9,8 +9,8 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Defect, RoughFloor, equilibrium, presets
+from tests.browser.explorer_page import number, open_page, pixels, settle, show, slider, source
 from tests.browser.helpers import Server, Watch, choose_tab, drag
-from tests.browser.test_explorer import number, open_page, pixels, settle, show, slider, source
 
 FAN_RIG = presets["fan-rig"]
 

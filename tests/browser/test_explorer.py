@@ -11,69 +11,18 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from bearingcore import equilibrium, presets
-from tests.browser.helpers import Server, Watch, choose_tab, drag, explorer_server, move
-
-#: every view, and the tab it stands on
-VIEWS = {
-    "bearing": "load",
-    "load-distribution": "load",
-    "depth-profile": "load",
-    "stiffness": "stiffness",
-    "maps": "maps",
-    "modes": "modes",
-    "vibration-time": "vibration",
-    "vibration-spectrum": "vibration",
-    "orbit": "orbits",
-}
-
-
-def open_page(page: Page, server: Server, tab: str = "load") -> None:
-    page.goto(server.url)
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
-    show(page, tab)
-
-
-def show(page: Page, tab: str) -> None:
-    choose_tab(page, tab)
-    page.wait_for_function(f"window.__tab == '{tab}'", timeout=60000)  # it is drawn
-    settle(page)
-
-
-def settle(page: Page) -> None:
-    """Wait until the newest change is drawn and the paints that follow are done."""
-    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)", timeout=60000)
-    page.evaluate("() => new Promise(done => setTimeout(done, 120))")
-
-
-def slider(page: Page, name: str):
-    return page.locator(f"#control-{name}")
-
-
-def value(page: Page, name: str) -> float:
-    return float(slider(page, name).input_value())
-
-
-def number(page: Page, name: str):
-    return page.locator(f".control-{name} .number")
-
-
-def pixels(page: Page, view: str) -> str:
-    """All that the canvases of a view show."""
-    shown = page.locator(f".view-{view} canvas").evaluate_all(
-        "canvases => canvases.map(canvas => canvas.toDataURL()).join()"
-    )
-    assert len(shown) > 1000, f"the view {view} shows nothing"
-    return str(shown)
-
-
-def source(page: Page, name: str) -> dict[str, list[float]]:
-    """The numbers in the browser behind a figure."""
-    return page.evaluate(
-        """name => Object.fromEntries(Object.entries(
-             Bokeh.documents[0].get_model_by_name(name).data
-           ).map(([column, values]) => [column, Array.from(values)]))""",
-        name,
-    )
+from tests.browser.explorer_page import (
+    VIEWS,
+    number,
+    open_page,
+    pixels,
+    settle,
+    show,
+    slider,
+    source,
+    value,
+)
+from tests.browser.helpers import Server, Watch, drag, explorer_server, move
 
 
 @pytest.mark.parametrize(("waited", "sent_at_once"), [(0, {2}), (300, {0, 1})])

@@ -15,8 +15,8 @@ from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_n
 from playwright.sync_api import Page, expect
 
 from bearingcore import STIFFNESS_TERMS, Maps, presets
+from tests.browser.explorer_page import open_page, pixels, settle, slider, source
 from tests.browser.helpers import Server, Watch, drag, move
-from tests.browser.test_explorer import open_page, pixels, settle, slider, source
 
 LIEW_LIM = presets["liew-lim"]
 K_XY = STIFFNESS_TERMS.index("k_xy")

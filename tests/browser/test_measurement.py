@@ -13,8 +13,8 @@ from playwright.sync_api import Page, expect
 from scipy.io import wavfile
 
 from bearingcore import presets, simulate
+from tests.browser.explorer_page import open_page, pixels, settle, show, source, value
 from tests.browser.helpers import Server, Watch
-from tests.browser.test_explorer import open_page, pixels, settle, show, source, value
 
 RATE = 48_000
 EXTENT = 38.6

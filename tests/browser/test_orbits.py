@@ -3,37 +3,24 @@
 from __future__ import annotations
 
 import re
-import time
-from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Page, expect
 
-from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import (
+from tests.browser.explorer_page import (
     number,
     open_page,
     pixels,
+    place,
     settle,
     show,
     slider,
     source,
     value,
+    wait,
+    words,
 )
-
-
-def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
-    """Where on the screen a place in a figure lies."""
-    found = page.evaluate(
-        """([name, x, y]) => {
-          const [view] = [...Bokeh.index.query(view => view.model.name == name)]
-          view.el.scrollIntoView({block: "center"})
-          const box = view.canvas_view.el.getBoundingClientRect()
-          return [box.left + view.frame.x_scale.compute(x), box.top + view.frame.y_scale.compute(y)]
-        }""",
-        [drawing, x, y],
-    )
-    return float(found[0]), float(found[1])
+from tests.browser.helpers import Server, Watch, drag
 
 
 def fill(page: Page, **fields: str) -> None:
@@ -44,17 +31,6 @@ def fill(page: Page, **fields: str) -> None:
 def grid(page: Page, name: str) -> list[float]:
     """Columns, rows, left, width, bottom, height of a picture; empty before there is one."""
     return source(page, name)["packed"][:6]
-
-
-def words(page: Page, view: str) -> Locator:
-    return page.locator(f".view-{view} form .words")
-
-
-def wait(page: Page, done: Callable[[], bool], seconds: float = 90.0) -> None:
-    end = time.monotonic() + seconds
-    while not done():
-        assert time.monotonic() < end, "it did not happen"
-        page.wait_for_timeout(60)
 
 
 def small_map(page: Page) -> None:

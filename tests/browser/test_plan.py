@@ -6,8 +6,8 @@ import re
 
 from playwright.sync_api import Page, expect
 
+from tests.browser.explorer_page import open_page, settle, show, slider, source
 from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import open_page, settle, show, slider, source
 
 PLANNED = re.compile(r"this scene: 2 DOF \(x y\), (\d+) cage angles: .*, error 0\.\d+ %")
 

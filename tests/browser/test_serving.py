@@ -9,7 +9,6 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Page, expect
 
-from tests.bearing_explorer.proxies import Proxy
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -20,6 +19,7 @@ from tests.browser.helpers import (
     page_server,
     serving,
 )
+from tests.helpers.proxies import Proxy
 
 
 @contextmanager

@@ -14,8 +14,8 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Scene, equilibrium, presets
+from tests.browser.explorer_page import VIEWS, settle, show, slider, source, value
 from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import VIEWS, settle, show, slider, source, value
 
 LINK = "v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&cage_angle_deg=12.5&tab=stiffness"
 

@@ -6,9 +6,9 @@ import warnings
 
 import pytest
 
-from tests.bearing_explorer.loops import run
 from tests.fuzz.__main__ import _meet
 from tests.fuzz.targets import targets
+from tests.helpers.loops import run
 
 
 @pytest.mark.parametrize("name", [target.name for target in targets()])

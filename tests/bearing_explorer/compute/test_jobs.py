@@ -11,7 +11,7 @@ import pytest
 from bearing_explorer.compute import jobs as module
 from bearing_explorer.compute.jobs import Jobs, JobState, Work
 
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 
 class Page:

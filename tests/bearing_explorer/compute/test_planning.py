@@ -25,7 +25,7 @@ from bokeh.models import Spacer
 
 from bearingcore import equilibrium, presets
 from bearingcore.plan import BUDGETS, SETTLED
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 

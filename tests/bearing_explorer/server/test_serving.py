@@ -20,11 +20,11 @@ from bokeh.model import util as model_util
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPResponse
 from tornado.websocket import websocket_connect
 
-from tests.bearing_explorer.loops import run
-from tests.bearing_explorer.proxies import Proxy
 from tests.browser.helpers import explorer_server
 from tests.browser.helpers import serving as server_up
-from tests.page_client import PageClient
+from tests.helpers.loops import run
+from tests.helpers.page_client import PageClient
+from tests.helpers.proxies import Proxy
 
 SMALL = Limits(sessions=3, message=300_000, idle=3600.0)
 

@@ -25,20 +25,42 @@ VIEWS = {
 
 def open_page(page: Page, server: Server, tab: str = "load") -> None:
     page.goto(server.url)
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.wait_for_function("window.__frames >= 1")
     show(page, tab)
 
 
 def show(page: Page, tab: str) -> None:
     choose_tab(page, tab)
-    page.wait_for_function(f"window.__tab == '{tab}'", timeout=60000)  # it is drawn
+    page.wait_for_function(f"window.__tab == '{tab}'")  # it is drawn
     settle(page)
 
 
 def settle(page: Page) -> None:
     """Wait until the newest change is drawn and the paints that follow are done."""
-    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)", timeout=60000)
-    page.evaluate("() => new Promise(done => setTimeout(done, 120))")
+    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)")
+    painted(page)
+
+
+def rest(page: Page) -> None:
+    """Wait until what is on screen is drawn by its plan: nothing more will come by itself."""
+    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0) && window.__resting")
+    painted(page)
+
+
+def painted(page: Page) -> None:
+    """Wait until what has arrived is painted.
+
+    A paint waits for at most 16 ms and then for the next frame of the screen, and may lead to
+    another one. A timer that is set later and lasts longer comes after it, however slow all is.
+    """
+    page.evaluate(
+        """async () => {
+          for (let round = 0; round < 3; round++) {
+            await new Promise(done => setTimeout(done, 25))
+            await new Promise(done => requestAnimationFrame(done))
+          }
+        }"""
+    )
 
 
 def slider(page: Page, name: str):
@@ -90,7 +112,8 @@ def words(page: Page, view: str) -> Locator:
     return page.locator(f".view-{view} form .words")
 
 
-def wait(page: Page, done: Callable[[], bool], seconds: float = 90.0) -> None:
+def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
+    """Wait until it is so."""
     end = time.monotonic() + seconds
     while not done():
         assert time.monotonic() < end, "it did not happen"

@@ -16,11 +16,13 @@ from tests.browser.explorer_page import (
     number,
     open_page,
     pixels,
+    rest,
     settle,
     show,
     slider,
     source,
     value,
+    wait,
 )
 from tests.browser.helpers import Server, Watch, drag, explorer_server, move
 
@@ -32,17 +34,25 @@ def test_a_queue_on_the_server_is_not_made_longer(
     """Two changes may be on their way; where the last waited for others the next waits here."""
     page, _ = watch
     open_page(page, explorer)
+    # The clock of the network is the test's own: each change takes 20 ms there, some wait longer.
+    page.evaluate(
+        """() => {
+        let asked = window.__asked || 0, asked_at = 0, arrived = window.__arrived
+        window.__wait = 0
+        Object.defineProperty(window, "__asked", {
+          get: () => asked,
+          set: (mark) => { asked = mark; asked_at = performance.now() },
+        })
+        Object.defineProperty(window, "__arrived", {
+          get: () => arrived,
+          set: () => { arrived = asked_at + 1000 * window.__worked + 20 + window.__wait },
+        })
+      }"""
+    )
     thumb = slider(page, "extent_deg")
     assert move(thumb, 20) == 1
     settle(page)  # the time on the network is known
-    page.evaluate(
-        """waited => {
-        let arrived = window.__arrived
-        const set = (time) => { arrived = time + waited }
-        Object.defineProperty(window, "__arrived", { get: () => arrived, set })
-      }""",
-        waited,
-    )
+    page.evaluate("waited => { window.__wait = waited }", waited)
     assert move(thumb, 22) == 1
     settle(page)
     asked = page.evaluate("window.__asked")
@@ -151,19 +161,23 @@ def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> No
     page, _ = watch
     open_page(page, explorer)
     button = page.get_by_role("button", name="Turn the bearing")
+    rest(page)
     start, picture = value(page, "cage_angle_deg"), pixels(page, "bearing")
     button.click()
-    page.wait_for_timeout(1000)
-    turning = pixels(page, "bearing")
-    assert turning != picture
-    page.wait_for_timeout(500)
+    seen: list[str] = []
+
+    def turned() -> bool:
+        seen.append(pixels(page, "bearing"))
+        return len(set(seen) - {picture}) >= 2 and value(page, "cage_angle_deg") > start + 5
+
+    wait(page, turned)
     page.get_by_role("button", name="Stop turning").click()
-    settle(page)
+    rest(page)
     stopped = value(page, "cage_angle_deg")
     assert stopped > start + 5
     still = pixels(page, "bearing")
-    assert still not in (picture, turning)
-    page.wait_for_timeout(400)
+    assert still not in (picture, seen[0])
+    page.wait_for_timeout(400)  # long enough to see it, should it turn on
     assert value(page, "cage_angle_deg") == stopped
     assert pixels(page, "bearing") == still
 
@@ -182,6 +196,7 @@ def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
 ) -> None:
     page, _ = watch
     open_page(page, explorer, "stiffness")
+    rest(page)
     before = source(page, "stiffness_defective")
     field, refusal = number(page, "extent_deg"), page.locator(".control-extent_deg .refusal")
     field.fill(typed)
@@ -189,6 +204,7 @@ def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
     expect(refusal).to_have_text(sentence)
     expect(field).to_have_attribute("aria-invalid", "true")
     assert value(page, "extent_deg") == pytest.approx(12.9)
+    rest(page)
     assert source(page, "stiffness_defective") == before
     field.fill("33,25")
     field.press("Enter")

@@ -256,6 +256,7 @@ def _edges(band):
     return band.lowest, band.highest, band.highest
 
 
+@pytest.mark.proof
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     """A small part of `python -m tests.benchmarks.sizing_proof`, with room for bad luck."""
     answers = size_all(SCORED, 16, noises=(20.0,))

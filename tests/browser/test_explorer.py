@@ -8,13 +8,14 @@ import signal
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, ViewportSize, expect
 
 from bearingcore import equilibrium, presets
 from tests.browser.explorer_page import (
     VIEWS,
     number,
     open_page,
+    painted,
     pixels,
     rest,
     settle,
@@ -182,36 +183,35 @@ def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> No
     assert pixels(page, "bearing") == still
 
 
-@pytest.mark.parametrize(
-    ("typed", "sentence"),
-    [
+def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    field, refusal = number(page, "extent_deg"), page.locator(".control-extent_deg .refusal")
+    for typed, sentence in (
         ("400", "400° is out of range: extent goes from 0 to 360°."),
         ("-3", "−3° is out of range: extent goes from 0 to 360°."),
         ("a lot", "“a lot” is not a number: extent goes from 0 to 360°."),
         ("NaN", "“NaN” is not a number: extent goes from 0 to 360°."),
-    ],
-)
-def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
-    watch: tuple[Page, Watch], explorer: Server, typed: str, sentence: str
-) -> None:
-    page, _ = watch
-    open_page(page, explorer, "stiffness")
-    rest(page)
-    before = source(page, "stiffness_defective")
-    field, refusal = number(page, "extent_deg"), page.locator(".control-extent_deg .refusal")
-    field.fill(typed)
-    field.press("Enter")
-    expect(refusal).to_have_text(sentence)
-    expect(field).to_have_attribute("aria-invalid", "true")
-    assert value(page, "extent_deg") == pytest.approx(12.9)
-    rest(page)
-    assert source(page, "stiffness_defective") == before
-    field.fill("33,25")
-    field.press("Enter")
-    expect(refusal).to_be_hidden()
-    expect(field).to_have_value("33.25")
-    settle(page)
-    assert source(page, "stiffness_defective") != before
+    ):
+        rest(page)
+        before = source(page, "stiffness_defective")
+        field.fill(typed)
+        field.press("Enter")
+        expect(refusal).to_have_text(sentence)
+        expect(field).to_have_attribute("aria-invalid", "true")
+        assert value(page, "extent_deg") == pytest.approx(12.9)
+        rest(page)
+        assert source(page, "stiffness_defective") == before, typed
+        field.fill("33,25")
+        field.press("Enter")
+        expect(refusal).to_be_hidden()
+        expect(field).to_have_value("33.25")
+        settle(page)
+        assert source(page, "stiffness_defective") != before, typed
+        page.get_by_role("button", name="Reset", exact=True).click()
+        expect(field).to_have_value("12.9")
 
 
 def test_a_load_nothing_can_carry_is_said_in_words(
@@ -265,20 +265,33 @@ def test_the_keyboard_moves_sliders_numbers_and_tabs(
     expect(page.locator(".view-bearing")).to_be_hidden()
 
 
-@pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844), (1920, 1080)])
-def test_the_page_fits_the_screen(
-    watch: tuple[Page, Watch], explorer: Server, width: int, height: int
-) -> None:
+def test_the_page_fits_the_screen(watch: tuple[Page, Watch], explorer: Server) -> None:
+    """Opened on each screen, and each tab on each of them."""
     page, _ = watch
-    page.set_viewport_size({"width": width, "height": height})
-    open_page(page, explorer)
-    for tab in dict.fromkeys(VIEWS.values()):
-        show(page, tab)
+    screens: list[ViewportSize] = [
+        {"width": 1366, "height": 768},
+        {"width": 390, "height": 844},
+        {"width": 1920, "height": 1080},
+    ]
+
+    def fits(what: str) -> None:
         wide = page.evaluate(
             """() => [document.documentElement, document.querySelector("main"),
                       document.querySelector("aside")].map(e => e.scrollWidth - e.clientWidth)"""
         )
-        assert wide == [0, 0, 0], f"{tab} at {width}x{height} needs horizontal scrolling: {wide}"
+        assert wide == [0, 0, 0], f"{what} needs horizontal scrolling: {wide}"
+
+    for screen in screens:
+        page.set_viewport_size(screen)
+        open_page(page, explorer)
+        fits(f"load, opened at {screen}")
+    for number_, tab in enumerate(dict.fromkeys(VIEWS.values())):
+        page.set_viewport_size(screens[number_ % 3])  # each tab is first seen on another one
+        show(page, tab)
+        for screen in screens[number_ % 3 :] + screens[: number_ % 3]:
+            page.set_viewport_size(screen)
+            painted(page)
+            fits(f"{tab} at {screen}")
 
 
 def test_the_server_says_what_it_does_and_ends_cleanly() -> None:

@@ -62,6 +62,7 @@ def test_the_bearing_is_round(watch: tuple[Page, Watch], explorer: Server, width
     page, _ = watch
     page.set_viewport_size({"width": width, "height": 900})
     open_explorer(page, explorer)
+    rest(page)  # before its first paint a figure has no size
     shapes: list[dict[str, float]] = []
 
     def settled() -> bool:

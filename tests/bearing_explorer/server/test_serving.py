@@ -346,7 +346,9 @@ def test_lines_of_the_log_name_session_scene_view_and_time(
         assert await client.until_drawn()
         names.extend(session.id for session in session_of(server))
         await client.close()
+        end = time.monotonic() + 120.0
         while not any(r.getMessage().startswith("left ") for r in caplog.records):
+            assert time.monotonic() < end
             await asyncio.sleep(0.01)
 
     with caplog.at_level(logging.INFO, "bearing_explorer"):

@@ -12,19 +12,20 @@ from tests.browser.helpers import Server, Watch, drag, holding
 PLANNED = re.compile(r"this scene: 2 DOF \(x y\), (\d+) cage angles: .*, error 0\.\d+ %")
 
 
-#: notes for how long nothing had been asked when something came that was drawn by plan [ms]
+#: notes how long ago that was asked for which comes drawn by its plan [ms]
 PAUSES = """() => {
-  let asked = window.__asked, asked_at = -Infinity, resting = window.__resting
+  let asked = window.__asked, resting = window.__resting
+  const asked_at = new Map()
   window.__pauses = []
   Object.defineProperty(window, "__asked", {
     get: () => asked,
-    set: (mark) => { asked = mark; asked_at = performance.now() },
+    set: (mark) => { asked = mark; asked_at.set(mark, performance.now()) },
   })
   Object.defineProperty(window, "__resting", {
     get: () => resting,
     set: (now) => {
       resting = now
-      if (now) window.__pauses.push(performance.now() - asked_at)
+      if (now) window.__pauses.push(performance.now() - (asked_at.get(window.__mark) ?? -Infinity))
     },
   })
 }"""

@@ -24,8 +24,8 @@ from bearingcore import (
     spectrum,
 )
 from bearingcore.dynamics.orbit import orbit
-from tests import naive
-from tests.independent import Balls, verdict
+from tests.helpers import naive
+from tests.helpers.independent import Balls, verdict
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 RATE = 65536.0

@@ -17,7 +17,7 @@ from bearing_explorer.views.stability_map import OrbitStability
 from bokeh.document import Document
 
 from bearingcore import Defect, presets
-from tests.bearing_explorer.views.test_stability_view import found_map
+from tests.helpers.stability import found_map
 
 KINDS = [view for section in SECTIONS for view in section.views]
 NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7}}"

@@ -31,7 +31,7 @@ import numpy as np
 from playwright.sync_api import Error, sync_playwright
 
 from tests.browser.helpers import chromium, explorer_server, serving
-from tests.page_client import PageClient
+from tests.helpers.page_client import PageClient
 
 FRAME = 1.0 / 60.0
 DRAG, REST = 5.0, 0.5  # [s]

@@ -22,8 +22,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearingcore import DOF_NAMES, equilibrium, kernels, warm
-from tests.box import Point, cage_angles_at, draw, scene_at
-from tests.independent import verdict
+from tests.helpers.box import Point, cage_angles_at, draw, scene_at
+from tests.helpers.independent import verdict
 
 CHUNK = 2000
 NAMES = {

@@ -9,8 +9,8 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.explorer_page import open_page, settle, slider, source, value
 from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import open_page, settle, slider, source, value
 
 _FIGURES = """
 const figures = {}

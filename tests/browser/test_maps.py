@@ -15,8 +15,8 @@ from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_n
 from playwright.sync_api import Page, expect
 
 from bearingcore import STIFFNESS_TERMS, Maps, presets
+from tests.browser.explorer_page import open_page, pixels, rest, settle, slider, source
 from tests.browser.helpers import Server, Watch, drag, move
-from tests.browser.test_explorer import open_page, pixels, settle, slider, source
 
 LIEW_LIM = presets["liew-lim"]
 K_XY = STIFFNESS_TERMS.index("k_xy")
@@ -97,6 +97,7 @@ def test_a_click_goes_to_its_extent_and_cage_angle(
 ) -> None:
     page, watching = watch
     open_maps(page, explorer)
+    rest(page)
     before = source(page, "maps_points")
     page.mouse.click(*place(page, K_XY, 0.25, 0.75))
     expect(page.locator(".control-extent_deg .number")).to_have_value(re.compile(r"^6[78]"))
@@ -116,6 +117,7 @@ def test_a_click_goes_to_its_extent_and_cage_angle(
         rf"Marked: extent {extent:g}°", page.locator(".view-maps [role=status]").first.inner_text()
     )
     # beside the maps there is nowhere to go to
+    rest(page)
     sent = watching.frames_sent
     page.mouse.click(*place(page, K_XY, -0.4, 0.5))
     page.wait_for_timeout(300)
@@ -153,7 +155,7 @@ def test_every_change_that_is_waited_for_is_drawn(
     frames = page.evaluate("window.__frames")
     for step in range(1, 13):
         move(slider(page, "fy_n"), -2000 - 40 * step)
-        page.wait_for_function("window.__mark >= window.__asked", timeout=2000)
+        page.wait_for_function("window.__mark >= window.__asked")
     assert page.evaluate("window.__frames") - frames >= 12
     assert slider(page, "fy_n").input_value() == "-2480"
     low = StiffnessMaps(Wire()).data(Results(LIEW_LIM.replace(fy=-2480.0)))[0]["maps_cells"]

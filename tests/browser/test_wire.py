@@ -17,7 +17,7 @@ def wire_page() -> Iterator[Server]:
 def test_the_last_packet_is_drawn_whole(watch: tuple[Page, Watch], wire_page: Server) -> None:
     page, watching = watch
     page.goto(wire_page.url)
-    page.wait_for_function("window.__mark == 40", timeout=30000)
+    page.wait_for_function("window.__mark == 40")
     frames = watching.frames_sent
     drawn = page.evaluate(
         """() => {
@@ -37,13 +37,13 @@ def test_the_last_packet_is_drawn_whole(watch: tuple[Page, Watch], wire_page: Se
 def test_the_websocket_sends_at_once(watch: tuple[Page, Watch], wire_page: Server) -> None:
     page, _ = watch
     page.goto(wire_page.url)
-    expect(page.locator(".nodelay")).to_contain_text("1", timeout=30000)
+    expect(page.locator(".nodelay")).to_contain_text("1")
 
 
 def test_the_numbers_of_a_figure_can_be_saved(watch: tuple[Page, Watch], wire_page: Server) -> None:
     page, _ = watch
     page.goto(wire_page.url)
-    page.wait_for_function("window.__mark == 40", timeout=30000)
+    page.wait_for_function("window.__mark == 40")
     with page.expect_download() as saving:
         page.get_by_role("button", name="“A line”: save the numbers").click()
     assert saving.value.suggested_filename == "bearing-line.csv"

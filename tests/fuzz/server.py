@@ -17,7 +17,7 @@ from tornado.websocket import WebSocketClosedError
 from tests.browser.helpers import explorer_server, serving
 from tests.fuzz.inputs import TOKENS, plain_value, text_like
 from tests.fuzz.targets import _addresses
-from tests.page_client import PageClient
+from tests.helpers.page_client import PageClient
 
 _PATHS = (
     *("", "ws", "liveness", "static/js/bokeh.min.js", "favicon.ico", "metadata", "autoload.js"),

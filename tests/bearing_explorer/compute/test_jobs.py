@@ -11,7 +11,7 @@ import pytest
 from bearing_explorer.compute import jobs as module
 from bearing_explorer.compute.jobs import Jobs, JobState, Work
 
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 
 class Page:
@@ -157,7 +157,7 @@ def test_the_end_of_a_session_cancels_and_says_nothing_more() -> None:
         return told
 
     told = run(session())
-    assert ended.wait(2.0), "the thread must not go on for a page that is gone"
+    assert ended.wait(60.0), "the thread must not go on for a page that is gone"
     assert len(page.states) == told
 
 

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from bearing_explorer.compute.scheduler import LIGHT, LIGHT_THOUGHT, Turns
 
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 
 def work(seconds: float) -> str:

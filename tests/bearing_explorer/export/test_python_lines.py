@@ -15,7 +15,7 @@ from bearing_explorer.views.base import View
 from bearing_explorer.views.stability_map import OrbitStability
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, presets
-from tests.bearing_explorer.views.test_stability_view import found_map
+from tests.helpers.stability import found_map
 
 mpl.use("agg")
 

@@ -17,9 +17,9 @@ from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE,
 from scipy.io import savemat, wavfile
 
 from bearingcore import presets, read_table
-from tests.bearing_explorer.loops import run
-from tests.bearing_explorer.measuring import measuring, signal
-from tests.bearingcore.diagnosis.test_sizing import file_from_elsewhere
+from tests.helpers.loops import run
+from tests.helpers.measuring import measuring, signal
+from tests.helpers.recordings import file_from_elsewhere
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))

@@ -4,7 +4,7 @@ import asyncio
 
 from bearing_explorer.server.live import LatestWins, in_thread, one_message, send_at_once
 
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 
 def test_inputs_overtaken_while_at_work_are_dropped() -> None:

@@ -44,7 +44,7 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from tests import naive
+from tests.helpers import naive
 
 FILES = sorted(own_folder().glob("*.md"))
 FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]

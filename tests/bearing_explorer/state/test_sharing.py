@@ -7,8 +7,8 @@ import pytest
 from bearing_explorer.session import Explorer
 
 from bearingcore import Scene, presets
-from tests.bearing_explorer.loops import run
-from tests.bearing_explorer.test_explorer import SECTIONS
+from tests.helpers.loops import run
+from tests.helpers.sections import SECTIONS
 
 
 @pytest.fixture

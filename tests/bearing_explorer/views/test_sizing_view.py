@@ -34,8 +34,8 @@ from bearing_explorer.widgets.candidates import percent, rows
 from scipy.io import wavfile
 
 from bearingcore import Recording, Spectrum, presets
-from tests.bearing_explorer.measuring import measuring, signal
-from tests.bearingcore.diagnosis.test_sizing import file_from_elsewhere
+from tests.helpers.measuring import measuring, signal
+from tests.helpers.recordings import file_from_elsewhere
 
 mpl.use("agg")
 

@@ -13,7 +13,7 @@ from bearing_explorer.figures.heat_map import Side, ends
 from bearing_explorer.server.packed_source import Wire
 from bearing_explorer.state.quantities import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.state.value_range import SWEEPABLE, sweep
 from bearing_explorer.views.stability_map import (
     GRIDS,
     KINDS,
@@ -26,9 +26,9 @@ from bearing_explorer.views.stability_map import (
 )
 
 from bearingcore import orbit, presets
-from bearingcore.dynamics.stability_map import OUTCOMES, stability_map
+from bearingcore.dynamics.stability_map import OUTCOMES
+from tests.helpers.stability import RIG, found_map
 
-RIG = presets["fan-rig"].replace(contact_damping=130.0)
 FORM = {
     "x": "shaft_speed_hz",
     "x_from": "4",
@@ -38,12 +38,6 @@ FORM = {
     "y_to": "62",
     "grid": "13",
 }
-
-
-def found_map() -> Found:
-    x = Sweep(SWEEPABLE["shaft_speed_hz"], np.array([10.0, 20.0, 30.0]))
-    y = Sweep(SWEEPABLE["extent_deg"], np.array([12.9, 38.6]))
-    return Found(stability_map(RIG, x.in_si, y.in_si), x, y)
 
 
 def test_each_point_has_the_kind_of_its_orbit() -> None:

@@ -26,7 +26,7 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from tests.independent import Balls, verdict
+from tests.helpers.independent import Balls, verdict
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 NAN, INF = math.nan, math.inf

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from bearingcore import DOF_NAMES, EDGES, RACES, equilibrium, kernels
 from bearingcore.statics.load_capacity import way_out
-from tests.box import (
+from tests.helpers.box import (
     DOF_SETS,
     FACTORS,
     FORCES,
@@ -32,7 +32,7 @@ from tests.box import (
     draw,
     scene_at,
 )
-from tests.independent import Balls, verdict
+from tests.helpers.independent import Balls, verdict
 
 TURN = 2.0 * math.pi
 

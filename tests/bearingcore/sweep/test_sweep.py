@@ -324,7 +324,7 @@ def marks_of(store: Path) -> list[Path]:
     return [file for file in folder.glob("*/*") if file.is_file() and "." not in file.name]
 
 
-def until(is_so: Callable[[], bool], seconds: float = 90.0) -> None:
+def until(is_so: Callable[[], bool], seconds: float = 300.0) -> None:
     end = time.monotonic() + seconds
     while not is_so():
         assert time.monotonic() < end, "it took too long"
@@ -572,7 +572,7 @@ def test_killed_workers_and_schedulers_lose_nothing(
     from distributed import Client
 
     with Client(address, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=60)
+        client.wait_for_workers(2, timeout=300)
 
     # a worker dies: the sweep comes to its end all the same
     first = tmp_path / "worker.zarr"
@@ -581,7 +581,7 @@ def test_killed_workers_and_schedulers_lose_nothing(
     workers[0].kill()
     done = files_of(first)
     assert 5 * 5 <= len(done) < 60 * 5
-    running.join(60)
+    running.join(300)
     assert running.error is None
     after = files_of(first)
     assert {file: after[file] for file in done} == done
@@ -592,7 +592,7 @@ def test_killed_workers_and_schedulers_lose_nothing(
     running = InBackground(second, address)
     until(lambda: len(marks_of(second)) >= 5)
     scheduler.kill()
-    running.join(60)
+    running.join(300)
     assert isinstance(running.error, ConnectionError)
     assert "is lost" in str(running.error)
     workers[1].kill()
@@ -635,7 +635,7 @@ def test_a_killed_program_goes_on_where_it_was(reference: xarray.Dataset, tmp_pa
     assert 5 * 5 <= len(done) < 60 * 5
     partial = xarray.open_zarr(out)["status"]
     assert (partial == code("not_computed")).any()
-    second = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    second = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert second.returncode == 0, second.stderr
     assert "1,200 scenes (20 extent × 60 fy), 4 numbers of each" in second.stdout
     assert "1,200 complete" in second.stdout

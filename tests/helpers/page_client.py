@@ -156,7 +156,7 @@ class PageClient:
         while component and component not in self.ids and not self.closed:
             await self.news(10.0)
 
-    async def until_drawn(self, mark: int | None = None, seconds: float = 20.0) -> bool:
+    async def until_drawn(self, mark: int | None = None, seconds: float = 120.0) -> bool:
         """Wait until `mark` is drawn, the newest by default; whether it was."""
         wanted = self.mark if mark is None else mark
         end = time.perf_counter() + seconds

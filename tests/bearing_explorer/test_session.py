@@ -4,49 +4,13 @@ import asyncio
 import math
 from collections.abc import Callable
 
-import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.session import Explorer, Section
-from bearing_explorer.views.base import View
+from bearing_explorer.session import Explorer
 
 from bearingcore import presets
-from tests.bearing_explorer.loops import run
-
-
-class Depth(View):
-    name = "depth"
-    title = "Depth"
-    needs = frozenset({"equilibrium"})
-
-    def build(self, wire):
-        from bokeh.models import Spacer
-
-        self.drawn: list[float] = []
-        self.source = wire.source(f"{self.name}", "depth")
-        return Spacer()
-
-    def data(self, results):
-        depth = results.scene.defect.depth
-        if depth > 300e-6:
-            raise ValueError("depth is more than this view can show")
-        if depth < 10e-6:
-            raise RuntimeError("a bug")
-        self.drawn.append(depth)
-        return {self.name: {"depth": np.array([depth])}}, {}
-
-    def sentence(self, results):
-        return f"{results.scene.defect.depth:g}"
-
-    def table(self, results):
-        return {"depth_m": np.array([results.scene.defect.depth])}
-
-
-class Other(Depth):
-    name = "other"
-
-
-SECTIONS = (Section("one", "One", (Depth,)), Section("two", "Two", (Other,)))
+from tests.helpers.loops import run
+from tests.helpers.sections import SECTIONS
 
 
 @pytest.fixture

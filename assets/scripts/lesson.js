@@ -11,11 +11,11 @@ export function render({ model }) {
   }
   let open = false
   const count = model.titles.length
-  const sound = (number) => number >= 0 && number < count && !model.titles[number][1]
+  const usable = (number) => number >= 0 && number < count && !model.titles[number][1]
   const next_of = (number, step) => {
     let at = number + step
-    while (at >= 0 && at < count && !sound(at)) at += step
-    return sound(at) ? at : -1
+    while (at >= 0 && at < count && !usable(at)) at += step
+    return usable(at) ? at : -1
   }
 
   const select = element("select", { id: "lesson-choice", "aria-label": "Lesson" })

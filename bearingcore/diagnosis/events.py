@@ -133,9 +133,9 @@ def find_events(passes: BallPasses, scene: Scene, directions: tuple[str, ...]) -
 
 
 def unloading_angle(scene: Scene) -> float:
-    """Angle [rad] from an edge at which the most loaded ball of a sound bearing loses its load."""
+    """Angle [rad] from an edge where the most loaded ball of a healthy bearing loses its load."""
     (defect,) = scene.defects
-    state = equilibrium(scene.sound())
+    state = equilibrium(scene.healthy())
     load = np.nan_to_num(state.ball_load).max()
     compression = float(load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
     radius = scene.bearing.ball_radius

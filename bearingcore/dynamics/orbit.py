@@ -195,7 +195,7 @@ def orbit(
     start
         an orbit of a scene nearby to begin from; None begins at the static state.
     ball_passes
-        how many of them make a period: 1 for sound bearings and outer-race defects, as every
+        how many of them make a period: 1 for healthy bearings and outer-race defects, as every
         ball pass is then alike. None takes the shortest period there is; an inner-race defect
         has one only where shaft and cage return together.
     step_rate

@@ -36,7 +36,7 @@ class Scene:
         ω_s [rad/s], at least 0.
     contact_damping
         viscous damping c [N·s/m] of a loaded contact (Eq. 18). None: from the stiffness of the
-        sound bearing, see `bearingcore.contact_damping`.
+        healthy bearing, see `bearingcore.contact_damping`.
     contact_law
         "published" or "no tension".
     dofs
@@ -112,7 +112,7 @@ class Scene:
         """Cage speed ω_c [rad/s] (Eq. 3)."""
         return self.bearing.cage_speed(self.shaft_speed)
 
-    def sound(self) -> Scene:
+    def healthy(self) -> Scene:
         """The same scene without its defects."""
         return dataclasses.replace(self, defect=Defect.none())
 

@@ -22,7 +22,7 @@ from tests.bearing_explorer.measuring import measuring, signal
 VIEWS = [view for section in SECTIONS for view in section.views]
 SCENES = {
     **presets,
-    "sound": presets["fan-rig"].sound(),
+    "healthy": presets["fan-rig"].healthy(),
     "axial": presets["fan-rig"].replace(fz=50.0),
     "inner": presets["fan-rig"].replace(race="inner"),
     "both races": presets["liew-lim"].replace(

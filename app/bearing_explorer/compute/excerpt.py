@@ -134,7 +134,7 @@ def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
     should not change its words because the same motion was marched for longer.
     """
     angles = np.array([entry.cage_angle for entry in entries])
-    loads = np.nan_to_num(equilibrium(scene.sound(), angles).ball_load)
+    loads = np.nan_to_num(equilibrium(scene.healthy(), angles).ball_load)
     load = loads[np.arange(len(entries)), [entry.ball for entry in entries]]
     most = np.flatnonzero(load >= load.max() * (1.0 - 1e-6))
     return min((entries[int(i)] for i in most), key=lambda entry: (entry.ball, -entry.cage_angle))

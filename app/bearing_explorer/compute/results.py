@@ -295,21 +295,21 @@ class Results:
     scene: the Scene shown
     cage_angle: the cage angle shown [rad]
     focus: which of the scene's defects is looked at
-    equilibrium, sound_equilibrium: over the stretch of the curves, with the defect and without
-    now, sound_now: at `cage_angle` alone (arrays of length 1)
-    modes, sound_modes: over the same cage angles
+    equilibrium, healthy_equilibrium: over the stretch of the curves, with the defect and without
+    now, healthy_now: at `cage_angle` alone (arrays of length 1)
+    modes, healthy_modes: over the same cage angles
     band_modes: the modes where only their bands count; at fewer cage angles while a hand moves
     extent: of the defect looked at [rad]
-    sound_all_around: like sound_equilibrium, over all that a pinned scene does
+    healthy_all_around: like healthy_equilibrium, over all that a pinned scene does
     maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
     plan: what the scene's curves or motion are drawn by, where they are drawn by a plan
-    motion, sound_motion: simulated motion
+    motion, healthy_motion: simulated motion
     settled_since: [s] of the motion, when its start is forgotten
     excerpt: some ball passes of the settled motion
     spectra: {dof: Spectrum} of the housing's acceleration from rest on
-    late_spectra, sound_late_spectra: the same of the settled motion
+    late_spectra, healthy_late_spectra: the same of the settled motion
     ball_passes: after how many of them the scene is as before; None where it never is
     orbit: the motion that repeats itself; None where it takes too many ball passes to look for
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
@@ -323,11 +323,11 @@ class Results:
     slow = frozenset(
         {
             "motion",
-            "sound_motion",
+            "healthy_motion",
             "excerpt",
             "spectra",
             "late_spectra",
-            "sound_late_spectra",
+            "healthy_late_spectra",
             "orbit",
             "orbit_spectra",
             "dof_comparison",
@@ -352,7 +352,7 @@ class Results:
     ) -> None:
         """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
 
-        `pinned`: what the attributes that begin with ``sound_`` are of, instead of the scene
+        `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
         without its defect.
         """
         self.scene = scene
@@ -366,7 +366,7 @@ class Results:
     @property
     def beside(self) -> Scene:
         """What is drawn in grey beside the scene: a pinned one, or itself without its defect."""
-        return self.scene.sound() if self.pinned is None else self.pinned.scene
+        return self.scene.healthy() if self.pinned is None else self.pinned.scene
 
     @property
     def beside_words(self) -> str:
@@ -378,7 +378,7 @@ class Results:
     @property
     def beside_name(self) -> str:
         """What it is called in the names of columns."""
-        return "sound" if self.pinned is None else "pinned"
+        return "healthy" if self.pinned is None else "pinned"
 
     @property
     def over_shaft(self) -> bool:
@@ -421,7 +421,7 @@ class Results:
         if view not in CURVES:
             return motion_plans(self.scene, view, how)
         if self.scene.defects:
-            plans(self.scene.sound(), view, how)
+            plans(self.scene.healthy(), view, how)
         return plans(self.scene, view, how)
 
     @cached_property
@@ -439,14 +439,14 @@ class Results:
             return None
         return self.plans[view]
 
-    def _nodes(self, sound: bool) -> bytes | None:
-        """Cage angles that a plan has chosen, those of the sound bearing by a plan of its own."""
+    def _nodes(self, healthy: bool) -> bytes | None:
+        """Cage angles that a plan has chosen, those of the healthy bearing by a plan of its own."""
         if self.plan is None or self.plan.cage_angles is None:
             return None
         plan = self.plan
-        if sound and self.scene.defects:
+        if healthy and self.scene.defects:
             view = plan.view
-            plan = plans(self.scene.sound(), view, self.settings.planning(view))
+            plan = plans(self.scene.healthy(), view, self.settings.planning(view))
         angles = plan.cage_angles
         assert angles is not None
         # without a defect of the inner race curves are shorter
@@ -455,8 +455,8 @@ class Results:
             return None
         return angles.tobytes()
 
-    def _static(self, scene: Scene, sound: bool = False) -> Equilibrium:
-        nodes = self._nodes(sound)
+    def _static(self, scene: Scene, healthy: bool = False) -> Equilibrium:
+        nodes = self._nodes(healthy)
         if nodes is None:
             return equilibria(scene, *self.stretch)
         return planned_equilibria(scene, nodes)
@@ -467,17 +467,17 @@ class Results:
         return self._static(self.scene)
 
     @cached_property
-    def sound_equilibrium(self) -> Equilibrium:
+    def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
         if self.pinned is not None:
             return equilibria(self.pinned.scene, *self.stretch)
-        return self._static(self.scene.sound(), sound=True)
+        return self._static(self.scene.healthy(), healthy=True)
 
     @cached_property
-    def sound_all_around(self) -> Equilibrium:
+    def healthy_all_around(self) -> Equilibrium:
         """The same over whatever stretch holds all that happens in a pinned scene."""
         if self.pinned is None:
-            return self.sound_equilibrium
+            return self.healthy_equilibrium
         own = Results(self.pinned.scene, self.cage_angle, self.settings)
         return equilibria(self.pinned.scene, *own.stretch)
 
@@ -487,9 +487,9 @@ class Results:
         return load_curve(self.equilibrium)
 
     @cached_property
-    def sound_load_curve(self) -> Curve:
+    def healthy_load_curve(self) -> Curve:
         """The same without the defect."""
-        return load_curve(self.sound_all_around)
+        return load_curve(self.healthy_all_around)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -497,7 +497,7 @@ class Results:
         return single_equilibria(self.scene, self.cage_angle)
 
     @cached_property
-    def sound_now(self) -> Equilibrium:
+    def healthy_now(self) -> Equilibrium:
         """The same without the defect."""
         return single_equilibria(self.beside, self.cage_angle)
 
@@ -515,14 +515,14 @@ class Results:
         return modes(self.scene, first, last, n // 3 + 1)
 
     @cached_property
-    def sound_modes(self) -> Modes:
+    def healthy_modes(self) -> Modes:
         """The same without the defect."""
         if self.pinned is not None:
             return self._of_pinned(modes, self.pinned.scene, *self.stretch)
-        return self._modes(self.scene.sound(), sound=True)
+        return self._modes(self.scene.healthy(), healthy=True)
 
-    def _modes(self, scene: Scene, sound: bool = False) -> Modes:
-        nodes = self._nodes(sound)
+    def _modes(self, scene: Scene, healthy: bool = False) -> Modes:
+        nodes = self._nodes(healthy)
         if nodes is None:
             return modes(scene, *self.stretch)
         return planned_modes(scene, nodes)
@@ -571,7 +571,7 @@ class Results:
 
     def begin(self, needed: frozenset[str]) -> None:
         """Begin what of these attributes can be computed beside the others, in another thread."""
-        if {"late_spectra", "sound_late_spectra"} <= needed:
+        if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
             if not late_spectra.knows(*asked):
                 _BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
@@ -614,7 +614,7 @@ class Results:
         return motions(self.scene, self._how).since
 
     @cached_property
-    def sound_motion(self) -> Motion:
+    def healthy_motion(self) -> Motion:
         """The same without the defect, always marched."""
         return self._of_pinned(motions, self.beside, self._marching).motion
 
@@ -634,12 +634,12 @@ class Results:
         return late_spectra(self.scene, self._how)
 
     @property
-    def sound_settled_since(self) -> float:
+    def healthy_settled_since(self) -> float:
         """When [s] of that motion its start is forgotten."""
         return motions(self.beside, self._marching).since
 
     @cached_property
-    def sound_late_spectra(self) -> dict[str, Spectrum]:
+    def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect, always marched."""
         return self._of_pinned(late_spectra, self.beside, self._marching)
 

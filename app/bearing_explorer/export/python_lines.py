@@ -69,7 +69,7 @@ def _angles(script: Script, angles: NDArray[np.float64], results: Results, scene
 def _beside(script: Script, results: Results) -> str:
     """The lines' name for what is drawn in grey; adds the pinned scene where there is one."""
     if results.pinned is None:
-        return "scene.sound()"
+        return "scene.healthy()"
     script.add(f"pinned = {script.scene(results.pinned.scene)}  # what is drawn in grey")
     return "pinned"
 
@@ -163,7 +163,7 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
 
 def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "equilibrium", results.equilibrium, results.sound_all_around, beside)
+    _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
     script.add(
         "columns = {",
         '    "ball_angle_deg": np.degrees(found.ball_angle.ravel()) % 360.0,',
@@ -217,7 +217,7 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
 
 def _stiffness(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "equilibrium", results.equilibrium, results.sound_equilibrium, beside)
+    _both(script, results, "equilibrium", results.equilibrium, results.healthy_equilibrium, beside)
     script.core("STIFFNESS_TERMS")
     script.add(
         "columns = {}",
@@ -278,7 +278,7 @@ def _maps(script: Script, results: Results, view: Any) -> None:
 
 def _modes(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "modes", results.modes, results.sound_modes, beside)
+    _both(script, results, "modes", results.modes, results.healthy_modes, beside)
     name = results.beside_name
     script.add(
         'columns = {"cage_angle_deg": np.degrees(found.cage_angles)}',
@@ -350,8 +350,8 @@ def _vibration_spectrum(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _motion(script, results)
     _late(script, results)
-    other = results.sound_motion
-    half = math.ceil(results.sound_settled_since * other.sample_rate - 1e-6)
+    other = results.healthy_motion
+    half = math.ceil(results.healthy_settled_since * other.sample_rate - 1e-6)
     name = results.beside_name
     script.core("simulate")
     script.add(

@@ -30,7 +30,7 @@ from bokeh.plotting import figure
 
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""
-SOUND = "#8E93A3"
+HEALTHY = "#8E93A3"
 """The same bearing without its defect."""
 DEFECT = "#E69F00"
 """Where the defect is."""

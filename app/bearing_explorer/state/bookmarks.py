@@ -156,7 +156,7 @@ class Keeping:
         self.say(f"“{self.pinned.name}” is pinned: grey shows it beside every scene.")
 
     def unpin(self) -> None:
-        """Grey shows the sound bearing again."""
+        """Grey shows the healthy bearing again."""
         self.pinned = None
         self.say("Grey shows the bearing without its defect again.")
 

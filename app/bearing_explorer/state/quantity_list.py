@@ -428,7 +428,7 @@ _CONTACT_DAMPING = (
         1.0,
         "Contact of a moving ball",
         "Viscous damping of each loaded contact. Left empty it follows from the stiffness of the "
-        "sound bearing: 10 µs times its radial stiffness a ball.",
+        "healthy bearing: 10 µs times its radial stiffness a ball.",
         optional=True,
     ),
 )

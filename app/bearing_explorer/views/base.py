@@ -138,7 +138,7 @@ class View:
     @property
     def compares(self) -> bool:
         """Whether it draws something in grey beside the scene."""
-        return any(name.startswith("sound_") for name in self.needs)
+        return any(name.startswith("healthy_") for name in self.needs)
 
     def csv(self) -> str:
         """The table of what is drawn now as comma-separated values; empty before the first."""

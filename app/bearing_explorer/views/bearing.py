@@ -66,7 +66,7 @@ class BearingDrawing(View):
         "Seen along the shaft, z towards you. Bars and colours: what the balls carry. Grey rim: "
         "the same without the defect. Arrow: the load. The keyway turns with the shaft."
     )
-    needs = frozenset({"equilibrium", "sound_equilibrium", "now", "drop"})
+    needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
 
     def build(self, wire: Wire) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
@@ -132,8 +132,8 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_sound_loads", "x", "y"),
-            fill_color=style.SOUND,
+            source=wire.source("bearing_healthy_loads", "x", "y"),
+            fill_color=style.HEALTHY,
             fill_alpha=0.25,
             line_color=None,
         )
@@ -230,7 +230,7 @@ class BearingDrawing(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, load = results.scene, results.now.ball_load[0]
         load_range = self._load_range.fit(
-            results.equilibrium.ball_load, results.sound_equilibrium.ball_load
+            results.equilibrium.ball_load, results.healthy_equilibrium.ball_load
         )
         top = load_range[1]
         drawn = Shapes(scene, results.cage_angle)
@@ -240,7 +240,7 @@ class BearingDrawing(View):
             "bearing_marks": drawn.angle_marks(),
             "bearing_balls": drawn.balls(results.drop, load),
             "bearing_bars": drawn.bars(load, top),
-            "bearing_sound_loads": drawn.load_rim(*results.sound_load_curve, top),
+            "bearing_healthy_loads": drawn.load_rim(*results.healthy_load_curve, top),
             "bearing_arrow": drawn.load_arrow(),
             "bearing_load_words": load_words(scene.load),
             "bearing_scale_words": {

@@ -46,7 +46,7 @@ class NaturalFrequencies(View):
         "orange y. Shaded: the band in which a mode moves. Grey: the bearing without its defect. "
         "Black: now."
     )
-    needs = frozenset({"modes", "sound_modes"})
+    needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)
 
     def build(self, wire: Wire) -> Any:
@@ -73,8 +73,8 @@ class NaturalFrequencies(View):
         plot.line(
             "angle",
             "frequency",
-            source=wire.source("modes_sound", "angle", "frequency"),
-            line_color=style.SOUND,
+            source=wire.source("modes_healthy", "angle", "frequency"),
+            line_color=style.HEALTHY,
             line_width=1.5,
         )
         for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True):
@@ -105,8 +105,8 @@ class NaturalFrequencies(View):
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        modes, sound = results.modes, results.sound_modes
-        shown = self._range.fit(modes.frequency, sound.frequency)
+        modes, healthy = results.modes, results.healthy_modes
+        shown = self._range.fit(modes.frequency, healthy.frequency)
         angle = results.along(modes.cage_angles)
         bands = band_rows(modes)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
@@ -115,7 +115,7 @@ class NaturalFrequencies(View):
         bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
         sources: Sources = {
             "modes_bands": bands,
-            "modes_sound": lines(results.along(sound.cage_angles), sound.frequency),
+            "modes_healthy": lines(results.along(healthy.cage_angles), healthy.frequency),
             "modes_now": {"now": results.along([results.cage_angle])},
         }
         for direction in style.DIRECTIONS:
@@ -128,7 +128,7 @@ class NaturalFrequencies(View):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, sound = results.modes.bands(), results.sound_modes.bands()
+        bands, healthy = results.modes.bands(), results.healthy_modes.bands()
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             return "There is no static state to take natural frequencies from."
@@ -137,8 +137,8 @@ class NaturalFrequencies(View):
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
-        if results.beside_words and np.isfinite(sound.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} within {_from_to(sound[first])}"
+        if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
+            text += f"; {results.beside_words} {first} within {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -148,7 +148,7 @@ class NaturalFrequencies(View):
             self._axis.axis_label = over.label()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        modes, sound = results.modes, results.sound_modes
+        modes, healthy = results.modes, results.healthy_modes
         table = {"cage_angle_deg": np.degrees(modes.cage_angles)}
         if results.over_shaft:
             table["shaft_angle_deg"] = results.along(modes.cage_angles)
@@ -157,9 +157,9 @@ class NaturalFrequencies(View):
         for i, label in enumerate(modes.label):
             table[f"{label}_damping_ratio"] = modes.damping_ratio[:, i]
         beside = results.beside_name
-        table[f"{beside}_cage_angle_deg"] = np.degrees(sound.cage_angles)
-        for i, label in enumerate(sound.label):
-            table[f"{beside}_{label}_hz"] = sound.frequency[:, i]
+        table[f"{beside}_cage_angle_deg"] = np.degrees(healthy.cage_angles)
+        for i, label in enumerate(healthy.label):
+            table[f"{beside}_{label}_hz"] = healthy.frequency[:, i]
         return table
 
 

@@ -118,7 +118,7 @@ class SteadyOrbit(View):
             wire.range("orbit_y", -1.0, 1.0),
         )
         plot.line(
-            "x", "y", source=wire.source("orbit_marched", "x", "y"), line_color=style.SOUND,
+            "x", "y", source=wire.source("orbit_marched", "x", "y"), line_color=style.HEALTHY,
             line_width=3.0,
         )  # fmt: skip
         plot.line(
@@ -140,7 +140,7 @@ class SteadyOrbit(View):
         marched = wire.source("orbit_marched_levels", "frequency", *SHOWN)
         found = wire.source("orbit_levels", "frequency", *SHOWN)
         for dof in SHOWN:
-            plot.line("frequency", dof, source=marched, line_color=style.SOUND, line_width=4.0)
+            plot.line("frequency", dof, source=marched, line_color=style.HEALTHY, line_width=4.0)
         for dof in SHOWN:
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
             plot.line("frequency", dof, source=found, line_color=color, line_width=1.6)

@@ -35,8 +35,8 @@ from bearing_explorer.figures.style import (
     FAINT_INK,
     FONT,
     GRID,
+    HEALTHY,
     INK,
-    SOUND,
     STEEL_EDGE,
     bare_figure,
     in_degrees,
@@ -67,7 +67,7 @@ _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
 
 
 class Stiffness(View):
-    """15 stiffness traces, defective against sound, the current cage angle marked."""
+    """15 stiffness traces, defective against healthy, the current cage angle marked."""
 
     name = "stiffness"
     title = "Stiffness of the bearing"
@@ -75,7 +75,7 @@ class Stiffness(View):
         "The 15 independent terms of its symmetric 5×5 stiffness matrix as the bearing turns: "
         "how hard the inner ring resists each displacement (column) with each load (row)."
     )
-    needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)
 
     def build(self, wire: Wire) -> Any:
@@ -89,7 +89,7 @@ class Stiffness(View):
         plot.stylesheets = [":host { min-width: 760px; }"]
         self._legend = _static_parts(plot)
         cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
-        sound = wire.source("stiffness_sound", "x", "y")
+        healthy = wire.source("stiffness_healthy", "x", "y")
         defective = wire.source("stiffness_defective", "x", "y")
         now = wire.source("stiffness_now", "x", "y", "low", "high")
         _moving_parts(plot, cells)
@@ -105,7 +105,7 @@ class Stiffness(View):
             text_baseline="top",
         )
         plot.segment("x", "low", "x", "high", source=now, line_color=INK, line_alpha=0.45)
-        plot.line("x", "y", source=sound, line_color=SOUND, line_width=1.6)
+        plot.line("x", "y", source=healthy, line_color=HEALTHY, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
@@ -113,11 +113,11 @@ class Stiffness(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
-        found, sound, now = results.equilibrium, results.sound_equilibrium, results.now
+        found, healthy, now = results.equilibrium, results.healthy_equilibrium, results.now
         first, last, _ = results.stretch
-        shares = [(e.cage_angles - first) / (last - first) for e in (found, sound)]
+        shares = [(e.cage_angles - first) / (last - first) for e in (found, healthy)]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
-        scales = term_sizes(lambda term: np.concatenate([found.term(term), sound.term(term)]))
+        scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
         lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
         heads: list[tuple[float, float, float, float]] = []
@@ -132,7 +132,7 @@ class Stiffness(View):
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
         ):
-            a, b = _cleaned(found.term(term), scale), _cleaned(sound.term(term), scale)
+            a, b = _cleaned(found.term(term), scale), _cleaned(healthy.term(term), scale)
             at_now = float(_cleaned(now.term(term), scale)[0])
             limits = _trace_limits(sticky, scale, a, b)
             put(cell, limits, shares, a, b)
@@ -141,7 +141,7 @@ class Stiffness(View):
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             heads.append((limits[0], limits[1], at_now, zero))
 
-        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, sound)]
+        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, healthy)]
         low, high = self._ball_limits.fit(*counts)
         limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
         put(
@@ -161,7 +161,7 @@ class Stiffness(View):
         mark, head = np.array(marks).T, np.array(heads).T
         return {
             "stiffness_defective": drawn,
-            "stiffness_sound": beside,
+            "stiffness_healthy": beside,
             "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
@@ -173,18 +173,18 @@ class Stiffness(View):
 
     def sentence(self, results: Results) -> str:
         """How far the radial stiffness and the number of loaded balls vary."""
-        found, sound = results.equilibrium, results.sound_equilibrium
-        beside = "sound" if results.pinned is None else results.pinned.words
+        found, healthy = results.equilibrium, results.healthy_equilibrium
+        beside = "healthy" if results.pinned is None else results.pinned.words
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
-            values, sounds = found.term(term), sound.term(term)
+            values, healthy_values = found.term(term), healthy.term(term)
             least, most = np.nanmin(values), np.nanmax(values)
             line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
-            if sound.converged.any():
-                mean = _mean(sound.cage_angles, sounds)
+            if healthy.converged.any():
+                mean = _mean(healthy.cage_angles, healthy_values)
                 line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
@@ -199,15 +199,15 @@ class Stiffness(View):
         """Also in the legend what is drawn in grey."""
         super().say(results, sentence)
         if results is not None:
-            words = _legend_words(results.pinned.words if results.pinned else "sound bearing")
+            words = _legend_words(results.pinned.words if results.pinned else "healthy bearing")
             if words != self._legend.data["text"]:
                 self._legend.data = {**self._legend.data, "text": words}
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        """Every trace in SI, defective and sound."""
-        found, sound = results.equilibrium, results.sound_equilibrium
+        """Every trace in SI, defective and healthy."""
+        found, healthy = results.equilibrium, results.healthy_equilibrium
         columns: dict[str, np.ndarray] = {}
-        for kind, answer in (("defective", found), (results.beside_name, sound)):
+        for kind, answer in (("defective", found), (results.beside_name, healthy)):
             columns[f"{kind}_cage_angle_deg"] = np.degrees(answer.cage_angles)
             if results.over_shaft:
                 columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
@@ -282,9 +282,9 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     _text(plot, balls, text="text", y_offset=-6, text_font_size="12px", text_color=INK)
 
     y = [-2.36, -2.52, -2.68]
-    colors, widths = [DEFECTIVE, SOUND, INK], [2.4, 2.0, 1.2]
+    colors, widths = [DEFECTIVE, HEALTHY, INK], [2.4, 2.0, 1.2]
     plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
-    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("sound bearing")})
+    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("healthy bearing")})
     _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
     return legend
 

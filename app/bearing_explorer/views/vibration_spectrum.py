@@ -41,7 +41,7 @@ class VibrationSpectra(View):
         "forgotten, 32 Hz resolution. Grey: without the defect. Shaded: the bands of the natural "
         "frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "sound_late_spectra", "band_modes"})
+    needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "band_modes"})
     plans = (SETTLED,)
 
     def build(self, wire: Wire) -> Any:
@@ -50,7 +50,7 @@ class VibrationSpectra(View):
         frequency = wire.range("spectrum_frequency", 0.0, HIGHEST)
         level = wire.range("spectrum_level", -80.0, -20.0)
         lines = wire.source("spectrum_lines", "frequency", *SHOWN)
-        sound = wire.source("spectrum_sound", "frequency", *SHOWN)
+        healthy = wire.source("spectrum_healthy", "frequency", *SHOWN)
         passes = wire.source("spectrum_passes", "frequency", "inner")
         first = wire.source("spectrum_first_pass", "frequency", "inner")
         plots, marks = [], []
@@ -69,7 +69,7 @@ class VibrationSpectra(View):
                 plot.vspan("frequency", source=passes, line_color=style.DEFECT, line_alpha=0.4)
             )
             marks.append(self._name_pass(plot, first))
-            plot.line("frequency", dof, source=sound, line_color=style.SOUND, line_width=1.5)
+            plot.line("frequency", dof, source=healthy, line_color=style.HEALTHY, line_width=1.5)
             plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
             plots.append(plot)
         for mark in marks:
@@ -142,7 +142,7 @@ class VibrationSpectra(View):
         }
         sources: Sources = {
             "spectrum_lines": drawn,
-            "spectrum_sound": drawn_levels(results.sound_late_spectra, top),
+            "spectrum_healthy": drawn_levels(results.healthy_late_spectra, top),
             "spectrum_passes": passing,
             "spectrum_first_pass": first,
         }
@@ -189,7 +189,7 @@ class VibrationSpectra(View):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
         beside = f"{results.beside_name}_"
-        spectra_of = {"": results.late_spectra, beside: results.sound_late_spectra}
+        spectra_of = {"": results.late_spectra, beside: results.healthy_late_spectra}
         for who, spectra in spectra_of.items():
             for dof, (frequency, density) in spectra.items():
                 # samples of an orbit fit its period: a hair's breadth off those of a march

@@ -66,7 +66,7 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
     assert (failed["error"] > 1e-1).all()
     assert (failed["error"] < high).all()
     assert np.isfinite(failed["seconds"]).all()
-    assert set(sources) == set(view.data(Results(RIG.sound()))[0])
+    assert set(sources) == set(view.data(Results(RIG.healthy()))[0])
     assert view._sources[0].name != view._sources[1].name
 
 
@@ -76,7 +76,7 @@ def test_words_and_numbers_name_the_reference_and_what_failed() -> None:
     assert "LSODA and Dormand-Prince agree" in words
     assert "2·10⁻⁷ dB" in words
     assert "Verlet failed: diverged" in words
-    assert view.sentence(Results(RIG.sound())).startswith("The scene has changed")
+    assert view.sentence(Results(RIG.healthy())).startswith("The scene has changed")
     table = view.table(Results(RIG))
     assert table["spectrum_error_db"][0] == 1e-2
     assert table["status"][3].startswith("failed")

@@ -124,7 +124,7 @@ def test_curves_are_drawn_at_the_planned_angles_within_the_error(preset: str) ->
     truth = equilibrium(scene, between).term("k_yy")
     drawn = np.interp(between, nodes, planned.equilibrium.term("k_yy"))
     assert np.abs(drawn - truth).max() < BUDGETS["stiffness"] * np.ptp(truth)
-    assert planned.sound_equilibrium.cage_angles.size != nodes.size, "planned on its own"
+    assert planned.healthy_equilibrium.cage_angles.size != nodes.size, "planned on its own"
     coarse = np.interp(between, usual.equilibrium.cage_angles, usual.equilibrium.term("k_yy"))
     assert np.abs(coarse - truth).max() > np.abs(drawn - truth).max()
 

@@ -38,7 +38,7 @@ def test_a_symmetric_scene_gives_a_symmetric_drawing() -> None:
 
 
 def test_balls_are_to_scale_and_touch_neither_their_neighbours_nor_more_than_the_races() -> None:
-    shapes = Shapes(FAN_RIG.sound(), 0.0)
+    shapes = Shapes(FAN_RIG.healthy(), 0.0)
     none = {"outer": np.zeros(14), "inner": np.zeros(14)}
     balls = shapes.balls(none, np.zeros(14))
     assert balls["radius"][0] == pytest.approx(4.0 / 26.5)
@@ -48,7 +48,7 @@ def test_balls_are_to_scale_and_touch_neither_their_neighbours_nor_more_than_the
 
 
 def test_balls_turn_with_the_cage_and_carry_their_load_with_them() -> None:
-    scene, turn = FAN_RIG.sound(), math.radians(10.0)
+    scene, turn = FAN_RIG.healthy(), math.radians(10.0)
     before, after = drawn(scene)["bearing_balls"], drawn(scene, turn)["bearing_balls"]
     angle = np.arctan2(after["y"], after["x"]) - np.arctan2(before["y"], before["x"])
     np.testing.assert_allclose(np.mod(angle, 2.0 * math.pi), turn, atol=1e-9)

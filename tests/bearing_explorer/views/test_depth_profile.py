@@ -55,8 +55,8 @@ def test_depth_grows_downwards_and_the_floor_is_in_the_picture() -> None:
     assert top < 0.0 < 50e-6 < bottom
 
 
-def test_a_sound_race_is_flat() -> None:
-    view, results = DepthProfile(Wire()), Results(FAN_RIG.sound())
+def test_a_healthy_race_is_flat() -> None:
+    view, results = DepthProfile(Wire()), Results(FAN_RIG.healthy())
     sources, _ = view.data(results)
     assert not sources["depth_profile_surface"]["depth"].any()
     assert not sources["depth_profile_path"]["drop"].any()

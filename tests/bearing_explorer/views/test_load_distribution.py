@@ -77,11 +77,11 @@ def test_an_inner_race_defect_is_shaded_where_the_shaft_has_turned_it() -> None:
     assert shaded(scene, quarter)["start"] == pytest.approx([170.0])
 
 
-def test_a_sound_bearing_has_no_shade_and_its_curve_is_the_grey_one() -> None:
-    sources, _ = LoadDistribution(Wire()).data(Results(FAN_RIG.sound()))
+def test_a_healthy_bearing_has_no_shade_and_its_curve_is_the_grey_one() -> None:
+    sources, _ = LoadDistribution(Wire()).data(Results(FAN_RIG.healthy()))
     assert sources["load_distribution_defect"]["start"].size == 0
     np.testing.assert_array_equal(
-        sources["load_distribution_curve"]["load"], sources["load_distribution_sound"]["load"]
+        sources["load_distribution_curve"]["load"], sources["load_distribution_healthy"]["load"]
     )
 
 

@@ -70,7 +70,7 @@ def test_labels_with_room_stay_where_they_belong() -> None:
     np.testing.assert_array_equal(spread(places, 80.0, 0.0, 2000.0), places)
 
 
-def test_the_sentence_tells_the_bands_and_the_sound_one() -> None:
+def test_the_sentence_tells_the_bands_and_the_healthy_one() -> None:
     words = NaturalFrequencies(Wire()).sentence(Results(FAN_RIG))
     assert "x1 within 365 to 480 Hz" in words
     assert "without the defect x1 within 365 to 436 Hz" in words
@@ -86,4 +86,4 @@ def test_without_a_static_state_there_is_nothing_to_draw_and_it_is_said() -> Non
 
 def test_the_table_has_a_column_for_each_mode() -> None:
     table = NaturalFrequencies(Wire()).table(Results(FAN_RIG))
-    assert {"cage_angle_deg", "x1_hz", "y1_hz", "x2_hz", "y2_hz", "sound_x1_hz"} <= set(table)
+    assert {"cage_angle_deg", "x1_hz", "y1_hz", "x2_hz", "y2_hz", "healthy_x1_hz"} <= set(table)

@@ -23,7 +23,7 @@ from bokeh.models import Column
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import defects_of, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -58,7 +58,7 @@ def report(
 
     `found` is what jobs have found, by view; views of jobs without are left out.
     """
-    wire = Wire()
+    packed = PackedSource()
     parts: list[str] = []
     shown: list[View] = []
     sources: Sources = {}
@@ -66,7 +66,7 @@ def report(
     for kind in views:
         if issubclass(kind, (ControlView, MeasuredView)) or not (kind.needs or kind.name in found):
             continue
-        view = kind(wire)
+        view = kind(packed)
         if kind.name in found:
             view.found = found[kind.name]  # type: ignore[attr-defined]
         try:
@@ -84,16 +84,16 @@ def report(
         ranges |= data[1]
         shown.append(view)
         parts.append(_figure(view, [plot.id for plot in view.figures], sentence))
-    wire.send(sources, ranges)
+    packed.send(sources, ranges)
     plots = [plot for view in shown for plot in view.figures]
     for plot in plots:
         plot.frame_align = False  # or all would leave as much room as the one that needs most
-    layout = Column(children=[*plots, wire.anchor], sizing_mode="stretch_width")
+    layout = Column(children=[*plots, packed.anchor], sizing_mode="stretch_width")
     return {
         "name": FILE,
         "html": page(results, about, parts),
         "item": json_item(layout),
-        "packet": wire.anchor.tags[0].id,
+        "packet": packed.anchor.tags[0].id,
         "figures": [plot.id for plot in plots],
     }
 

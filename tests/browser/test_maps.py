@@ -10,7 +10,7 @@ import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
 from bearing_explorer.figures.matrix_cells import TERM_UNITS
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from playwright.sync_api import Page, expect
 
@@ -156,7 +156,7 @@ def test_every_change_that_is_waited_for_is_drawn(
         page.wait_for_function("window.__mark >= window.__asked", timeout=2000)
     assert page.evaluate("window.__frames") - frames >= 12
     assert slider(page, "fy_n").input_value() == "-2480"
-    low = StiffnessMaps(Wire()).data(Results(LIEW_LIM.replace(fy=-2480.0)))[0]["maps_cells"]
+    low = StiffnessMaps(PackedSource()).data(Results(LIEW_LIM.replace(fy=-2480.0)))[0]["maps_cells"]
     np.testing.assert_allclose(source(page, "maps_cells")["now"], low["now"], rtol=1e-4, atol=1e-3)
 
 

@@ -21,7 +21,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.results import LONGEST_ORBIT, MOST_STEPS, ComputedOnce, step_rates
+from bearing_explorer.compute.results import LONGEST_ORBIT, MOST_STEPS, step_rates
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.quantity_list import DEGREE
 from bearing_explorer.state.value_range import Sweep
@@ -519,7 +520,7 @@ def coarse(question: Question) -> Plane:
     return survey.plane(question.first_stride)
 
 
-planes: ComputedOnce[Plane] = ComputedOnce(coarse, 64)
+planes: SingleFlightCache[Plane] = SingleFlightCache(coarse, 64)
 """First levels by their question, shared by all sessions."""
 
 

@@ -13,13 +13,13 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
-import os
 import threading
 import time
 from collections.abc import Awaitable, Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, Literal
+
+from bearing_explorer.compute.executors import JOBS
 
 log = logging.getLogger(__name__)
 
@@ -28,11 +28,6 @@ LONGEST = 300.0
 
 _TICK = 0.12  # [s] between two looks at a job
 _ASIDE = 1.0  # [s] that a sentence stands at least, so that it can be read and read out
-
-#: half of the machine, so that drawing has the other half
-_THREADS = ThreadPoolExecutor(
-    max_workers=max(1, (os.cpu_count() or 2) // 2), thread_name_prefix="job"
-)
 
 Mood = Literal["idle", "waiting", "busy", "done", "stopped", "failed"]
 
@@ -169,7 +164,7 @@ class Jobs:
         if job.work.stopped:
             await self._tell(job, _NEVER_BEGAN)
             return
-        waiting = _THREADS.submit(job.run)
+        waiting = JOBS.submit(job.run)
         future = asyncio.wrap_future(waiting)
         while not future.done():
             await self._look(job)

@@ -10,13 +10,9 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-import os
-import threading
-from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,9 +25,11 @@ from bearing_explorer.compute.dof_comparison import (
     static_differences,
 )
 from bearing_explorer.compute.excerpt import Excerpt, excerpt
+from bearing_explorer.compute.executors import BESIDE
 from bearing_explorer.compute.load_curve import Curve, load_curve
 from bearing_explorer.compute.planning import plan_for
 from bearing_explorer.compute.profile import Profile, profile
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
@@ -48,9 +46,7 @@ from bearingcore.statics.passes import ball_drop
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
     from bearingcore.plan import Plan
-
 Answer = TypeVar("Answer")
-
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
@@ -60,52 +56,6 @@ LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
 HASTY_PERIODS = 30
 """Periods that are integrated at most to find it meanwhile; most orbits take 5 to 12."""
-
-
-class ComputedOnce(Generic[Answer]):
-    """A bounded cache for threads: each key is computed once, the least used leaves first."""
-
-    def __init__(self, compute: Callable[..., Answer], size: int) -> None:
-        self._compute = compute
-        self._size = size
-        self._lock = threading.Lock()
-        self._known: OrderedDict[Hashable, Future[Answer]] = OrderedDict()
-
-    def __call__(self, *key: Hashable) -> Answer:
-        with self._lock:
-            future = self._known.get(key)
-            mine = future is None
-            if future is None:
-                future = self._add(key)
-            else:
-                self._known.move_to_end(key)
-        if mine:
-            try:
-                future.set_result(self._compute(*key))
-            except BaseException as error:
-                with self._lock:
-                    self._known.pop(key, None)
-                future.set_exception(error)
-        return future.result()
-
-    def keep(self, answer: Answer, *key: Hashable) -> None:
-        """Keep what was computed elsewhere."""
-        with self._lock:
-            if key not in self._known:
-                self._add(key).set_result(answer)
-
-    def _add(self, key: tuple[Hashable, ...]) -> Future[Answer]:
-        """A place for one more answer; the lock is held."""
-        future = self._known[key] = Future[Answer]()
-        while len(self._known) > self._size:
-            self._known.popitem(last=False)
-        return future
-
-    def knows(self, *key: Hashable) -> bool:
-        """Whether the answer is there already."""
-        with self._lock:
-            future = self._known.get(key)
-        return future is not None and future.done()
 
 
 def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
@@ -268,25 +218,21 @@ def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
     return plan_for(scene, view, how)
 
 
-equilibria = ComputedOnce(_over_period, 512)
-planned_equilibria = ComputedOnce(_over_nodes, 128)
-single_equilibria = ComputedOnce(_at, 2048)
-modes = ComputedOnce(_modes, 256)
-planned_modes = ComputedOnce(_modes_over_nodes, 64)
-maps = ComputedOnce(_maps, 16)  # about 2 MB each
-motions = ComputedOnce(_motion, 8)  # about 20 MB each
-step_rates = ComputedOnce(_step_rate, 512)
-excerpts = ComputedOnce(_excerpt, 64)
-spectra = ComputedOnce(_spectra, 64)
-late_spectra = ComputedOnce(_late_spectra, 64)
-orbits = ComputedOnce(_orbit, 256)
-hasty_orbits = ComputedOnce(_hasty_orbit, 256)
-plans = ComputedOnce(_plan, 256)
-motion_plans = ComputedOnce(_plan, 24)  # with their orbits, some MB where those are long
-
-
-#: what goes on beside a drawing; kernels release the interpreter lock
-_BESIDE = ThreadPoolExecutor(max(1, (os.cpu_count() or 2) // 2), "beside")
+equilibria = SingleFlightCache(_over_period, 512)
+planned_equilibria = SingleFlightCache(_over_nodes, 128)
+single_equilibria = SingleFlightCache(_at, 2048)
+modes = SingleFlightCache(_modes, 256)
+planned_modes = SingleFlightCache(_modes_over_nodes, 64)
+maps = SingleFlightCache(_maps, 16)  # about 2 MB each
+motions = SingleFlightCache(_motion, 8)  # about 20 MB each
+step_rates = SingleFlightCache(_step_rate, 512)
+excerpts = SingleFlightCache(_excerpt, 64)
+spectra = SingleFlightCache(_spectra, 64)
+late_spectra = SingleFlightCache(_late_spectra, 64)
+orbits = SingleFlightCache(_orbit, 256)
+hasty_orbits = SingleFlightCache(_hasty_orbit, 256)
+plans = SingleFlightCache(_plan, 256)
+motion_plans = SingleFlightCache(_plan, 24)  # with their orbits, some MB where those are long
 
 
 class Results:
@@ -574,7 +520,7 @@ class Results:
         if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
             if not late_spectra.knows(*asked):
-                _BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
+                BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""

@@ -1,7 +1,8 @@
-"""Numbers on a grid as a picture: sent through the wire, read under the pointer, clicked to go.
+"""Numbers on a grid as a picture: sent in the packed source, read under the pointer, clicked to go.
 
-The wire carries columns of floats, so a picture travels as one column: a head that says where the
-grid lies and which quantities its sides are, then the values of each layer, row by row from below.
+The packed source carries columns of floats, so a picture travels as one column: a head that says
+where the grid lies and which quantities its sides are, then the values of each layer, row by row
+from below.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantity_list import Quantity
 
 CLEAR = "#00000000"
@@ -81,7 +82,7 @@ class GridImage:
     def __init__(
         self,
         plot: figure,
-        wire: Wire,
+        packed: PackedSource,
         name: str,
         mappers: Sequence[ColorMapper],
         sides: Sequence[Side],
@@ -90,7 +91,7 @@ class GridImage:
         self.name = name
         self._sides = list(sides)
         self._n_layers = len(mappers)
-        cells = wire.source(name, "packed")
+        cells = packed.source(name, "packed")
         blank = {"x": [0.0], "y": [0.0], "dw": [1.0], "dh": [1.0], "alpha": [0.0]}
         layers = [
             ColumnDataSource({"image": [np.zeros((1, 1), np.float32)], **blank}, syncable=False)

@@ -259,7 +259,7 @@ def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
 
 
 def words_of(source: ColumnDataSource, code: str) -> CustomJSExpr:
-    """Text made in the browser from the numbers of `source`, as the wire carries no words.
+    """Text made in the browser from the numbers of `source`, as the packed source carries no words.
 
     `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
     ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.

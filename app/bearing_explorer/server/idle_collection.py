@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 from tornado.ioloop import PeriodicCallback
 
-from bearing_explorer.server.live import collect_elsewhere
+from bearing_explorer.server.bokeh_private import collect_elsewhere
 
 QUIET = 0.6
 """[s] that nobody has said anything for, before a full collection."""

@@ -1,4 +1,4 @@
-"""The wire: everything drawn goes to the browser as one float32 array a scene.
+"""The packed source: everything drawn goes to the browser as one float32 array a scene.
 
 Replacing the data of many sources costs one message, one serialisation and one repaint each.
 Here the server assigns ONE array on ONE small source; a callback in the browser cuts it into
@@ -58,7 +58,7 @@ window.__mark = p[0]
 """
 
 
-class Wire:
+class PackedSource:
     """Browser-side sources and ranges of one session, fed by one packed array."""
 
     def __init__(self) -> None:

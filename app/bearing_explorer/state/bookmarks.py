@@ -73,7 +73,7 @@ def name_of(text: str) -> str:
     return " ".join(clean.split())[:LONGEST_NAME].rstrip() or "Unnamed"
 
 
-class Keeping:
+class Bookmarks:
     """The memory of one session, beside its editor."""
 
     def __init__(self, editor: SceneEditor, address: str = "") -> None:

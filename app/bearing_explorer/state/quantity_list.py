@@ -117,7 +117,7 @@ _TURNING = (
         "Hz",
         2.0 * math.pi,
         "Turning",
-        "Turns of the shaft a second. Static answers do not depend on it.",
+        "Scheduler of the shaft a second. Static answers do not depend on it.",
     ),
     Quantity(
         CAGE_ANGLE,

@@ -1,11 +1,11 @@
-"""What a view is: figures made once, numbers pushed through the wire, one live sentence.
+"""What a view is: figures made once, numbers pushed through the packed source, one live sentence.
 
 A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes, and give it
 
-- `build(wire)`: make figures, sources and ranges, once, and return what goes on the page;
+- `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
 - `sentence(results)`: one sentence that says what is to be seen, for everyone;
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
@@ -26,8 +26,8 @@ from bokeh.models import Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.export.python_lines import lines_of
-from bearing_explorer.server.live import LiveComponent
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.server.packed_source import PackedSource
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -77,10 +77,10 @@ class View:
     #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
     plans: ClassVar[tuple[str, ...]] = ()
 
-    def __init__(self, wire: Wire) -> None:
+    def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
         self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
-        body = pn.panel(self.build(wire), margin=0)
+        body = pn.panel(self.build(packed), margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
@@ -109,7 +109,7 @@ class View:
             margin=0,
         )
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         """Make the figures, once; return a Panel object or a Bokeh layout."""
         raise NotImplementedError
 
@@ -150,9 +150,9 @@ class View:
 
     def _answer(self, event: Any) -> None:
         if event.data == "csv":
-            self._caption._send_msg({"csv": self.csv()})
+            self._caption.send({"csv": self.csv()})
         if event.data == "python":
-            self._caption._send_msg({"python": self.python()})
+            self._caption.send({"python": self.python()})
 
 
 def figures_in(layout: Any) -> list[Plot]:

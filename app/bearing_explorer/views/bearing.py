@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bearing_explorer.compute.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -68,9 +68,9 @@ class BearingDrawing(View):
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
-        load = wire.range("bearing_load", 0.0, 100.0)
+        load = packed.range("bearing_load", 0.0, 100.0)
         half = HALF_WIDTH
         plot = style.bare_figure(
             Range1d(-half, half, syncable=False),
@@ -102,9 +102,9 @@ class BearingDrawing(View):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        self._draw_rings(plot, wire)
-        self._draw_loads(plot, wire, colors, inks)
-        self._write_words(plot, wire)
+        self._draw_rings(plot, packed)
+        self._draw_loads(plot, packed, colors, inks)
+        self._write_words(plot, packed)
         bar = ColorBar(
             color_mapper=colors,
             orientation="horizontal",
@@ -128,11 +128,11 @@ class BearingDrawing(View):
         plot.add_layout(bar, "below")
         return plot
 
-    def _draw_rings(self, plot: figure, wire: Wire) -> None:
+    def _draw_rings(self, plot: figure, packed: PackedSource) -> None:
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_healthy_loads", "x", "y"),
+            source=packed.source("bearing_healthy_loads", "x", "y"),
             fill_color=style.HEALTHY,
             fill_alpha=0.25,
             line_color=None,
@@ -140,7 +140,7 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_rings", "x", "y"),
+            source=packed.source("bearing_rings", "x", "y"),
             fill_color=style.STEEL,
             line_color=style.STEEL_EDGE,
             line_width=1.2,
@@ -148,13 +148,13 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_defect", "x", "y"),
+            source=packed.source("bearing_defect", "x", "y"),
             fill_color=style.DEFECT,
             fill_alpha=0.55,
             line_color="#B87A00",
             line_width=1.2,
         )
-        marks = wire.source("bearing_marks", "x", "y", "angle", "turn")
+        marks = packed.source("bearing_marks", "x", "y", "angle", "turn")
         plot.text(
             "x",
             "y",
@@ -169,15 +169,15 @@ class BearingDrawing(View):
         )
 
     def _draw_loads(
-        self, plot: figure, wire: Wire, colors: LinearColorMapper, inks: LinearColorMapper
+        self, plot: figure, packed: PackedSource, colors: LinearColorMapper, inks: LinearColorMapper
     ) -> None:
-        balls = wire.source("bearing_balls", "x", "y", "radius", "load", "number")
+        balls = packed.source("bearing_balls", "x", "y", "radius", "load", "number")
         plot.segment(
             "x0",
             "y0",
             "x1",
             "y1",
-            source=wire.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
+            source=packed.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
             line_color={"field": "load", "transform": colors},
             line_width=8,
         )
@@ -204,20 +204,20 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_arrow", "x", "y"),
+            source=packed.source("bearing_arrow", "x", "y"),
             fill_color=style.INK,
             line_color=None,
         )
 
-    def _write_words(self, plot: figure, wire: Wire) -> None:
+    def _write_words(self, plot: figure, packed: PackedSource) -> None:
         look = {
             "text_font": {"value": style.FONT},
             "text_font_size": style.TEXT_SIZE,
             "text_color": style.FAINT_INK,
         }
-        loads = wire.source("bearing_load_words", "x", "y", "kind", "value", "angle")
+        loads = packed.source("bearing_load_words", "x", "y", "kind", "value", "angle")
         plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
-        scale = wire.source("bearing_scale_words", "x", "y", "scale")
+        scale = packed.source("bearing_scale_words", "x", "y", "scale")
         plot.text(
             "x",
             "y",

@@ -10,7 +10,7 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import in_unit
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
@@ -62,7 +62,7 @@ class BearingEditor(ControlView):
     needs = frozenset[str]()
     picture = True
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         numbers = choice_spec("Given as", "", True, _NUMBERS)
         spec = spec_of(BEARING_GROUPS, {"numbers": numbers}.items())
         self.rows = BearingRows(self.forward, spec={**spec, "notes": dict(preset_notes)})
@@ -128,8 +128,8 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             hertz(bearing.bpfi(speed)),
             "How often a point of the inner race meets a ball.",
         ),
-        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
-        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Turns of a ball about itself."),
+        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Scheduler of the cage a second."),
+        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Scheduler of a ball about itself."),
         (
             "Free contact angle",
             "α<sub>f</sub>",

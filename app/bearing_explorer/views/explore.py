@@ -34,7 +34,7 @@ from bearing_explorer.compute.jobs import JobState, Work
 from bearing_explorer.figures import style
 from bearing_explorer.figures.heat_map import Side
 from bearing_explorer.figures.style import AxisQuantity
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -105,9 +105,9 @@ class ExplorePlane(JobView[Plane]):
     _news: Any = None
     _next_show = 0.0
 
-    def build(self, wire: Wire) -> Any:
-        self._mark = wire.source("explore_mark", "x", "y")
-        self._old = wire.source("explore_old", "left", "right", "bottom", "top", "alpha")
+    def build(self, packed: PackedSource) -> Any:
+        self._mark = packed.source("explore_mark", "x", "y")
+        self._old = packed.source("explore_old", "left", "right", "bottom", "top", "alpha")
         # the browser must know the sources before there is a figure that draws them
         anchor = Spacer(width=0, height=0, visible=False, tags=[self._mark, self._old])
         self._figures = pn.Column(min_height=460, sizing_mode="stretch_width", margin=0)

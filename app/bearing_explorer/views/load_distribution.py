@@ -10,7 +10,7 @@ from bokeh.models import HoverTool, Range1d
 from bearing_explorer.compute.defect_shape import pieces, spans
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -30,13 +30,13 @@ class LoadDistribution(View):
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
         plot = style.house_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,
             Range1d(0.0, 360.0, syncable=False),
-            wire.range("load_distribution_load", 0.0, 100.0),
+            packed.range("load_distribution_load", 0.0, 100.0),
             height=280,
         )
         style.fixed_ticks(plot.xaxis[0], range(0, 361, 30))
@@ -44,7 +44,7 @@ class LoadDistribution(View):
         plot.vstrip(
             "start",
             "end",
-            source=wire.source("load_distribution_defect", "start", "end"),
+            source=packed.source("load_distribution_defect", "start", "end"),
             fill_color=style.DEFECT,
             fill_alpha=0.16,
             line_color=None,
@@ -52,21 +52,21 @@ class LoadDistribution(View):
         plot.line(
             "angle",
             "load",
-            source=wire.source("load_distribution_healthy", "angle", "load"),
+            source=packed.source("load_distribution_healthy", "angle", "load"),
             line_color=style.HEALTHY,
             line_width=2.0,
         )
         curve = plot.line(
             "angle",
             "load",
-            source=wire.source("load_distribution_curve", "angle", "load"),
+            source=packed.source("load_distribution_curve", "angle", "load"),
             line_color=style.DEFECTIVE,
             line_width=2.0,
         )
         plot.scatter(
             "angle",
             "load",
-            source=wire.source("load_distribution_balls", "angle", "load"),
+            source=packed.source("load_distribution_balls", "angle", "load"),
             size=8,
             fill_color="white",
             line_color=style.INK,

@@ -2,8 +2,9 @@
 
 One canvas for all sixteen maps, laid out like the matrix: column j and row i of it are the unit
 square at (j, -i), and below the diagonal, where it only repeats itself, stands the map of the
-loaded balls. To the browser go whole numbers of 16 bits, two to a float of the wire; there they are
-coloured, read under the pointer, and a click asks for the extent and the cage angle clicked at.
+loaded balls. To the browser go whole numbers of 16 bits, two to a float of the packed source; there
+they are coloured, read under the pointer, and a click asks for the extent and the cage angle
+clicked at.
 """
 
 from __future__ import annotations
@@ -20,7 +21,12 @@ from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, DIVERGING_DARK, SEQUENTIAL, packed
+from bearing_explorer.figures.color_scales import (
+    DIVERGING,
+    DIVERGING_DARK,
+    SEQUENTIAL,
+    packed_colors,
+)
 from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
@@ -46,7 +52,7 @@ from bearing_explorer.figures.style import (
     with_prefix,
     words_of,
 )
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 
@@ -100,7 +106,7 @@ class StiffnessMaps(View):
     )
     needs = frozenset({"maps", "now"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         """One canvas for all maps."""
         self._one_sign = [StickyRange(0.0, 1.0) for _ in PLACES]
         self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
@@ -115,11 +121,11 @@ class StiffnessMaps(View):
             ":host { min-width: 760px; } .bk-events.bk-events { cursor: crosshair; }"
             ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
         ]
-        cells = wire.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
-        grid = wire.source("maps_grid", *_GRID)
-        ticks = wire.source("maps_ticks", "x", "y", "value", "beside")
-        now = wire.source("maps_now", "x", "y", *_SIDES)
-        points = wire.source("maps_points", "bits")
+        cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
+        grid = packed.source("maps_grid", *_GRID)
+        ticks = packed.source("maps_ticks", "x", "y", "value", "beside")
+        now = packed.source("maps_now", "x", "y", *_SIDES)
+        points = packed.source("maps_points", "bits")
         frames = _frames(plot)
         _images(plot, points)
         _names(plot, grid)
@@ -246,7 +252,8 @@ def as_bits(
 ) -> NDArray[np.float32]:
     """Rows and columns of the maps, their kinds, levels of the last, and all points, as floats.
 
-    The wire carries floats; two whole numbers lie in the bits of each and are never read as one.
+    The packed source carries floats; two whole numbers lie in the bits of each and are never read
+    as one.
     """
     head = np.array([*shape, *kinds, levels], np.uint16)
     numbers = np.concatenate([head, np.zeros(_HEAD - head.size, np.uint16), *points])
@@ -375,7 +382,7 @@ def _images(plot: figure, points: ColumnDataSource) -> None:
         syncable=False,
     )
     plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
-    one, *both = (packed(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
+    one, *both = (packed_colors(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
     scales = {
         theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
     }

@@ -10,7 +10,7 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import values_of
 from bearing_explorer.state.quantity_list import MODEL_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
@@ -58,7 +58,7 @@ class ModelEditor(ControlView):
     )
     needs = frozenset({"contact_damping"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         law = choice_spec("Contact law", "Contact of a moving ball", False, _LAWS)
         self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS, {"law": law}.items()))
         return self.rows

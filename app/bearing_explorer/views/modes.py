@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -49,18 +49,20 @@ class NaturalFrequencies(View):
     needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0)
-        self._angle_range = wire.range("modes_angle", 0.0, 30.0)
+        self._angle_range = packed.range("modes_angle", 0.0, 30.0)
         plot = style.house_figure(
             style.CAGE_ANGLE,
             FREQUENCY,
             self._angle_range,
-            wire.range("modes_frequency", 0.0, 2000.0),
+            packed.range("modes_frequency", 0.0, 2000.0),
             height=HEIGHT,
             right=128,
         )
-        bands = wire.source("modes_bands", "low", "high", "direction", "number", "end", "label_at")
+        bands = packed.source(
+            "modes_bands", "low", "high", "direction", "number", "end", "label_at"
+        )
         colors = direction_mapper()
         plot.hstrip(
             "low",
@@ -73,7 +75,7 @@ class NaturalFrequencies(View):
         plot.line(
             "angle",
             "frequency",
-            source=wire.source("modes_healthy", "angle", "frequency"),
+            source=packed.source("modes_healthy", "angle", "frequency"),
             line_color=style.HEALTHY,
             line_width=1.5,
         )
@@ -81,11 +83,11 @@ class NaturalFrequencies(View):
             plot.line(
                 "angle",
                 "frequency",
-                source=wire.source(f"modes_{direction}", "angle", "frequency"),
+                source=packed.source(f"modes_{direction}", "angle", "frequency"),
                 line_color=color,
                 line_width=2.0,
             )
-        style.now_line(plot, wire.source("modes_now", "now"))
+        style.now_line(plot, packed.source("modes_now", "now"))
         self._label(plot, bands, colors)
         self._axis = plot.xaxis[0]
         return plot

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from bearing_explorer.compute.jobs import LONGEST, Work
 from bearing_explorer.figures import style
 from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, ends
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -95,14 +95,14 @@ class OrbitStability(JobView[Found]):
         "pictures come first."
     )
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._sides = {name: Side.of(quantity) for name, quantity in SWEEPABLE.items()}
         speed, extent = self._sides["shaft_speed_hz"], self._sides["extent_deg"]
         plot = style.house_figure(
             style.AxisQuantity(speed.words, speed.symbol, speed.unit),
             style.AxisQuantity(extent.words, extent.symbol, extent.unit),
-            wire.range("stability_x", 0.0, 60.0),
-            wire.range("stability_y", 0.0, 60.0),
+            packed.range("stability_x", 0.0, 60.0),
+            packed.range("stability_y", 0.0, 60.0),
             height=HEIGHT,
             name="stability_drawing",
         )
@@ -120,18 +120,18 @@ class OrbitStability(JobView[Found]):
         )
         said = "const kinds = [" + ", ".join(f'"{k.words}"' for k in KINDS) + "]\n" + _SAY
         self._image = GridImage(
-            plot, wire, "stability_cells", [size, kind], list(self._sides.values()), said
+            plot, packed, "stability_cells", [size, kind], list(self._sides.values()), said
         )
         plot.segment(
             "x0",
             "y0",
             "x1",
             "y1",
-            source=wire.source("stability_border", "x0", "y0", "x1", "y1"),
+            source=packed.source("stability_border", "x0", "y0", "x1", "y1"),
             line_color=style.SHADE,
             line_width=1.6,
         )
-        mark = wire.source("stability_mark", "x", "y")
+        mark = packed.source("stability_mark", "x", "y")
         for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
             plot.scatter(
                 "x", "y", source=mark, size=15, fill_color=None, line_color=color, line_width=width,

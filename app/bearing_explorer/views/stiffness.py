@@ -43,7 +43,7 @@ from bearing_explorer.figures.style import (
     with_prefix,
     words_of,
 )
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 
@@ -78,7 +78,7 @@ class Stiffness(View):
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
@@ -88,12 +88,12 @@ class Stiffness(View):
         plot.min_width = None
         plot.stylesheets = [":host { min-width: 760px; }"]
         self._legend = _static_parts(plot)
-        cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
-        healthy = wire.source("stiffness_healthy", "x", "y")
-        defective = wire.source("stiffness_defective", "x", "y")
-        now = wire.source("stiffness_now", "x", "y", "low", "high")
+        cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
+        healthy = packed.source("stiffness_healthy", "x", "y")
+        defective = packed.source("stiffness_defective", "x", "y")
+        now = packed.source("stiffness_now", "x", "y", "low", "high")
         _moving_parts(plot, cells)
-        axis = wire.source("stiffness_axis", "shaft")
+        axis = packed.source("stiffness_axis", "shaft")
         _text(
             plot,
             axis,

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.server.live import LiveComponent
+from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, SCENE_GROUPS
 from bearingcore import preset_notes, presets
 
@@ -148,7 +148,7 @@ class Rows(LiveComponent):
 
     def tell(self, **news: Any) -> None:
         """Move controls in the browser (`state`), or say what was refused (`refused`)."""
-        self._send_msg(news)
+        self.send(news)
 
 
 class Controls(Rows):

@@ -11,7 +11,7 @@ import param
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.compute.planning import by_hand
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.live import LiveComponent
+from bearing_explorer.server.live_component import LiveComponent
 
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 

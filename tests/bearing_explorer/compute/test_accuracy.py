@@ -11,7 +11,7 @@ import pytest
 from bearing_explorer.compute.accuracy import TRIALS, Found, compute
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results, Settings
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.accuracy import COLORS, MOST_METHODS, NAMES, Accuracy, legend, look
 from bearing_explorer.widgets.status import status_of
@@ -46,7 +46,7 @@ EXPERIMENT = Experiment(
 
 
 def measured() -> Accuracy:
-    view = Accuracy(Wire())
+    view = Accuracy(PackedSource())
     view.found = Found(RIG, EXPERIMENT)
     return view
 
@@ -137,7 +137,7 @@ def test_more_steps_than_the_server_holds_are_refused() -> None:
 
 def test_the_stability_chart_holds_every_trial() -> None:
     chart = stability_chart(RIG, duration=0.03)
-    view = Accuracy(Wire())
+    view = Accuracy(PackedSource())
     view.found = Found(RIG, chart)
     sources, _ = view.data(Results(RIG))
     sizes = [sources[f"accuracy_verdict_{k}"]["steps"].size for k in range(4)]
@@ -154,7 +154,7 @@ def test_experiments_run_as_jobs_and_every_name_is_known(name: str) -> None:
     job.started = time.monotonic()
     assert "points after" in compute(job, RIG, name)
     (found,) = job.taken()
-    view = Accuracy(Wire())
+    view = Accuracy(PackedSource())
     view.found = found
     sources, _ = view.data(Results(RIG))
     drawn = sum(sources[f"accuracy_{k}"]["error"].size for k in range(MOST_METHODS))
@@ -170,7 +170,7 @@ def test_a_cancelled_job_keeps_nothing_where_nothing_was_measured() -> None:
 
 
 def test_unknown_experiments_are_refused() -> None:
-    view, editor = Accuracy(Wire()), SceneEditor("fan-rig")
+    view, editor = Accuracy(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match="no such"):
         view.prepare({"experiment": "../etc"}, editor)
     for name in TRIALS:

@@ -17,7 +17,7 @@ from bearing_explorer.compute.explore import CHOICES, Plane, Question, Survey, c
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.export.python_lines import lines_of
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
@@ -250,7 +250,7 @@ FORM = {
     ],
 )
 def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
-    view, editor = ExplorePlane(Wire()), SceneEditor("fan-rig")
+    view, editor = ExplorePlane(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=words):
         view.asked({**FORM, **change}, editor)
     assert view.asked(FORM, editor).stride == 4
@@ -258,7 +258,7 @@ def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
 
 @pytest.mark.parametrize("preset", list(presets))
 def test_the_form_as_it_comes_up_can_be_answered(preset: str) -> None:
-    view, editor = ExplorePlane(Wire()), SceneEditor(preset)
+    view, editor = ExplorePlane(PackedSource()), SceneEditor(preset)
     values, _ = view.form(editor)
     asked = view.asked(values, editor)
     found = coarse(asked.of(Results(editor.scene)))
@@ -266,14 +266,14 @@ def test_the_form_as_it_comes_up_can_be_answered(preset: str) -> None:
 
 
 def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
-    wire = Wire()
-    view, editor = ExplorePlane(wire), SceneEditor("fan-rig")
+    packed = PackedSource()
+    view, editor = ExplorePlane(packed), SceneEditor("fan-rig")
     view._asking = view.asked(FORM, editor)
     results = Results(RIG)
     sources, ranges = view.data(results)
     assert sources["explore_mark"]["x"] == pytest.approx([20.0])
     assert sources["explore_old"]["alpha"].size == 0
-    assert wire.pack(sources, ranges).size > 3
+    assert packed.pack(sources, ranges).size > 3
     words = view.sentence(results)
     assert words.startswith("9 × 7 points. kyy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
@@ -294,7 +294,7 @@ def test_lines_of_python_make_the_map_again(output: str, monkeypatch: pytest.Mon
     pytest.importorskip("dask")
     mpl.use("agg")
     monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
-    view = ExplorePlane(Wire())
+    view = ExplorePlane(PackedSource())
     small = question(output, ("extent_deg", "30", "40"), ("depth_um", "50", "60"), shape=(3, 3))
     survey = Survey(small)
     survey.compute(2)

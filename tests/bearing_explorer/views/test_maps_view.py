@@ -8,7 +8,7 @@ import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
 from bearing_explorer.figures.matrix_cells import PLACES
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import (
     FLAT,
     GREATEST,
@@ -26,7 +26,7 @@ HEAD = 20
 
 
 def sent(results: Results) -> dict:
-    return StiffnessMaps(Wire()).data(results)[0]
+    return StiffnessMaps(PackedSource()).data(results)[0]
 
 
 def points(sources: dict) -> tuple[tuple[int, int], np.ndarray]:
@@ -58,11 +58,11 @@ def test_what_is_sent_is_what_was_computed(scene) -> None:
 
 def test_whole_numbers_pass_the_wire_unharmed_two_to_a_float() -> None:
     """Among them bit patterns that are not numbers when read as a float."""
-    wire = Wire()
-    wire.source("points", "bits")
+    packed = PackedSource()
+    packed.source("points", "bits")
     numbers = np.arange(65536, dtype=np.uint16)
     numbers = np.concatenate([numbers, numbers[::-1]])
-    packet = wire.pack({"points": {"bits": numbers.view(np.float32)}}, {})
+    packet = packed.pack({"points": {"bits": numbers.view(np.float32)}}, {})
     np.testing.assert_array_equal(packet[-numbers.size // 2 :].view(np.uint16), numbers)
 
 
@@ -91,7 +91,7 @@ def test_scales_are_of_the_kind_that_a_term_needs() -> None:
 
 
 def test_scales_stay_while_numbers_change_little() -> None:
-    view = StiffnessMaps(Wire())
+    view = StiffnessMaps(PackedSource())
     first = view.data(Results(LIEW_LIM))[0]["maps_cells"]
     second = view.data(Results(LIEW_LIM.replace(fy=-1990.0)))[0]["maps_cells"]
     np.testing.assert_array_equal(first["low"], second["low"])
@@ -155,18 +155,18 @@ def test_with_an_inner_race_defect_maps_are_over_a_turn_of_the_shaft() -> None:
 
 
 def test_the_sentence_says_where_fewest_balls_carry_load() -> None:
-    words = StiffnessMaps(Wire()).sentence(Results(LIEW_LIM))
+    words = StiffnessMaps(PackedSource()).sentence(Results(LIEW_LIM))
     assert "Fewest balls carry load at an extent of 63°: 6.1 of 12" in words
     assert "Marked: extent 40°, cage angle 0°, where 9 balls carry load" in words
-    shallow = StiffnessMaps(Wire()).sentence(Results(FAN_RIG.replace(depth=0.0)))
+    shallow = StiffnessMaps(PackedSource()).sentence(Results(FAN_RIG.replace(depth=0.0)))
     assert "Whatever the extent" in shallow
-    nothing = StiffnessMaps(Wire()).sentence(Results(FAN_RIG.replace(fy=0.0)))
+    nothing = StiffnessMaps(PackedSource()).sentence(Results(FAN_RIG.replace(fy=0.0)))
     assert nothing.startswith("There is nothing to map: nothing touches")
 
 
 def test_the_table_holds_every_point_in_si() -> None:
     results = Results(LIEW_LIM)
-    table = StiffnessMaps(Wire()).table(results)
+    table = StiffnessMaps(PackedSource()).table(results)
     assert set(table) >= {"extent_deg", "cage_angle_deg", "k_yy_n_per_m", "k_rxry_n_m_per_rad"}
     assert {np.size(column) for column in table.values()} == {91 * 121}
     at = (np.ravel(table["extent_deg"]) == 40.0) & (np.ravel(table["cage_angle_deg"]) == 0.0)

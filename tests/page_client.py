@@ -2,7 +2,8 @@
 
 It opens the page, its websocket, takes the document, says that it is ready, and then speaks as the
 scripts of the page do: a message carries a mark, and packets of the packed source come back with
-the mark of the newest change that is drawn. Packets are cut into sources and ranges as the page cuts them.
+the mark of the newest change that is drawn. Packets are cut into sources and ranges as the page
+cuts them.
 """
 
 from __future__ import annotations

@@ -28,8 +28,6 @@ from bearing_explorer.state.quantities import defects_of, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.bearing_editor import facts_of
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
 from bearingcore import Scene, preset_notes
@@ -64,11 +62,10 @@ def report(
     sources: Sources = {}
     ranges: Ranges = {}
     for kind in views:
-        if issubclass(kind, (ControlView, MeasuredView)) or not (kind.needs or kind.name in found):
+        if not (kind.in_report and (kind.needs or kind.name in found)):
             continue
         view = kind(packed)
-        if kind.name in found:
-            view.found = found[kind.name]  # type: ignore[attr-defined]
+        view.found = found.get(kind.name)
         try:
             data, sentence = view.data(results), view.sentence(results)
         except ValueError as error:

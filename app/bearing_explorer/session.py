@@ -34,11 +34,7 @@ from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.accuracy import Accuracy
-from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.measured_view import MeasuredView
+from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.controls import Controls, Rows
 from bearing_explorer.widgets.lesson import LessonPanel
 from bearing_explorer.widgets.limits import LimitsStrip, rows_of
@@ -203,6 +199,15 @@ class Explorer:
             active=self._shown,
         )
         self.main = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._parts = SessionParts(
+            self.editor,
+            self.jobs,
+            self.measurement,
+            draw=self.draw,
+            ask=self._asked,
+            add_controls=self._panels.append,
+            take_steps=self._take_steps,
+        )
 
     @property
     def inputs(self) -> Inputs:
@@ -380,8 +385,8 @@ class Explorer:
             inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
         )
         kinds = [view for section in self._sections.values() for view in section.views]
-        jobs = [v for views in self._views.values() for v in views if isinstance(v, JobView)]
-        found = {view.name: view.found for view in jobs if view.found is not None}
+        made = [view for views in self._views.values() for view in views]
+        found = {view.name: view.found for view in made if view.found is not None}
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.preset, link, now())
 
@@ -457,15 +462,7 @@ class Explorer:
         if name not in self._containers:
             views = self._views[name]
             for view in views:
-                if isinstance(view, ControlView):
-                    view.listen(self._asked, self.editor.state())
-                    self._panels.append(view.rows)
-                if isinstance(view, MeasuredView):
-                    view.measure(self.measurement)
-                if isinstance(view, JobView):
-                    view.employ(self.jobs, self.editor, self.draw)
-                if isinstance(view, Accuracy):
-                    view.take_steps = self._take_steps
+                view.attach(self._parts)
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],

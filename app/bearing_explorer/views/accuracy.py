@@ -29,7 +29,7 @@ from bearing_explorer.compute.results import Settings
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.widgets.status import scientific
 from bearing_explorer.widgets.step_choice import StepChoice
@@ -93,6 +93,10 @@ class Accuracy(JobView[Found]):
     take_steps: Callable[[float | None], None] | None = None
     """Marches the scene's motions with a step rate [Hz], or None: with the program's own."""
     _note = ""
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.take_steps = parts.take_steps
 
     def build(self, packed: PackedSource) -> Any:
         self._ranges: Ranges = {}

@@ -10,6 +10,9 @@ To write one, subclass `View`, set the class attributes, and give it
 - `sentence(results)`: one sentence that says what is to be seen, for everyone;
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
 
+A view that asks for something, a scene, a job, a measured signal, takes what it needs of the
+session in `attach(parts)`.
+
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
 
@@ -17,6 +20,8 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -30,7 +35,11 @@ from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
 
 if TYPE_CHECKING:
+    from bearing_explorer.compute.jobs import Jobs
     from bearing_explorer.compute.results import Results
+    from bearing_explorer.measurement.session import Measurement
+    from bearing_explorer.state.scene_editor import SceneEditor
+    from bearing_explorer.widgets.controls import Rows
 
 #: {source: {column: array}}
 Sources = dict[str, dict[str, np.ndarray]]
@@ -65,6 +74,37 @@ class Sentence(LiveComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("sentence.css")]
 
 
+@dataclass(frozen=True)
+class SessionParts:
+    """What a view may take of the session that it is attached to.
+
+    Parameters
+    ----------
+    editor
+        the scene as the controls have it.
+    jobs
+        the background of the session.
+    measurement
+        the signal that somebody measured.
+    draw
+        asks for a drawing.
+    ask
+        takes a message of the browser about the scene, from strangers too.
+    add_controls
+        has a panel of controls follow the scene.
+    take_steps
+        has motions marched with a step rate [Hz], or with None by the program's own.
+    """
+
+    editor: SceneEditor
+    jobs: Jobs
+    measurement: Measurement
+    draw: Callable[[], None]
+    ask: Callable[[Any], None]
+    add_controls: Callable[[Rows], None]
+    take_steps: Callable[[float | None], None]
+
+
 class View:
     """One picture of the scene. See the head of this module for what a subclass provides."""
 
@@ -76,6 +116,10 @@ class View:
     picture: ClassVar[bool] = False
     #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
     plans: ClassVar[tuple[str, ...]] = ()
+    #: whether it stands in a report; one without `needs` only with what its job has found
+    in_report: ClassVar[bool] = True
+    #: what a job of the view has found
+    found: Any = None
 
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
@@ -108,6 +152,9 @@ class View:
             sizing_mode="stretch_width",
             margin=0,
         )
+
+    def attach(self, parts: SessionParts) -> None:
+        """Take what the view needs of the session, once, before it is first on screen."""
 
     def build(self, packed: PackedSource) -> Any:
         """Make the figures, once; return a Panel object or a Bokeh layout."""

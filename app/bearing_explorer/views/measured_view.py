@@ -15,7 +15,7 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.export.measured_lines import measured_lines
 from bearing_explorer.figures import style
 from bearing_explorer.measurement.session import Measurement
-from bearing_explorer.views.base import View
+from bearing_explorer.views.base import SessionParts, View
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -61,8 +61,13 @@ NOTHING = "There is no signal yet: choose a file or simulate one above."
 class MeasuredView(View):
     """A view of the session's measurement. What `build` puts in `self.hidden` waits for one."""
 
+    in_report = False
     hidden: Any = None
     measurement: Measurement | None = None
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.measure(parts.measurement)
 
     def measure(self, measurement: Measurement) -> None:
         """From now on draw what is measured there."""

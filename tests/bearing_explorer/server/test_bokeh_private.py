@@ -37,10 +37,17 @@ class Socket:
         self.sent.append(message)
 
 
+class Connection:
+    """A browser that listens to a session."""
+
+    def __init__(self, socket: Socket) -> None:
+        self._socket = socket
+
+
 def session_of(document: Document, socket: Socket) -> ServerSession:
     """A session with one browser."""
     session = ServerSession("one", document)
-    session._subscribed_connections.add(types.SimpleNamespace(_socket=socket))  # type: ignore[arg-type]
+    session.subscribe(Connection(socket))  # type: ignore[arg-type]
     return session
 
 
@@ -120,13 +127,9 @@ def test_models_are_looked_for_bokehs_way_where_a_name_is_gone(
 ) -> None:
     from bokeh.model import util
 
-    monkeypatch.setattr(
-        util,
-        "visit_immediate_value_references",
-        slow := util.__dict__["visit_immediate_value_references"],
-    )
-    if slow is bokeh_private._visit:
-        monkeypatch.setattr(util, "visit_immediate_value_references", slow := lambda *_: None)
+    def slow(*_: object) -> None: ...
+
+    monkeypatch.setattr(util, "visit_immediate_value_references", slow)
     monkeypatch.setattr(bokeh_private, "missing", lambda: ["it is gone"])
     bokeh_private.visit_quickly()
     assert util.visit_immediate_value_references is slow

@@ -24,6 +24,7 @@ from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -181,24 +182,22 @@ def _grey(results: Results) -> str:
 def _changes(scene: Scene, preset: str) -> str:
     note = preset_notes.get(preset, "")
     several = defects_of(scene)
-    told = [
-        f"{'Inner' if defect.race == 'inner' else 'Outer'} race at "
+    sentences = [
+        f"{defect.race.capitalize()} race at "
         f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} long, "
-        f"{style.with_prefix(defect.depth, 'm')} deep, edge model “{defect.edge}”, "
-        f"{_floor(defect.floor)} floor."
+        f"{style.with_prefix(defect.depth, 'm')} deep, "
+        + "".join(f"{said}, " for choice in OF_DEFECT if (said := choice.sentence(defect)))
+        + f"{floor_name(defect.floor)} floor."
         for defect in several
         if not defect.is_none
     ]
+    chosen = [f"{said}. " for choice in OF_SCENE if (said := choice.sentence(scene))]
     return (
         f"<p>Begun from “{_text(preset)}”. {_text(note)}</p>"
-        + (_list(told) if told else "<p>There is no defect.</p>")
-        + f"<p>Contact law: {_text(scene.contact_law)}. Directions that can move: "
+        + (_list(sentences) if sentences else "<p>There is no defect.</p>")
+        + f"<p>{_text(''.join(chosen))}Directions that can move: "
         f"{_text(', '.join(scene.active_dofs))}.</p>"
     )
-
-
-def _floor(floor: object) -> str:
-    return "flat" if floor is None else type(floor).__name__.removesuffix("Floor").lower()
 
 
 def _numbers(scene: Scene) -> Iterable[str]:

@@ -28,6 +28,7 @@ from bearing_explorer.server import log as write
 from bearing_explorer.server.live import good_byes, one_message, send_at_once
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
+from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.quantities import Values
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
@@ -105,8 +106,11 @@ class Inputs:
         return (
             scene.bearing,
             scene.active_dofs,
-            scene.contact_law,
-            tuple((defect.race, defect.edge, defect.floor) for defect in scene.defects),
+            tuple(choice.name_of(scene) for choice in OF_SCENE),
+            tuple(
+                (defect.floor, *(choice.name_of(defect) for choice in OF_DEFECT))
+                for defect in scene.defects
+            ),
             scene.shaft_speed > 0.0,
             self.settings,
             self.rested,

@@ -183,7 +183,7 @@ class Session:
     def _new(self) -> None:
         self.explorer = Explorer(SECTIONS)
         self.explorer._worker.stop()
-        self.explorer._rest.begin = lambda *_: None  # type: ignore[method-assign]
+        self.explorer._idle_task.begin = lambda *_: None  # type: ignore[method-assign]
 
     def make(self, random_: random.Random) -> tuple[str, Any]:
         """A handler and a message for it."""

@@ -15,21 +15,10 @@ from bearing_explorer.state.quantities import values_of
 from bearing_explorer.state.quantity_list import MODEL_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.widgets.controls import Rows, choice_spec, spec_of
+from bearing_explorer.widgets.controls import Rows, spec_of
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-
-_LAWS = {
-    "published": (
-        "Published, may pull",
-        "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
-    ),
-    "no tension": (
-        "Without tension",
-        "The same damping, but a contact never pulls: its force ends at zero.",
-    ),
-}
 
 
 class ModelRows(Rows):
@@ -59,8 +48,7 @@ class ModelEditor(ControlView):
     needs = frozenset({"contact_damping"})
 
     def build(self, packed: PackedSource) -> Any:
-        law = choice_spec("Contact law", "Contact of a moving ball", False, _LAWS)
-        self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS, {"law": law}.items()))
+        self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS))
         return self.rows
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

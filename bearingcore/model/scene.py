@@ -15,6 +15,7 @@ from bearingcore.model.load import Load
 from bearingcore.model.support import Support
 
 DOF_NAMES = ("x", "y", "z", "rx", "ry")
+DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
 
 CONTACT_LAWS = ("published", "no tension")

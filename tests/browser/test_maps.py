@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
-from bearing_explorer.figures.matrix_cells import TERM_UNITS
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from playwright.sync_api import Page, expect
 
 from bearingcore import STIFFNESS_TERMS, Maps, presets
+from bearingcore.statics.equilibrium import TERM_UNITS
 from tests.browser.helpers import Server, Watch, drag, move
 from tests.browser.test_explorer import open_page, pixels, settle, slider, source
 
@@ -141,7 +141,7 @@ def test_the_value_under_the_pointer_is_shown(watch: tuple[Page, Watch], explore
         slack = 0.01 * np.abs(maps.term(term)).max()
         assert near.min() - slack <= found <= near.max() + slack
         assert float(re.findall(r"Extent (\d+\.\d)°", text)[0]) == pytest.approx(row, abs=1.2)
-        unit = TERM_UNITS[index].split("/")[1]
+        unit = TERM_UNITS[term].split("/")[1]
         assert unit in text
 
 

@@ -437,17 +437,17 @@ def _explore(script: Script, results: Results, view: Any) -> None:
         (name, f"np.linspace({short(values[0])}, {short(values[-1])}, {values.size})")
         for name, values in (found.x.in_si, found.y.in_si)
     )
-    choice = found.question.choice
-    if choice.output:
+    output = found.question.output
+    if output.in_sweep:
         script.part("sweep", "sweep")
-        mode = f'.sel(mode="{choice.mode}")' if choice.mode else ""
+        mode = f'.sel(mode="{output.mode}")' if output.mode else ""
         script.add(
             "swept = sweep(",
             "    scene,",
             f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
-            f'    outputs=["{choice.output}"],',
+            f'    outputs=["{output.in_sweep}"],',
             ")",
-            f'values = swept["{choice.output}"]{mode}.values',
+            f'values = swept["{output.in_sweep}"]{mode}.values',
         )
     else:
         script.part("diagnosis.sizing_error", "extent_error")
@@ -461,7 +461,7 @@ def _explore(script: Script, results: Results, view: Any) -> None:
             "    except ValueError as why:",
             "        print(why)",
         )
-    script.add(f'columns = {{"{choice.column}": values}}')
+    script.add(f'columns = {{"{output.column}": values}}')
     _plot(script, f"plt.pcolormesh({x[1]}, {y[1]}, values)", "plt.colorbar()")
 
 

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 import holoviews as hv
 import numpy as np
 
-from bearing_explorer.compute.explore import mode_words, term_words
 from bearing_explorer.compute.load_curve import load_curve
 from bearing_explorer.figures import style
-from bearing_explorer.figures.matrix_cells import TERM_UNITS
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
 from bearingcore import STIFFNESS_TERMS, Equilibrium, Modes
 from bearingcore.common import checks
+from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
+from bearingcore.sweep.outputs import mode_symbol
 
 _CAGE_ANGLE = dimension("cage_angle_deg", style.CAGE_ANGLE)
 _COLORS = (*style.DIRECTION_COLORS, "#E69F00", "#F0C419", style.INK)
@@ -85,8 +85,8 @@ def stiffness(
         if given is not None
         for term, own in zip(terms, _COLORS, strict=False)
         for label, color in (
-            [(term_words(term), own)] if given is state
-            else [(f"{term_words(term)} without the defect", style.HEALTHY)]
+            [(TERM_SYMBOLS[term], own)] if given is state
+            else [(f"{TERM_SYMBOLS[term]} without the defect", style.HEALTHY)]
         )
     ]  # fmt: skip
     return hv.Overlay(drawn).opts(**curve_options(axes, legend_position="right"))
@@ -96,7 +96,7 @@ def _unit_of(terms: Sequence[str]) -> str:
     for term in terms:
         if term not in STIFFNESS_TERMS:
             raise checks.refuse("stiffness term", term, ", ".join(STIFFNESS_TERMS))
-    units = {TERM_UNITS[STIFFNESS_TERMS.index(term)] for term in terms}
+    units = {TERM_UNITS[term] for term in terms}
     if len(units) != 1 or len(terms) > len(_COLORS):
         raise checks.refuse(
             "terms", tuple(terms), f"1 to {len(_COLORS)} terms of one unit; here: {sorted(units)}"
@@ -134,7 +134,7 @@ def modes(found: Modes, *, healthy: Modes | None = None) -> hv.Overlay:
         ]
     for i, label in enumerate(found.label):
         curve = hv.Curve(
-            (angles, found.frequency[:, i]), _CAGE_ANGLE, value, label=mode_words(label)
+            (angles, found.frequency[:, i]), _CAGE_ANGLE, value, label=mode_symbol(label)
         )
         dash = "solid" if label.endswith("1") else "dashed"
         drawn.append(curve.opts(color=_mode_color(label), line_width=2, line_dash=dash))

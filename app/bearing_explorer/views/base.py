@@ -18,8 +18,6 @@ session in `attach(parts)`.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -33,6 +31,7 @@ from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
+from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.jobs import Jobs
@@ -207,18 +206,3 @@ def figures_in(layout: Any) -> list[Plot]:
     if isinstance(layout, Plot):
         return [layout]
     return [plot for child in getattr(layout, "children", ()) for plot in figures_in(child)]
-
-
-def as_csv(table: dict[str, np.ndarray]) -> str:
-    """Columns as comma-separated text; shorter columns end in empty cells."""
-    columns = [np.asarray(column).ravel() for column in table.values()]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(table)
-    for row in range(max((column.size for column in columns), default=0)):
-        writer.writerow([_cell(column[row]) if row < column.size else "" for column in columns])
-    return text.getvalue()
-
-
-def _cell(value: Any) -> str:
-    return f"{value:.9g}" if isinstance(value, float | np.floating) else str(value)

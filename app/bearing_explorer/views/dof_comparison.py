@@ -14,8 +14,9 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
-from bearing_explorer.widgets.status import DOF_SYMBOLS, scientific
+from bearing_explorer.widgets.status import scientific
 from bearingcore import DOF_NAMES
+from bearingcore.model.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.dof_comparison import DofComparison

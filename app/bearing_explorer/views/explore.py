@@ -21,10 +21,10 @@ from bokeh.models import CustomJS, Plot, Spacer
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.explore import (
     BUDGET,
-    CHOICES,
+    MAP_OUTPUTS,
     SIZES,
-    Choice,
     Job,
+    MapOutput,
     Plane,
     Question,
     planes,
@@ -62,12 +62,12 @@ class Asked:
 
     x: Sweep
     y: Sweep
-    choice: Choice
+    output: MapOutput
     stride: int
 
     def of(self, results: Results) -> Question:
         """The question for the scene shown."""
-        return Question(focused(results.scene, results.focus), self.x, self.y, self.choice)
+        return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
 
 
 class _While:
@@ -122,7 +122,7 @@ class ExplorePlane(JobView[Plane]):
     # The form
 
     def fields(self) -> list[dict[str, Any]]:
-        outputs = [[choice.name, choice.label, choice.group] for choice in CHOICES.values()]
+        outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
         return [
             {"name": "output", "label": "Map of", "options": outputs},
             *plane_fields(headings=True),
@@ -140,12 +140,12 @@ class ExplorePlane(JobView[Plane]):
 
     def asked(self, given: Mapping[str, str], editor: SceneEditor) -> Asked:
         """What the form asks for; ValueError with a sentence where it cannot be."""
-        if given["output"] not in CHOICES:
+        if given["output"] not in MAP_OUTPUTS:
             raise ValueError("There is no such output.")
         if given["grid"] not in [value for value, _ in _GRIDS]:
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
-        return Asked(x, y, CHOICES[given["output"]], int(given["grid"]))
+        return Asked(x, y, MAP_OUTPUTS[given["output"]], int(given["grid"]))
 
     def _asked(self, message: Any) -> None:
         if not isinstance(message, dict) or self._jobs is None:
@@ -227,7 +227,7 @@ class ExplorePlane(JobView[Plane]):
         return {
             question.x.quantity.name: x,
             question.y.quantity.name: y,
-            question.choice.column: found.values,
+            question.output.column: found.values,
             "no_answer_because": found.reasons,
         }
 
@@ -343,13 +343,13 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
     question = plane.question
     sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
     axes = [AxisQuantity(side.words, side.symbol, side.unit) for side in sides]
-    choice = question.choice
-    words = choice.label[0].upper() + choice.label[1:] if choice.label[0] != "k" else choice.label
-    value = AxisQuantity(words, "", choice.unit, prefixed=choice.unit not in ("", "°"))
+    output = question.output
+    words = output.label[0].upper() + output.label[1:] if output.label[0] != "k" else output.label
+    value = AxisQuantity(words, "", output.unit, prefixed=output.unit not in ("", "°"))
     return Field(
         (sides[0].name, axes[0], plane.x.values),
         (sides[1].name, axes[1], plane.y.values),
-        (choice.name.replace(":", "_"), value),
+        (output.name.replace(":", "_"), value),
         plane.values,
         plane.reasons,
         at,
@@ -359,7 +359,7 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
 def summary(plane: Plane) -> str:
     """What a map shows, in a sentence: least and greatest, where, and how much is not known."""
     question, values = plane.question, plane.values
-    what = question.choice.label
+    what = question.output.label
     missing = ""
     if plane.missing:
         reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
@@ -378,12 +378,12 @@ def summary(plane: Plane) -> str:
 
 
 def _place(plane: Plane, at: tuple[Any, ...]) -> str:
-    choice = plane.question.choice
+    output = plane.question.output
     value = float(plane.values[at])
     shown = (
-        style.with_prefix(value, choice.unit)
-        if choice.unit not in ("", "°")
-        else f"{style.number(value)}{choice.unit}"
+        style.with_prefix(value, output.unit)
+        if output.unit not in ("", "°")
+        else f"{style.number(value)}{output.unit}"
     )
     where = [
         f"{sweep.quantity.label.lower()} {style.number(float(sweep.values[k]))}"

@@ -31,11 +31,9 @@ from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
     SYMBOLS,
-    TERM_UNITS,
     UNITS,
     Cell,
     term_sizes,
-    unit_name,
 )
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.figures.style import (
@@ -55,6 +53,7 @@ from bearing_explorer.figures.style import (
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
+from bearingcore.statics.equilibrium import TERM_UNITS
 
 #: how a map is coloured: kinds of scales, as the browser knows them
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
@@ -150,7 +149,7 @@ class StiffnessMaps(View):
             points.append(whole_numbers(values, low, high))
             at_now = 0.0 if abs(at_now) < NEGLIGIBLE * sizes[i] else at_now
             kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
-            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[i])))
+            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[term])))
         counts = np.where(maps.converged, maps.loaded_balls, np.nan)
         low, high = self._balls.fit(counts)
         low, high = math.floor(low), math.ceil(high)
@@ -222,17 +221,7 @@ class StiffnessMaps(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every point of every map in SI."""
-        maps = results.maps
-        extents, angles = np.meshgrid(maps.extents, maps.cage_angles, indexing="ij")
-        columns = {
-            "extent_deg": np.degrees(extents),
-            "cage_angle_deg": np.degrees(angles),
-            "loaded_balls": maps.loaded_balls,
-            "greatest_ball_load_n": maps.greatest_load,
-        }
-        for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
-            columns[f"{term}_{unit_name(unit)}"] = maps.term(term)
-        return columns
+        return results.maps.table().in_units().named()
 
 
 def whole_numbers(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.uint16]:

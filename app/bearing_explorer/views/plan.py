@@ -16,7 +16,8 @@ from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.plan_choice import TITLES
-from bearing_explorer.widgets.status import DOF_SYMBOLS, scientific
+from bearing_explorer.widgets.status import scientific
+from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.plan import CURVES, SETTLED
 
 if TYPE_CHECKING:

@@ -23,11 +23,9 @@ from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
     SYMBOLS,
-    TERM_UNITS,
     UNITS,
     Cell,
     term_sizes,
-    unit_name,
 )
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.figures.style import (
@@ -46,6 +44,7 @@ from bearing_explorer.figures.style import (
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
+from bearingcore.statics.equilibrium import TERM_UNITS
 
 
 def _cell(row: int, column: int) -> Cell:
@@ -61,7 +60,7 @@ _PLACE_COLUMNS = {
         side: np.array([getattr(cell, side) for cell in _FRAMES])
         for side in ("left", "right", "bottom", "top")
     },
-    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS] + [len(UNITS)]),
+    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
 }
 _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
 
@@ -208,12 +207,12 @@ class Stiffness(View):
         found, healthy = results.equilibrium, results.healthy_equilibrium
         columns: dict[str, np.ndarray] = {}
         for kind, answer in (("defective", found), (results.beside_name, healthy)):
-            columns[f"{kind}_cage_angle_deg"] = np.degrees(answer.cage_angles)
+            table = answer.table().in_units().prefixed(kind)
+            columns |= table.only(f"{kind}_cage_angle").named()
             if results.over_shaft:
                 columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
-            for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
-                columns[f"{kind}_{term}_{unit_name(unit)}"] = answer.term(term)
-            columns[f"{kind}_loaded_balls"] = answer.loaded_balls
+            shown = (*STIFFNESS_TERMS, "loaded_balls")
+            columns |= table.only(*(f"{kind}_{name}" for name in shown)).named()
         return columns
 
 

@@ -13,7 +13,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from bearing_explorer.compute import explore
-from bearing_explorer.compute.explore import CHOICES, Plane, Question, Survey, coarse, refine
+from bearing_explorer.compute.explore import MAP_OUTPUTS, Plane, Question, Survey, coarse, refine
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.export.python_lines import lines_of
@@ -43,7 +43,7 @@ def question(
         sweep(name, low, high, n, LIMITS)
         for (name, low, high), n in zip((x, y), shape, strict=True)
     ]
-    return Question(scene, *sweeps, CHOICES[output])
+    return Question(scene, *sweeps, MAP_OUTPUTS[output])
 
 
 class Recorder(Work):
@@ -62,11 +62,11 @@ class Recorder(Work):
 
 
 def test_whatever_a_sweep_gives_can_be_mapped_over_whatever_has_a_slider() -> None:
-    assert {choice.output for choice in CHOICES.values() if choice.output} == set(OUTPUTS)
-    assert len({choice.label for choice in CHOICES.values()}) == len(CHOICES)
+    assert {output.in_sweep for output in MAP_OUTPUTS.values() if output.in_sweep} == set(OUTPUTS)
+    assert len({choice.label for choice in MAP_OUTPUTS.values()}) == len(MAP_OUTPUTS)
     assert {quantity.field for quantity in SWEEPABLE.values()} <= set(UNITS)
     # groups stand together, or a list would name them twice
-    groups = [choice.group for choice in CHOICES.values()]
+    groups = [choice.group for choice in MAP_OUTPUTS.values()]
     assert len(set(groups)) == 1 + sum(a != b for a, b in pairwise(groups))
     known = set(explore._REASONS) | {"not_computed", "scene_refused"}
     assert set(STATUSES) == known
@@ -160,7 +160,7 @@ def test_what_has_no_answer_has_a_reason() -> None:
 
 def test_motions_that_take_too_many_steps_are_not_begun() -> None:
     short = question("acceleration_rms_y", ("extent_deg", "0.01", "60"), shape=(2, 2))
-    fast = Question(RIG.replace(shaft_speed=600.0), short.x, short.y, short.choice)
+    fast = Question(RIG.replace(shaft_speed=600.0), short.x, short.y, short.output)
     survey = Survey(fast)
     survey.compute(1)
     found = survey.plane(1)
@@ -174,7 +174,7 @@ def test_the_error_of_a_sizing_and_where_there_can_be_none() -> None:
         RIG,
         Sweep(asked.x.quantity, np.array([0.0, 38.6])),
         Sweep(asked.y.quantity, np.array([0.0, 50.0])),
-        asked.choice,
+        asked.output,
     )
     survey = Survey(small)
     assert survey.compute(1, Recorder())

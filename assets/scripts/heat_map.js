@@ -11,6 +11,7 @@ if (p.length > head) {
       x: [left], y: [bottom], dw: [width], dh: [height], alpha: [faint],
     }
   })
+  stands.data = {across: [across], up: [up]}
   for (const [axis, which] of [[x_axis, across], [y_axis, up]])
-    if (axis.axis_label != quantities[which].label) axis.axis_label = quantities[which].label
+    if (axis.axis_label != labels[which]) axis.axis_label = labels[which]
 }

@@ -110,7 +110,7 @@ def test_a_click_goes_to_its_extent_and_cage_angle(
     assert source(page, "maps_points") == before, "moving along the maps sends no map"
     grid, marks = source(page, "maps_grid"), source(page, "maps_now")
     share = (marks["x"][0] - marks["left"][0]) / (marks["right"][0] - marks["left"][0])
-    first, last = grid["first_angle"][0], grid["last_angle"][0]
+    first, last = grid["x_first"][0], grid["x_last"][0]
     assert first + share * (last - first) == pytest.approx(angle, abs=0.06)
     assert re.search(
         rf"Marked: extent {extent:g}°", page.locator(".view-maps [role=status]").first.inner_text()

@@ -16,9 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 from bokeh.events import Tap
-from bokeh.models import CustomJS, Plot, Spacer
+from bokeh.models import Plot, Spacer
 
-from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.explore import (
     BUDGET,
     MAP_OUTPUTS,
@@ -32,7 +31,7 @@ from bearing_explorer.compute.explore import (
 )
 from bearing_explorer.compute.jobs import JobState, Work
 from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import Side
+from bearing_explorer.figures.heat_map import Places, Side, going, ring_this_scene
 from bearing_explorer.figures.style import AxisQuantity
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
@@ -260,13 +259,13 @@ class ExplorePlane(JobView[Plane]):
 
         self._mark.js_property_callbacks = {}  # those of figures that are gone
         self._news = hv.streams.Pipe(data=field)
-        names = [plane.question.x.quantity.name, plane.question.y.quantity.name]
+        sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
         plots: list[Plot] = []
         layout = linked_figures(
             field,
             news=self._news,
             mark=self._mark,
-            hooks=[_Marks(names, self._mark, self._old)],
+            hooks=[_Marks(sides, self._mark, self._old)],
             each=lambda plot, _: plots.append(plot.handles["plot"]),
             responsive=True,
         )
@@ -310,8 +309,8 @@ class ExplorePlane(JobView[Plane]):
 class _Marks:
     """A hook: the ring at this scene, the veil over a map of another, and the click to go there."""
 
-    def __init__(self, names: list[str], mark: Any, old: Any) -> None:
-        self._names, self._mark, self._old = names, mark, old
+    def __init__(self, sides: list[Side], mark: Any, old: Any) -> None:
+        self._sides, self._mark, self._old = sides, mark, old
 
     def __call__(self, plot: Any, _: Any) -> None:
         if "marks" in plot.handles:
@@ -324,16 +323,8 @@ class _Marks:
             "left", "right", "top", "bottom", source=self._old, fill_color=style.PAPER,
             fill_alpha="alpha", line_color=None, level="overlay",
         )  # fmt: skip
-        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
-            figure.scatter(
-                "x", "y", source=self._mark, size=15, fill_color=None, line_color=color,
-                line_width=width, level="overlay",
-            )  # fmt: skip
-        go = CustomJS(
-            args={"image": plot.handles["source"], "names": self._names},
-            code=asset_text("explore_click.js"),
-        )
-        figure.js_on_event(Tap, go)
+        ring_this_scene(figure, self._mark, "overlay")
+        figure.js_on_event(Tap, going(Places(plot.handles["source"], self._sides)))
 
 
 def field_of(plane: Plane, at: tuple[float, float]) -> Field:

@@ -12,7 +12,6 @@ import numpy as np
 import panel as pn
 from bokeh.models import (
     CheckboxGroup,
-    ColorBar,
     CustomJS,
     GlyphRenderer,
     LinearColorMapper,
@@ -25,7 +24,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, ends
+from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, color_bar, ends
 from bearing_explorer.figures.ranges import nice_range
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
@@ -173,7 +172,8 @@ class SpeedRunSpectra(JobView[Found]):
         )  # fmt: skip
         for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6)):
             plot.hspan(y="speed", source=self._now, line_color=color, line_width=width)
-        plot.add_layout(_bar(mapper, dof), "right")
+        title = f"S{dof} (dB re 1 (m/s²)²/Hz)"
+        plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
         return plot, marks
 
     def _mark_bands(self, plot: figure, packed: PackedSource, dof: str) -> list[GlyphRenderer]:
@@ -418,21 +418,3 @@ def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:
             "inner": np.full(number.size, float(inner)),
         },
     }
-
-
-def _bar(mapper: LinearColorMapper, dof: str) -> ColorBar:
-    return ColorBar(
-        color_mapper=mapper,
-        title=f"S{dof} (dB re 1 (m/s²)²/Hz)",
-        width=10,
-        bar_line_color=None,
-        major_tick_line_color=None,
-        major_label_text_font=style.FONT,
-        major_label_text_font_size=style.SMALL_TEXT_SIZE,
-        major_label_text_color=style.FAINT_INK,
-        title_text_font=style.FONT,
-        title_text_font_style="normal",
-        title_text_font_size=style.SMALL_TEXT_SIZE,
-        title_text_color=style.INK,
-        background_fill_color=None,
-    )

@@ -192,7 +192,7 @@ def test_sessions_wait_for_a_thread_and_can_be_cancelled_meanwhile(
 ) -> None:
     from concurrent.futures import ThreadPoolExecutor
 
-    monkeypatch.setattr(module, "_THREADS", ThreadPoolExecutor(1))
+    monkeypatch.setattr(module, "JOBS", ThreadPoolExecutor(1))
     mine, other = Page(), Page()
 
     async def session() -> None:

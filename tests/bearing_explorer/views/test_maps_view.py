@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
+from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed_colors
 from bearing_explorer.figures.matrix_cells import PLACES
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import (
@@ -110,8 +110,8 @@ def test_the_cross_stands_where_the_sliders_do(extent_deg: float, reach_deg: flo
     assert math.degrees(results.maps.extents[-1]) == pytest.approx(reach_deg)
     x = (marks["x"] - marks["left"]) / (marks["right"] - marks["left"])
     y = (marks["y"] - marks["bottom"]) / (marks["top"] - marks["bottom"])
-    angle = grid["first_angle"] + x * (grid["last_angle"] - grid["first_angle"])
-    extent = grid["first_extent"] + y * (grid["last_extent"] - grid["first_extent"])
+    angle = grid["x_first"] + x * (grid["x_last"] - grid["x_first"])
+    extent = grid["y_first"] + y * (grid["y_last"] - grid["y_first"])
     np.testing.assert_allclose(angle, 7.5)
     np.testing.assert_allclose(extent, extent_deg)
     # the middle of the point at the cross is that of the cage angle
@@ -145,7 +145,7 @@ def test_with_an_inner_race_defect_maps_are_over_a_turn_of_the_shaft() -> None:
     turn = 2.0 * math.pi * scene.bearing.cage_ratio
     results = Results(scene, 1.25 * turn)
     grid = {k: float(v[0]) for k, v in sent(results)["maps_grid"].items()}
-    middle = 0.5 * (grid["first_angle"] + grid["last_angle"])
+    middle = 0.5 * (grid["x_first"] + grid["x_last"])
     assert (middle, grid["of_shaft"]) == (pytest.approx(180.0), 1.0)
     # what a click in the middle asks for
     assert grid["start"] + middle / grid["turn"] == pytest.approx(math.degrees(1.5 * turn))
@@ -189,4 +189,4 @@ def test_colours_are_told_apart_by_lightness_alone() -> None:
     assert np.abs(blue - orange).max() < 0.03, "no sign looks greater than the other"
     assert np.all(DIVERGING[:100, 2] > DIVERGING[:100, 0]), "blue below zero"
     assert np.all(DIVERGING[156:, 0] > DIVERGING[156:, 2]), "orange above zero"
-    assert packed(np.array([[1, 2, 3]])) == [0xFF030201]
+    assert packed_colors(np.array([[1, 2, 3]])) == [0xFF030201]

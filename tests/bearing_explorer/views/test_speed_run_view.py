@@ -85,7 +85,8 @@ def test_marched_speeds_are_marked_and_told(found: Found) -> None:
 
 
 def test_without_a_run_there_is_nothing_and_it_is_said() -> None:
-    view, packed = SpeedRunSpectra(source := PackedSource()), source
+    packed = PackedSource()
+    view = SpeedRunSpectra(packed)
     sources, ranges = view.data(Results(RIG))
     packed.pack(sources, ranges)
     assert view.sentence(Results(RIG)) == "There is no run yet."

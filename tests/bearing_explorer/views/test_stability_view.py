@@ -88,11 +88,11 @@ def test_the_picture_carries_values_and_place() -> None:
     assert view.data(Results(RIG))[0]["stability_cells"]["packed"].size == 0
     view.found = found
     sources, ranges = view.data(Results(RIG))
-    packed = sources["stability_cells"]["packed"]
-    assert packed[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
-    np.testing.assert_array_equal(packed[9 : 9 + 6].reshape(2, 3), found.map.multiplier)
-    np.testing.assert_array_equal(packed[15:].reshape(2, 3), codes_of(found.map))
-    assert packed[6] == 1.0
+    sent = sources["stability_cells"]["packed"]
+    assert sent[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
+    np.testing.assert_array_equal(sent[9 : 9 + 6].reshape(2, 3), found.map.multiplier)
+    np.testing.assert_array_equal(sent[15:].reshape(2, 3), codes_of(found.map))
+    assert sent[6] == 1.0
     assert sources["stability_mark"]["x"] == pytest.approx([7.0])
     assert sources["stability_mark"]["y"] == pytest.approx([12.9])
     assert ranges["stability_x"] == (5.0, 35.0)

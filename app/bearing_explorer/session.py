@@ -295,10 +295,12 @@ class Explorer:
         try:
             if message.get("reset") is True:
                 self.editor.take_preset(self.editor.preset)
-                self._tell(state=self.editor.state())
+                self._show_controls(state=self.editor.state())
             if isinstance(choose := message.get("choose"), dict):
                 refused = self.editor.choose(choose)
-                self._tell(state=self.editor.state(), **({"refused": refused} if refused else {}))
+                self._show_controls(
+                    state=self.editor.state(), **({"refused": refused} if refused else {})
+                )
             if isinstance(values := message.get("set"), dict):
                 self._set(values, confirm=False)
             if isinstance(typed := message.get("typed"), dict):
@@ -307,7 +309,7 @@ class Explorer:
                 self._read(file)
         finally:
             if self.bookmarks.follow(message):
-                self._tell_share()
+                self._show_share()
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
@@ -321,9 +323,9 @@ class Explorer:
         if confirm:
             names += [name for name in given if name in self.values and name not in refused]
         if names or was_changed != self.editor.changed:
-            self._tell(state=self.editor.state(names))
+            self._show_controls(state=self.editor.state(names))
         if refused:
-            self._tell(refused=refused)
+            self._show_controls(refused=refused)
 
     def _read(self, file: Mapping[Any, Any]) -> None:
         """Take a measured floor out of a file's text: parsed off the event loop, it may be long."""
@@ -335,8 +337,8 @@ class Explorer:
         def take(found: Any) -> None:
             self.editor.take_floor(name[:200], *found)
             self.bookmarks.step()
-            self._tell(state=self.editor.state())
-            self._tell_share()
+            self._show_controls(state=self.editor.state())
+            self._show_share()
             self.draw()
 
         self._in_background(lambda: read_file(text), take)
@@ -366,7 +368,7 @@ class Explorer:
         if "mark" not in message:
             return
         if self.bookmarks.go(message):
-            self._tell(state=self.editor.state())
+            self._show_controls(state=self.editor.state())
         if isinstance(name := message.get("pin_here"), str):
             self.bookmarks.pin_here(name)
         if message.get("unpin") is True:
@@ -375,8 +377,8 @@ class Explorer:
 
             def take(found: Any) -> None:
                 if self.bookmarks.take(asked, found):
-                    self._tell(state=self.editor.state())
-                self._tell_share()
+                    self._show_controls(state=self.editor.state())
+                self._show_share()
                 self.draw()
 
             self._in_background(lambda: read_asked(asked), take)
@@ -408,7 +410,7 @@ class Explorer:
         self._reporting = True
         self._in_background(make, take)
 
-    def _tell_share(self) -> None:
+    def _show_share(self) -> None:
         """The bar follows: the address, and what can be undone."""
         if self.share.state != (state := self.bookmarks.state()):
             self.share.state = state
@@ -424,15 +426,15 @@ class Explorer:
             self._settings = with_choices(self._settings, message)
             self.draw()
 
-    def _tell(self, **news: Any) -> None:
-        """Tell all panels of controls; each shows what is its own.
+    def _show_controls(self, **news: Any) -> None:
+        """Show news on all panels of controls; each shows what is its own.
 
         The mark lets them pass over what a hand has moved on from meanwhile.
         """
         if "state" in news:
             news["state"] = {**news["state"], "mark": self._mark}
         for panel in self._panels:
-            panel.tell(**news)
+            panel.show(**news)
 
     def _lesson_asked(self, message: Any) -> None:
         """A lesson begins, or a button among its words is pressed."""
@@ -441,7 +443,7 @@ class Explorer:
         lesson = self.lesson.begin(message.get("lesson"))
         if lesson is not None:
             lesson.begin(self.editor)
-            self._tell(state=self.editor.state())
+            self._show_controls(state=self.editor.state())
         self._tab_asked(message if lesson is None else {"show": lesson.tab})
         self._asked(message)  # the mark, and what a button changes
 
@@ -450,7 +452,7 @@ class Explorer:
         if isinstance(name, str) and name in self._sections:
             self._shown = name
             self.bookmarks.show(name)
-            self._tell_share()
+            self._show_share()
             self.draw()
 
     def _make(self, name: str) -> list[View]:

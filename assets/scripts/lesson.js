@@ -39,10 +39,10 @@ export function render({ model }) {
 
   const say = () => {
     const { drag = [], watch = [] } = model.lesson
-    const told = open ? { drag, watch } : null
+    const shown = open ? { drag, watch } : null
     document.documentElement.toggleAttribute("data-lesson", open)
-    window.__lesson = told
-    window.dispatchEvent(new CustomEvent("explorer-lesson", { detail: told }))
+    window.__lesson = shown
+    window.dispatchEvent(new CustomEvent("explorer-lesson", { detail: shown }))
   }
   const show = () => {
     const { number, title, parts } = model.lesson

@@ -103,7 +103,7 @@ export function render({ model }) {
       localStorage.setItem(KEPT, JSON.stringify(items))
       return true
     } catch {
-      say("This browser has no room or no leave to keep scenes. Save it as a file instead, under Download.")
+      say("This browser has no room for scenes, or may not keep them. Save it as a file instead, under Download.")
       return false
     }
   }

@@ -130,7 +130,7 @@ def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
     """Of the entries at which the ball would carry most without the defect, that of the first ball.
 
     A defect of the inner race meets balls all around, most of them without load. The first ball
-    rather than the last entry: which one is last hangs on how long the motion is, and a drawing
+    rather than the last entry: which one is last depends on how long the motion is, and a drawing
     should not change its words because the same motion was marched for longer.
     """
     angles = np.array([entry.cage_angle for entry in entries])

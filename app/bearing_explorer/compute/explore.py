@@ -257,10 +257,10 @@ class Plane:
 
 
 class Job(Protocol):
-    """What a computation tells and asks, as `bearing_explorer.compute.jobs.Work` does."""
+    """What a computation reports and asks, as `bearing_explorer.compute.jobs.Work` does."""
 
     def progress(self, part: float, _: str = "") -> None:
-        """Tell how much is done, 0 to 1."""
+        """Report how much is done, 0 to 1."""
 
     def cancelled(self) -> bool:
         """Whether to end soon, with what is found."""

@@ -5,8 +5,8 @@ picture, which costs as much as a light picture itself. With a class on board th
 waits for. So what was light the last time, and is of the same kind now, is computed on the event
 loop: one session after the other, and between two of them all that browsers have said is heard.
 
-What a session plans while its hand rests would make the pictures of all others six times as dear
-from a thread. It has its turn too, where it is light, after all pictures that wait.
+What a session plans while its hand rests would make the pictures of all others cost six times as
+much if it ran in a thread. It has its turn too, where it is light, after all pictures that wait.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Colour scales for maps: perceptually even, and told apart by colour-blind eyes.
+"""Colour scales for maps: perceptually even, and distinct to colour-blind eyes.
 
 `SEQUENTIAL` for numbers of one sign, from dark to light; `DIVERGING` for numbers of both signs,
 blue below zero and orange above it, as light as paper at zero and equally dark at both ends;

@@ -49,7 +49,7 @@ DIRECTIONS = ("x", "y", "z", "rx", "ry")
 DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
 """Colour of each direction of motion, in the order of `DIRECTIONS`."""
 BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
-"""Colours of balls that are told apart, taken in turn."""
+"""Colours of balls that are shown one by one, taken in turn."""
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 TEXT_SIZE = "12px"
@@ -204,7 +204,7 @@ def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Rang
     setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
     axis.formatter = tick_formatter(quantity, shown)
     if quantity.prefixed:
-        axis.syncable = False  # or each change of its label would be told to the server
+        axis.syncable = False  # or the server would hear of each change of its label
         follow = CustomJS(
             args={
                 "axis": axis,

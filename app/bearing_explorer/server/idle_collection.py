@@ -16,7 +16,7 @@ from tornado.ioloop import PeriodicCallback
 from bearing_explorer.server.bokeh_private import collect_elsewhere
 
 QUIET = 0.6
-"""[s] that nobody has said anything for, before a full collection."""
+"""[s] that nobody has sent anything for, before a full collection."""
 LONGEST = 120.0
 """[s] that a full collection waits for at most."""
 DUE = 10
@@ -28,7 +28,7 @@ _NEVER = 2**30
 class Collector:
     """Collects in full when that is due and nobody is waiting.
 
-    `quiet_for` tells for how long [s] nobody has said anything.
+    `quiet_for` says for how long [s] nobody has sent anything.
     """
 
     def __init__(

@@ -69,7 +69,7 @@ class PackedSource:
         self._sent_ranges: dict[str, np.ndarray] = {}
         self._packet = ColumnDataSource(data={"packed": np.zeros(4, np.float32)})
         self._unpack = CustomJS(args=self._args(), code=_UNPACK)
-        self._told = 0  # how many sources and ranges the browser's callback knows
+        self._known = 0  # how many sources and ranges the browser's callback knows
         self._packet.js_on_change("data", self._unpack)
         #: an invisible model that carries the packet into the document; put it on the page once
         self.anchor = Spacer(width=0, height=0, visible=False, tags=[self._packet])
@@ -103,14 +103,14 @@ class PackedSource:
     ) -> int:
         """Send what changed to the browser in one message; return its size [bytes].
 
-        `mark` travels with the packet, so that the browser can tell which inputs are drawn;
+        `mark` travels with the packet, so that the browser knows which inputs are drawn;
         `worked` is how long they took once they had their turn [s].
         """
         packed = self.pack(data, ranges or {}, mark, worked)
-        if self._told != (known := len(self._sources) + len(self._ranges)):
+        if self._known != (known := len(self._sources) + len(self._ranges)):
             # Not when they are declared: the browser must have met them in a figure first.
             self._unpack.args = self._args()
-            self._told = known
+            self._known = known
         self._packet.data = {"packed": packed}
         return packed.nbytes
 

@@ -15,7 +15,8 @@ The rules of version 1, which later versions go on reading:
   stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
   read back to the last bit.
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
-  on; each is told against the first defect of the preset. `selected` is the one the sliders move.
+  on; each says what differs from the first defect of the preset. `selected` is the one the sliders
+  move.
 - `race`, `edge`, `law`, `dofs` (``auto`` or names with dots between) are words. `floor` is
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.

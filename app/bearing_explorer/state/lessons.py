@@ -386,9 +386,9 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
             if scheme in ("set", "show"):
-                told = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
+                asks = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
                 token.type, closing = "html_inline", "</button>"
-                token.content = f'<button type="button" class="do" {told}>'
+                token.content = f'<button type="button" class="do" {asks}>'
             elif scheme in ("http", "https"):
                 token.attrSet("target", "_blank")
                 token.attrSet("rel", "noopener noreferrer")

@@ -386,9 +386,9 @@ class SceneEditor:
     # What the browser needs to know
 
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
-        """All that can be told to the browser as one value; `values` asks for those alone."""
+        """All that the browser needs to know; `values` asks for those alone."""
         wanted = self.values if values is None else {name: self.values[name] for name in values}
-        told: dict[str, Any] = {
+        state: dict[str, Any] = {
             "values": {name: None if math.isnan(v) else v for name, v in wanted.items()},
             "limits": {
                 name: {"least": limit.least, "most": limit.most, "step": limit.step}
@@ -397,7 +397,7 @@ class SceneEditor:
             },
             "changed": self.changed,
         }
-        return told if values is not None else told | self._choices_state()
+        return state if values is not None else state | self._choices_state()
 
     def _choices_state(self) -> dict[str, Any]:
         scene, floor = self.scene, self.floors[self.selected]

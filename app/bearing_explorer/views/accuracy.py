@@ -49,7 +49,7 @@ NAMES = tuple(dict.fromkeys((*METHODS, *SOLVERS, *PLACINGS, *MODELS)))
 MOST_METHODS = max(len(METHODS), len(SOLVERS), len(PLACINGS), len(MODELS))
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#20262D")
-"""Okabe and Ito's, which colour-blind people tell apart."""
+"""Okabe and Ito's, which colour-blind people can distinguish."""
 MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆", "inverted_triangle": "▼",
            "plus": "✚", "star": "★"}  # fmt: skip
 VERDICT_LOOKS = dict(
@@ -404,13 +404,13 @@ class Accuracy(JobView[Found]):
         chosen = "" if step_rate is None else f"{step_rate:.0f}"
         if chosen and chosen not in offered:
             offered.append(chosen)
-        told = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
+        note = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
             "The program chooses the steps of the scene's motion."
         )  # fmt: skip
         self._steps.param.update(
             options=[[text, f"RK4, {text} Hz"] for text in offered],
             chosen=chosen,
-            words=self._note or told,
+            words=self._note or note,
         )
 
 
@@ -526,13 +526,13 @@ def _chart_words(chart: StabilityChart) -> str:
     for name in dict.fromkeys(t.method for t in chart.trials):
         found, limit = (v / chart.highest_frequency
                         for v in (chart.found_limit(name), chart.linear_limit[name]))  # fmt: skip
-        told = "never" if limit == 0.0 else f"below {style.number(limit, 2)}"
+        expected = "never" if limit == 0.0 else f"below {style.number(limit, 2)}"
         first = min(t.step_rate for t in chart.trials if t.method == name)
         met = "at any tried" if not math.isfinite(found) else (
             "never" if found * chart.highest_frequency <= first * 1.000001
             else f"below {style.number(found, 2)}"
         )  # fmt: skip
-        words.append(f"{name} {met} (foretold: {told})")
+        words.append(f"{name} {met} (expected: {expected})")
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
         f"In steps a period of {frequency}, the motion diverges with {', '.join(words)}. "

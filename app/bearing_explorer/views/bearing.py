@@ -29,7 +29,7 @@ TOP_LINE, LINE_HEIGHT = 1.47, 0.1
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
-# pale to dark, even steps to the eye, told apart by colour-blind eyes and in grey print
+# pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
 LOAD_PALETTE = list(magma(256))[40:246][::-1]
 DARK_LOAD_PALETTE = list(magma(256))[62:]
 INKS = [style.INK, style.PAPER]

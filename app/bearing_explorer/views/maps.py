@@ -273,7 +273,7 @@ def _grid(results: Results) -> dict[str, float]:
     """What the sides of a map stand for [deg]: half a point past the first and the last.
 
     `turn` says how far the angle that the map shows turns for a degree of cage angle: it is the
-    shaft's where a defect turns with the shaft. `start` is the cage angle where it is nought.
+    shaft's where a defect turns with the shaft. `start` is the cage angle where it is zero.
     """
     maps = results.maps
 
@@ -338,7 +338,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
 
 
 def _round_numbers(first: float, last: float, parts: int) -> list[float]:
-    """From nought to about `parts` equal round steps further, within the ends [deg]."""
+    """From zero to about `parts` equal round steps further, within the ends [deg]."""
     span = last - max(first, 0.0)
     steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
     step = steps[0] if steps else span / parts

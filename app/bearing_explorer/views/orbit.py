@@ -55,7 +55,7 @@ _LOST_LONG = {
     ),
     "+1": (
         "Every ball pass alike is possible but does not last: the machine goes to another orbit, "
-        "and which one hangs on where it comes from"
+        "and which one depends on where it comes from"
     ),
 }
 

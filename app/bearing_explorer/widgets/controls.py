@@ -58,7 +58,7 @@ def _choice_spec(choice: Choice) -> dict[str, Any]:
 
 
 class Rows(LiveComponent):
-    """Sliders, numbers and choices. `tell` moves them, `asked` hears of them.
+    """Sliders, numbers and choices. `show` moves them, `asked` hears of them.
 
     `asked` gets messages of the browser as they come, from strangers too: judge them.
     """
@@ -72,7 +72,7 @@ class Rows(LiveComponent):
         super().__init__(margin=0, sizing_mode="stretch_width", **params)
         self.on_msg(lambda event: asked(event.data))
 
-    def tell(self, **news: Any) -> None:
+    def show(self, **news: Any) -> None:
         """Move controls in the browser (`state`), or say what was refused (`refused`)."""
         self.send(news)
 

@@ -18,7 +18,7 @@ class ShareBar(JSComponent):
     `asked` gets messages of the browser as they come, from strangers too: judge them.
     """
 
-    #: what `Bookmarks.state` tells
+    #: what `Bookmarks.state` says
     state = param.Dict(default={})
 
     _esm = scripts("element.js", "figure_export.js", "report.js", "share.js")

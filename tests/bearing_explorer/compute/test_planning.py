@@ -235,7 +235,7 @@ def session(
 ) -> tuple[Explorer, list[str]]:
     """A session that rests after each act, and what its status line said, moving and at rest."""
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.tell", lambda self, **news: None
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
     )
     monkeypatch.setattr(idle_task, "RESTS_AFTER", 0.01)
     said: list[str] = []

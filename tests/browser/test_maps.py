@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
+from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed_colors
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from playwright.sync_api import Page, expect
@@ -61,7 +61,7 @@ def test_every_point_has_the_colour_of_its_value(
     results = Results(LIEW_LIM)
     cells = source(page, "maps_cells")
     for i, term in enumerate(STIFFNESS_TERMS):
-        colors = packed(DIVERGING if cells["kind"][i] == TWO_SIGNS else SEQUENTIAL)
+        colors = packed_colors(DIVERGING if cells["kind"][i] == TWO_SIGNS else SEQUENTIAL)
         numbers = whole_numbers(results.maps.term(term), cells["low"][i], cells["high"][i])
         shape, drawn = images[i]
         assert shape == [91, 121]

@@ -168,12 +168,12 @@ def reading(
     )
 
 
-def color_bar(mapper: ColorMapper, title: str, **options: Any) -> ColorBar:
+def color_bar(mapper: ColorMapper, title: str = "", width: int = 10, **options: Any) -> ColorBar:
     """The scale beside a map."""
     return ColorBar(
         color_mapper=mapper,
         title=title,
-        width=10,
+        width=width,
         major_tick_line_color=None,
         major_label_text_font=style.FONT,
         major_label_text_font_size=style.SMALL_TEXT_SIZE,

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from xarray import DataArray
 
 NO_ANSWER = "#B9BEC4"
-NO_SECTION = "no line"
 BINS = 24
 _SAY = """
 if (isNaN(cell[0])) return "no answer"

@@ -147,11 +147,6 @@ class PackedSource:
         head = np.array([mark, worked, n_sources, len(heads) - n_sources], np.float32)
         return np.concatenate([head, np.array(heads, np.float32).ravel(), *blocks])
 
-    def forget(self) -> None:
-        """Send everything again next time: the browser may have missed something."""
-        self._sent_sources.clear()
-        self._sent_ranges.clear()
-
     def _block(self, name: str, columns: Columns) -> np.ndarray:
         """Columns of one source as rows of one array, in the order they were declared."""
         if name not in self._sources:

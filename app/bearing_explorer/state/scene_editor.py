@@ -354,14 +354,13 @@ class SceneEditor:
 
     # A floor from a file
 
-    def take_file(self, name: str, text: str) -> None:
-        """Make a measured floor that of the defect in hand. What is wrong stands in its words."""
-        self.take_floor(name, *read_file(text))
-
     def take_floor(
         self, name: str, found: tuple[MeasuredFloor, float, float, float] | None, wrong: str
     ) -> None:
-        """The same with what `read_file` made of the text."""
+        """Make a measured floor that of the defect in hand, with what `read_file` made of its text.
+
+        What is wrong with it stands in the words of the floor.
+        """
         choice = self.floors[self.selected]
         shown = " ".join(name.split())[:40] or "The file"
         if found is None:

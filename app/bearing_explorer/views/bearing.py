@@ -6,13 +6,14 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import ColorBar, CustomJS, LinearColorMapper, Range1d
+from bokeh.models import CustomJS, LinearColorMapper, Range1d
 from bokeh.palettes import magma
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.compute.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.figures import style
+from bearing_explorer.figures.heat_map import color_bar
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -105,8 +106,8 @@ class BearingDrawing(View):
         self._draw_rings(plot, packed)
         self._draw_loads(plot, packed, colors, inks)
         self._write_words(plot, packed)
-        bar = ColorBar(
-            color_mapper=colors,
+        bar = color_bar(
+            colors,
             orientation="horizontal",
             width=210,
             height=9,
@@ -114,15 +115,6 @@ class BearingDrawing(View):
             padding=2,
             title_standoff=4,
             bar_line_color=style.STEEL_EDGE,
-            major_tick_line_color=None,
-            major_label_text_font=style.FONT,
-            major_label_text_font_size=style.SMALL_TEXT_SIZE,
-            major_label_text_color=style.FAINT_INK,
-            title_text_font=style.FONT,
-            title_text_font_style="normal",
-            title_text_font_size=style.SMALL_TEXT_SIZE,
-            title_text_color=style.INK,
-            background_fill_color=None,
         )
         style.write_units(bar, style.BALL_LOAD, load)
         plot.add_layout(bar, "below")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import panel as pn
 import param
 from bokeh.models import ColumnDataSource, CustomJSExpr, Range1d
 from bokeh.plotting import figure
@@ -42,17 +41,6 @@ def write_over(
         text_font_size=style.SMALL_TEXT_SIZE, background_fill_color=style.PAPER,
         background_fill_alpha=0.85, level="annotation", **look,
     )  # fmt: skip
-
-
-def side_by_side(*parts: Any) -> pn.Column:
-    """Parts beside each other where there is room for two, else one below the other."""
-    columns = "repeat(auto-fit, minmax(min(100%, 380px), 1fr))"
-    return pn.Column(
-        *parts,
-        stylesheets=[f":host {{ display: grid; grid-template-columns: {columns}; }}"],
-        sizing_mode="stretch_width",
-        margin=0,
-    )
 
 
 NOTHING = "There is no signal yet: choose a file or simulate one above."

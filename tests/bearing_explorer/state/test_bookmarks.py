@@ -10,7 +10,7 @@ from bearing_explorer.state.bookmarks import (
     name_of,
     read_asked,
 )
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.scene_editor import SceneEditor, read_file
 
 from bearingcore import Scene, presets
 
@@ -77,7 +77,7 @@ def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: B
     note({"choose": {"floor": "rough"}})
     editor.set({"rms_height_um": 7})
     note({"typed": {"rms_height_um": 7}})
-    editor.take_file("wear.txt", "250 0\n265 60\n280 0\n")
+    editor.take_floor("wear.txt", *read_file("250 0\n265 60\n280 0\n"))
     bookmarks.step()
     seen.append(editor.snapshot())
     editor.choose({"defect": "add"})

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ast
+import re
 import types
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -143,3 +146,20 @@ def test_what_panel_lacks_is_done_without(monkeypatch: pytest.MonkeyPatch) -> No
     assert bokeh_private.tornado_of(object()) is None
     assert bokeh_private.sockets_of(object()) == []
     assert list(bokeh_private.parts_of(object())) == []  # type: ignore[arg-type]
+
+
+def test_private_names_of_others_stand_here_alone() -> None:
+    """But for three of the websocket and the server, in the files about these."""
+    package = Path(bokeh_private.__file__).parents[1]
+    own = {"_heard", "_take"}
+    of_server = {"_async_open", "_current_patch_connection", "_tornado"}
+    found = []
+    for path in package.rglob("*.py"):
+        allowed = own | of_server if path.parent.name == "server" else own
+        for node in ast.walk(ast.parse(path.read_text())):
+            if not isinstance(node, ast.Attribute) or not re.match(r"_[a-z]", node.attr):
+                continue
+            of_itself = isinstance(node.value, ast.Name) and node.value.id in ("self", "cls")
+            if not of_itself and node.attr not in allowed and path.name != "bokeh_private.py":
+                found.append(f"{path.name}:{node.lineno} {ast.unparse(node)}")
+    assert not found

@@ -69,7 +69,7 @@ def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
         for act in acts:
             act(explorer)
             await idle(explorer)
-        while rest and not explorer._rest.idle:
+        while rest and not explorer._idle_task.idle:
             await asyncio.sleep(0.002)
         await idle(explorer)
         return explorer

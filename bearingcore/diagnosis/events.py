@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
 from bearingcore.signals.averaging import BallPasses
 from bearingcore.statics.equilibrium import equilibrium
@@ -137,7 +138,7 @@ def unloading_angle(scene: Scene) -> float:
     (defect,) = scene.defects
     state = equilibrium(scene.healthy())
     load = np.nan_to_num(state.ball_load).max()
-    compression = float(load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
+    compression = typical_compression(scene.bearing, load)
     radius = scene.bearing.ball_radius
     chord = math.sqrt(max(2.0 * radius * compression - compression**2, 0.0))
     factor = 2.0 if defect.edge == "published" else 1.0

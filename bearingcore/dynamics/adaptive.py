@@ -76,10 +76,10 @@ def march_adaptively(
         # a sliver of a step across each: smooth steps begin and end on the right side of it
         kinks = problem.kinks(duration)
         stops = np.sort(np.concatenate([kinks - KINK_SLIVER, kinks + KINK_SLIVER]))
+    adaptive = kernels.Adaptive(1.0 / sample_rate, tolerance, problem.scale, stops, MOST_CALLS)
     filled, _, _, calls = kernels.march_adaptive(
-        problem.start.copy(), 1.0 / sample_rate, tolerance, problem.scale, stops, MOST_CALLS,
-        *problem.packed, history,
-    )  # fmt: skip
+        problem.start.copy(), adaptive, 0.0, problem.system, history
+    )
     failure = "" if filled > n else f"the step shrank to nothing at {filled / sample_rate:.2g} s"
     return March(history, sample_rate, calls, failure)
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.packing import contacts
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 
@@ -163,14 +164,16 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
     """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
     alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
     radial, axial = np.cos(alpha), np.sin(alpha)
+    every = contacts(state.scene.bearing)
     lever = state.scene.bearing.groove_center_radius
+    tilting = lever * (every.reach * axial - every.arm * radial)
     e = np.stack(
         [
             radial * np.cos(phi),
             radial * np.sin(phi),
             axial,
-            lever * axial * np.sin(phi),
-            -lever * axial * np.cos(phi),
+            tilting * np.sin(phi),
+            -tilting * np.cos(phi),
         ],
         axis=-1,
     )
@@ -199,7 +202,7 @@ def contact_damping(scene: Scene) -> float:
     """
     if scene.contact_damping is not None:
         return scene.contact_damping
-    # the damping hangs on bearing and load only; other fields would make needless cache entries
+    # the damping depends on bearing and load only; other fields would make needless cache entries
     stiffness = _mean_stiffness_a_ball(scene.healthy().replace(shaft_speed=0.0))
     return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
 

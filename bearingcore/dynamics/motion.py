@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -15,8 +14,8 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
-from bearingcore.model.defect import path_tables
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.model import packing
+from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
 
@@ -27,16 +26,6 @@ directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB
 that asks for them, as steps stay stable down to 2.2."""
 
 MOST_STEPS = 10_000_000
-
-
-class BodyNumbers(NamedTuple):
-    """What `kernels.march` needs of the bodies along the active directions, each (n,)."""
-
-    force: NDArray[np.float64]
-    inner_mass: NDArray[np.float64]
-    outer_mass: NDArray[np.float64]
-    stiffness: NDArray[np.float64]
-    damping: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -119,13 +108,13 @@ class Motion:
             for body in ("inner", "outer")
         )
         scene = self.scene
-        loads = kernels.elastic_ball_loads(
+        loads = kernels.elastic_loads(
             inner - outer,
-            np.array([DOF_NAMES.index(name) for name in self.dofs]),
+            packing.direction_numbers(self.dofs),
             float(samples[0] * scene.cage_speed / self.sample_rate),
             scene.cage_speed / self.sample_rate,
-            *path_tables(scene.defects, scene.bearing),
-            *scene.bearing.contact_numbers,
+            packing.contacts(scene.bearing),
+            packing.path(scene),
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
         return np.asarray(loads)
@@ -151,7 +140,7 @@ class Motion:
         scaled = _sample(
             self.history, body, derivative, self.sample_rate, self.step_rate, 0, len(self.time)
         )
-        return scaled / length_units(self.scene, self.dofs)
+        return scaled / packing.length_units(self.scene, self.dofs)
 
 
 def simulate(
@@ -183,7 +172,7 @@ def simulate(
     -------
     Motion
         with a status: a motion that diverges, or a scene without a static state to start from, is
-        told there.
+        said there.
 
     Raises
     ------
@@ -196,7 +185,7 @@ def simulate(
     if scene.shaft_speed == 0.0:
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a simulated motion")
     dofs = scene.active_dofs
-    body_numbers(scene, dofs)  # refuses a support that lacks a number
+    packing.body_numbers(scene, dofs)  # refuses a support that lacks a number
     highest = highest_natural_frequency(scene)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
@@ -246,58 +235,24 @@ def simulate(
 
 
 def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[np.float64]) -> int:
-    """Steps of h [s] from the state y (4 nd,) at cage angle 0, which is moved, by the best kernel.
+    """Steps of h [s] from the state y (4 nd,) at cage angle 0, which is moved.
 
     history (steps + 1, 6, nd) is filled. Returns the number of steps after which all was finite.
     """
-    n_steps = len(history) - 1
-    packed = packed_numbers(scene, scene.active_dofs)
-    if scene.contact_law == "published":
-        kernels.turn_smooth(y, 1.0, 0.0, *packed)
-        if not is_flat(scene):
-            return int(kernels.march_smooth(y, n_steps, h, 0.0, *packed, history))
-    n_balls, numbers, _, active, *paths = packed
-    _, ca, sa, A0, rL, K, c, _ = numbers.tolist()
-    force, *others = body_numbers(scene, scene.active_dofs)
-    common = (y, n_steps, h, 0.0, scene.cage_speed, *paths, force)
-    if is_flat(scene):
-        return int(kernels.march_flat(*common, *others, n_balls, rL, K, c, history))
-    contact = (n_balls, ca, sa, A0, rL, K, c, False)
-    return int(kernels.march(*common, active, *others, *contact, history))
+    system = moving_system(scene, scene.active_dofs)
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    return int(kernels.march(y, h, 0.0, system, history))
 
 
-class PackedNumbers(NamedTuple):
-    """A scene as `kernels.march_smooth` and those after it take it."""
-
-    n_balls: int
-    numbers: NDArray[np.float64]
-    bodies: NDArray[np.float64]
-    active: NDArray[np.int64]
-    rows: NDArray[np.float64]
-    tables: NDArray[np.float64]
-
-
-def packed_numbers(scene: Scene, dofs: tuple[str, ...]) -> PackedNumbers:
-    """What the kernels need of a scene that moves along `dofs`."""
-    n_balls, ca, sa, A0, rL, K = scene.bearing.contact_numbers
-    pull = 1.0 if scene.contact_law == "published" else -1.0
-    force, inner, outer, stiffness, damping = body_numbers(scene, dofs)
-    return PackedNumbers(
-        n_balls,
-        np.array([scene.cage_speed, ca, sa, A0, rL, K, contact_damping(scene), pull]),
-        np.array([force, 1.0 / inner, 1.0 / outer, stiffness, damping]),
-        np.array([DOF_NAMES.index(name) for name in dofs]),
-        *path_tables(scene.defects, scene.bearing),
+def moving_system(
+    scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
+) -> kernels.System:
+    """What the kernels need of a scene that moves along `dofs`; see `packing.rotor`."""
+    return kernels.System(
+        packing.rotor(scene, dofs, contact_damping(scene), velocities=velocities),
+        packing.contacts(scene.bearing),
+        packing.path(scene),
     )
-
-
-def is_flat(scene: Scene) -> bool:
-    """True where only x and y move, α0 = 0 and the law is the published one.
-
-    The kernels then march smooth variables: the same motion, faster and more exact.
-    """
-    flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.contact_angle == 0.0
-    return flat and scene.contact_law == "published"
 
 
 def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
@@ -305,30 +260,11 @@ def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | N
     start = equilibrium(scene, [0.0], dofs)
     if start.status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
         return None
-    bodies = body_numbers(scene, dofs)
+    bodies = packing.body_numbers(scene, dofs)
     y = np.zeros((4, len(dofs)))
     y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
-    y[0] = y[2] + start.state[0, [DOF_NAMES.index(name) for name in dofs]]
+    y[0] = y[2] + start.state[0, packing.direction_numbers(dofs)]
     return y.ravel()
-
-
-def length_units(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64]:
-    """What a scaled displacement is divided by: 1 [m], or r_d for tilts [m/rad]."""
-    lever = scene.bearing.groove_center_radius
-    return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
-
-
-def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
-    """Load, inertia and support along `dofs`, tilts scaled to lengths as in the kernels."""
-    units = length_units(scene, dofs)
-    index = [DOF_NAMES.index(name) for name in dofs]
-    return BodyNumbers(
-        scene.load.vector[index] / units,
-        scene.support.inertia("inner", dofs) / units**2,
-        scene.support.inertia("outer", dofs) / units**2,
-        scene.support.stiffness(dofs) / units**2,
-        scene.support.damping(dofs) / units**2,
-    )
 
 
 def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:

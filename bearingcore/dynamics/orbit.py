@@ -14,7 +14,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,14 +23,12 @@ from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
-    body_numbers,
     default_step_rate,
     hermite_weights,
-    is_flat,
-    length_units,
-    packed_numbers,
+    moving_system,
     static_start,
 )
+from bearingcore.model import packing
 from bearingcore.model.scene import Scene
 from bearingcore.signals.spectrum import Spectrum
 
@@ -119,14 +116,13 @@ class Orbit:
         time = np.asarray(time, dtype=float).ravel() % self.period
         parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
         # from the equations of motion: it jumps as balls touch, and no interpolation follows that
-        rates = kernels.motion_rates(
-            time, np.hstack(parts), 0.0, *packed_numbers(self.scene, self.dofs)
-        )
-        return np.asarray(rates[:, -len(self.dofs) :]) / length_units(self.scene, self.dofs)
+        moving = moving_system(self.scene, self.dofs, velocities=True)
+        rates = np.asarray(kernels.motion_rates(time, np.hstack(parts), 0.0, moving))
+        return rates[:, -len(self.dofs) :] / packing.length_units(self.scene, self.dofs)
 
     def inner_displacement(self, time: ArrayLike) -> NDArray[np.float64]:
         """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
-        return self._sampled(time, 0, 0) / length_units(self.scene, self.dofs)
+        return self._sampled(time, 0, 0) / packing.length_units(self.scene, self.dofs)
 
     def _sampled(self, time: ArrayLike, body: int, derivative: int) -> NDArray[np.float64]:
         """Quintic interpolation in the periodic history, tilts times r_d."""
@@ -154,7 +150,7 @@ class Orbit:
         frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
         steps = len(self.history) - 1
         # of the velocity, as the acceleration jumps where balls touch, and its samples would alias
-        velocity = self.history[:-1, 4] / length_units(self.scene, self.dofs)
+        velocity = self.history[:-1, 4] / packing.length_units(self.scene, self.dofs)
         lines = np.fft.rfft(velocity, axis=0) / steps
         lines *= (2j * math.pi / self.period) * np.arange(len(lines))[:, None]
         # a segment's own beginning turns line k by exp(iπk/(period·resolution)); what is left of
@@ -277,7 +273,7 @@ def common_ball_passes(scene: Scene) -> int | None:
 class _Shooting:
     """What a period does to a state, with and without the tangent.
 
-    States are those of `kernels.march_smooth`, without tension those of `kernels.march`.
+    States are those that `kernels.march` moves.
     """
 
     def __init__(
@@ -292,25 +288,9 @@ class _Shooting:
         self.calls = 0
         self.given_up = False
         self._give_up = give_up
-        self._smooth = scene.contact_law == "published"
-        self._packed = packed_numbers(scene, dofs)
-        n_balls, numbers, _, active, *paths = self._packed
-        w, ca, sa, A0, rL, K, c, _ = numbers.tolist()
-        force, *others = body_numbers(scene, dofs)
-        h = period / steps
-        motion = (steps, h, 0.0, w, *paths, force)
+        self._system = moving_system(scene, dofs)
+        self._step = period / steps
         self.history = np.empty((steps + 1, 6, len(dofs)))
-        self._arguments: tuple[Any, ...]
-        if is_flat(scene):
-            self._plain, self._tangent = kernels.march_flat, kernels.march_flat_with_tangent
-            self._arguments = (*motion, *others, n_balls, rL, K, c, self.history)
-        elif self._smooth:
-            self._plain, self._tangent = kernels.march_smooth, kernels.march_smooth_with_tangent
-            self._arguments = (steps, h, 0.0, *self._packed, self.history)
-        else:
-            self._plain, self._tangent = _march_without_tension, kernels.march_with_tangent
-            contact = (n_balls, ca, sa, A0, rL, K, c)
-            self._arguments = (*motion, active, *others, *contact, self.history)
         # velocities count over the highest natural frequency, so that all of y are lengths
         omega = 2.0 * math.pi * highest_natural_frequency(scene)
         self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(dofs))
@@ -318,8 +298,7 @@ class _Shooting:
     def own(self, y: NDArray[np.float64]) -> NDArray[np.float64]:
         """A state of displacements and velocities in the variables that are marched."""
         own = y.copy()
-        if self._smooth:
-            kernels.turn_smooth(own, 1.0, 0.0, *self._packed)
+        kernels.turn_smooth(own, 1.0, 0.0, self._system)
         return own
 
     def marched(self, y: NDArray[np.float64], periods: int = 1) -> NDArray[np.float64]:
@@ -328,7 +307,7 @@ class _Shooting:
         for _ in range(periods):
             if self.given_up:
                 break
-            self._plain(end, *self._arguments)
+            kernels.march(end, self._step, 0.0, self._system, self.history)
             self._count()
         return end
 
@@ -337,7 +316,7 @@ class _Shooting:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """P(y) and its derivative."""
         end, tangent = y.copy(), np.eye(y.size)
-        self._tangent(end, tangent, *self._arguments)
+        kernels.march_with_tangent(end, tangent, self._step, 0.0, self._system, self.history)
         self._count()
         return end, tangent
 
@@ -351,12 +330,6 @@ class _Shooting:
         if not (np.all(np.isfinite(end)) and size > 0.0):
             return math.inf
         return float(np.linalg.norm((end - y) * self.scale) / size)
-
-
-def _march_without_tension(*arguments: Any) -> None:
-    """`kernels.march` with the arguments of its tangent."""
-    *others, history = arguments
-    kernels.march(*others, False, history)
 
 
 def _newton(

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import body_numbers, is_flat, packed_numbers, static_start
+from bearingcore.dynamics.motion import moving_system, static_start
+from bearingcore.model import packing
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import path_kinks
@@ -32,35 +33,20 @@ class MotionProblem:
     scale : (4 n,) [m, m/s]
         sizes that count: one ball's compression under the load, and that times the highest natural
         angular frequency. Tolerances are relative to them: the whole signal is micrometres.
-    numbers, bodies, active, rows, tables
-        as `kernels.motion_rate` takes them.
+    system
+        as kernels take them, to march velocities.
     """
 
     scene: Scene
     dofs: tuple[str, ...]
     start: Array
     scale: Array
-    numbers: Array
-    bodies: Array
-    active: NDArray[np.int64]
-    rows: Array
-    tables: Array
-
-    @property
-    def packed(self) -> tuple[float, int, Array, Array, NDArray[np.int64], Array, Array]:
-        """From `start_angle` on, what the kernels of comparison take."""
-        n_balls = self.scene.bearing.n_balls
-        return 0.0, n_balls, self.numbers, self.bodies, self.active, self.rows, self.tables
+    system: kernels.System
 
     def rate(self, t: float, y: Array) -> Array:
         """dy/dt at time t [s], compiled."""
-        rate: Array = kernels.motion_rate(t, y, *self.packed)
-        return rate
-
-    @property
-    def flat(self) -> bool:
-        """True where the program marches smooth variables: see `kernels.march_flat`."""
-        return is_flat(self.scene)
+        rates: Array = kernels.motion_rates(np.array([t]), y[None], 0.0, self.system)
+        return rates[0]
 
     def kinks(self, duration: float) -> Array:
         """Times [s], rising, at which a ball meets an edge or the floor of a defect."""
@@ -75,20 +61,18 @@ class MotionProblem:
 
         Kinetic, elastic (contacts and support) and that of the load, for a cage that stands still.
         """
-        n_balls, ca, sa, A0, rL, K = self.scene.bearing.contact_numbers
+        rotor, contacts, path = self.system
         inner, outer = history[:, 0], history[:, 3]
         relative = inner - outer
-        loads = kernels.elastic_ball_loads(
-            relative, self.active, 0.0, 0.0, self.rows, self.tables, n_balls, ca, sa, A0, rL, K
-        )
-        contacts = 0.4 * (loads ** (5.0 / 3.0)).sum(axis=1) / K ** (2.0 / 3.0)
-        force, inverse_mi, inverse_mo, stiffness, _ = self.bodies
+        loads = kernels.elastic_loads(relative, rotor.active, 0.0, 0.0, contacts, path)
+        n = contacts.exponent
+        elastic = (loads ** (1.0 + 1.0 / n) / contacts.factor ** (1.0 / n) / (n + 1.0)).sum(axis=1)
         kinetic = 0.5 * (
-            (history[:, 1] ** 2 / inverse_mi).sum(axis=1)
-            + (history[:, 4] ** 2 / inverse_mo).sum(axis=1)
+            (history[:, 1] ** 2 / rotor.inverse_inner).sum(axis=1)
+            + (history[:, 4] ** 2 / rotor.inverse_outer).sum(axis=1)
         )
-        support = 0.5 * (stiffness * outer**2).sum(axis=1)
-        total: Array = kinetic + contacts + support - inner @ force
+        support = 0.5 * (rotor.stiffness * outer**2).sum(axis=1)
+        total: Array = kinetic + elastic + support - inner @ rotor.force
         return total
 
 
@@ -120,11 +104,12 @@ def motion_problem(
     start = rest.reshape(4, n)
     if offset is not None:
         start[0] += offset
-    load = float(np.linalg.norm(body_numbers(scene, dofs).force)) or 1.0
-    compression = (load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
+    load = float(np.linalg.norm(packing.body_numbers(scene, dofs).force)) or 1.0
+    compression = packing.typical_compression(scene.bearing, load)
     turning = 2.0 * math.pi * (highest_natural_frequency(scene) or 1000.0)
     scale = compression * np.repeat([1.0, turning, 1.0, turning], n)
     if still:
         scene = scene.replace(shaft_speed=0.0)
-    packed = packed_numbers(scene, dofs)
-    return MotionProblem(scene, dofs, start.ravel(), scale, *packed[1:])
+    return MotionProblem(
+        scene, dofs, start.ravel(), scale, moving_system(scene, dofs, velocities=True)
+    )

@@ -15,7 +15,9 @@ import numpy as np
 
 from bearingcore import kernels
 from bearingcore.dynamics.adaptive import March, how_it_ended, march_adaptively, whole_steps
+from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
+from bearingcore.experiments.compiled_methods import march_generalised_alpha, march_verlet
 
 Marcher = Callable[[MotionProblem, float, float, float], March]
 """(problem, setting, duration [s], sample rate [Hz]) -> March"""
@@ -46,57 +48,39 @@ class Method:
     note: str
 
 
-def _masses(problem: MotionProblem) -> tuple[Array, Array]:
-    return 1.0 / problem.bodies[1], 1.0 / problem.bodies[2]
-
-
 def _runge_kutta(
     problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
 ) -> March:
     """The program's own: variables that do not jump where the contact law allows them."""
-    if problem.scene.contact_law != "published":
-        return _plain_runge_kutta(problem, step_rate, duration, sample_rate)
-    n_steps = whole_steps(step_rate, duration)
-    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    y = problem.start.copy()
-    kernels.turn_smooth(y, 1.0, *problem.packed)
-    if not problem.flat:
-        done = kernels.march_smooth(y, n_steps, 1.0 / step_rate, *problem.packed, history)
-        return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
-    cage_speed, _, _, _, rL, K, c, _ = problem.numbers
-    n_balls = problem.scene.bearing.n_balls
-    paths = (problem.rows, problem.tables)
-    force, _, _, stiffness, damping = problem.bodies
-    inner, outer = _masses(problem)
-    done = kernels.march_flat(
-        y, n_steps, 1.0 / step_rate, 0.0, cage_speed, *paths, force, inner, outer, stiffness,
-        damping, n_balls, rL, K, c, history,
-    )  # fmt: skip
-    return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
+    system = moving_system(problem.scene, problem.dofs)
+    return _fixed(kernels.march, 4, problem, system, step_rate, duration)
 
 
 def _plain_runge_kutta(
     problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
 ) -> March:
-    n_steps = whole_steps(step_rate, duration)
-    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    cage_speed, ca, sa, A0, rL, K, c, pull = problem.numbers
-    force, _, _, stiffness, damping = problem.bodies
-    done = kernels.march(
-        problem.start.copy(), n_steps, 1.0 / step_rate, 0.0, cage_speed, problem.rows,
-        problem.tables, force, problem.active, *_masses(problem), stiffness, damping,
-        problem.scene.bearing.n_balls, ca, sa, A0, rL, K, c, pull > 0.0, history,
-    )  # fmt: skip
-    return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
+    return _fixed(kernels.march, 4, problem, problem.system, step_rate, duration)
 
 
 def _verlet(problem: MotionProblem, step_rate: float, duration: float, sample_rate: float) -> March:
+    return _fixed(march_verlet, 1, problem, problem.system, step_rate, duration)
+
+
+def _fixed(
+    march: Callable[..., int],
+    calls: int,
+    problem: MotionProblem,
+    system: kernels.System,
+    step_rate: float,
+    duration: float,
+) -> March:
+    """Explicit steps of one length, so many right-hand sides each."""
     n_steps = whole_steps(step_rate, duration)
     history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    done = kernels.march_verlet(
-        problem.start.copy(), n_steps, 1.0 / step_rate, *problem.packed, history
-    )
-    return March(history, step_rate, n_steps, how_it_ended(done, n_steps, step_rate))
+    y = problem.start.copy()
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    done = march(y, 1.0 / step_rate, 0.0, system, history)
+    return March(history, step_rate, calls * n_steps, how_it_ended(done, n_steps, step_rate))
 
 
 def _generalised_alpha(am: float, af: float) -> Marcher:
@@ -105,8 +89,8 @@ def _generalised_alpha(am: float, af: float) -> Marcher:
     ) -> March:
         n_steps = whole_steps(step_rate, duration)
         history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-        done, calls, unsolved = kernels.march_generalised_alpha(
-            problem.start.copy(), n_steps, 1.0 / step_rate, am, af, *problem.packed, history
+        done, calls, unsolved = march_generalised_alpha(
+            problem.start.copy(), 1.0 / step_rate, (am, af), 0.0, problem.system, history
         )
         failure = how_it_ended(done, n_steps, step_rate)
         if not failure and unsolved > n_steps // 100:
@@ -170,7 +154,7 @@ class _Limited:
 def history_of(problem: MotionProblem, time: Array, states: Array) -> Array:
     """History (n, 6, directions) of states (n, 4 directions) at times (n,) [s]."""
     n = len(problem.dofs)
-    rates = kernels.motion_rates(time, np.ascontiguousarray(states), *problem.packed)
+    rates = kernels.motion_rates(time, np.ascontiguousarray(states), 0.0, problem.system)
     history = np.empty((len(time), 6, n))
     for body in range(2):
         columns = slice(2 * body * n, (2 * body + 1) * n)

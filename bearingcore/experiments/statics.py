@@ -19,9 +19,10 @@ from scipy.integrate import trapezoid
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.experiments.compiled_methods import static_states_cold
 from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
-from bearingcore.model.defect import path_tables
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.model import packing
+from bearingcore.model.scene import Scene
 from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 from bearingcore.statics.passes import ball_drop, path_kinks
@@ -57,7 +58,7 @@ class StaticProblem:
     """Static equilibrium of a scene at m cage angles, rotations times r_d, moments over r_d.
 
     `c`, `s`, `d` (m, N_b): cosine, sine [-] and drop [m] of each ball; `force` (5,) [N]; `active`
-    the free directions; `numbers` cos α0, sin α0, A0, r_L, K; `guess` (5,) [m] to start from.
+    the free directions; `packed` all contacts; `guess` (5,) [m] to start from.
     """
 
     scene: Scene
@@ -67,7 +68,7 @@ class StaticProblem:
     d: Array
     force: Array
     active: NDArray[np.int64]
-    numbers: tuple[float, float, float, float, float]
+    packed: kernels.Contacts
     guess: Array
 
     @property
@@ -78,21 +79,18 @@ class StaticProblem:
 
 def static_problem(scene: Scene, angles: Array) -> StaticProblem:
     """The numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
-    bearing = scene.bearing
-    phi = angles[:, None] + bearing.ball_spacing * np.arange(bearing.n_balls)
-    units = np.ones(5)
-    units[3:] = bearing.groove_center_radius
-    _, ca, sa, A0, rL, K = bearing.contact_numbers
-    force = scene.load.vector / units
-    active = np.array([DOF_NAMES.index(name) for name in scene.active_dofs])
+    packed = packing.contacts(scene.bearing)
+    phi = angles[:, None] + packed.angle
+    force, active = packing.static_load(scene, scene.active_dofs)
     guess = np.zeros(5)
     load = float(np.linalg.norm(force[active]))
     if load > 0.0:
-        reach = rL / ca + (load / K) ** (2.0 / 3.0)
+        reach = packed.clearance[0] / packed.line_r[0]
+        reach += packing.typical_compression(scene.bearing, load)
         guess[active] = reach * force[active] / load
     drop = ball_drop(scene, phi, angles[:, None])
     return StaticProblem(
-        scene, angles, np.cos(phi), np.sin(phi), drop, force, active, (ca, sa, A0, rL, K), guess
+        scene, angles, np.cos(phi), np.sin(phi), drop, force, active, packed, guess
     )
 
 
@@ -109,10 +107,13 @@ class Contacts(NamedTuple):
 
 def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contacts:
     """All contacts at displacements q (m, 5) [m], of the precision that q has (Eqs. 7-17)."""
-    ca, sa, A0, rL, K = problem.numbers
+    one = problem.packed
+    ca, sa, A0, n = one.line_r, one.line_z, one.distance, one.exponent
     c, s, d = problem.c[rows], problem.s[rows], problem.d[rows]
-    radial = q[:, :1] * c + q[:, 1:2] * s - rL  # Equation (11)
-    axial = q[:, 2:3] + q[:, 3:4] * s - q[:, 4:] * c  # Equation (12)
+    R = np.stack([c, s, np.zeros_like(c), -one.arm * s, one.arm * c], axis=-1)
+    Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), one.reach * s, -one.reach * c], axis=-1)
+    radial = np.einsum("mjd,md->mj", R, q) - one.clearance  # Equation (11)
+    axial = np.einsum("mjd,md->mj", Z, q)  # Equation (12)
     along = A0 + radial * ca + axial * sa - d
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)
@@ -121,18 +122,15 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     length = np.maximum(A, 1e-300)
     eu, ew = guarded / length, across / length
     er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
-    Q = K * delta * np.sqrt(delta)  # Equation (13)
-    k1 = 1.5 * K * np.sqrt(delta)
+    k1 = n * one.factor * delta ** (n - 1.0)
+    Q = k1 * delta / n  # Equation (13)
     k2 = np.where(along > 0.0, Q / length, 0.0)
-    zero, one = np.zeros_like(c), np.ones_like(c)
-    R = np.stack([c, s, zero, zero, zero], axis=-1)
-    Z = np.stack([zero, zero, one, s, -c], axis=-1)
     e = er[..., None] * R + ez[..., None] * Z
     t = -ez[..., None] * R + er[..., None] * Z
     force = (Q[..., None] * e).sum(axis=1)  # Equation (15)
     stiffness = np.swapaxes(k1[..., None] * e, 1, 2) @ e  # Equation (17)
     stiffness = stiffness + np.swapaxes(k2[..., None] * t, 1, 2) @ t
-    return Contacts(0.4 * (Q * delta).sum(axis=1), force, stiffness, Q)
+    return Contacts((Q * delta / (n + 1.0)).sum(axis=1), force, stiffness, Q)
 
 
 class Found(NamedTuple):
@@ -177,7 +175,10 @@ def energy_newton(
     todo = np.arange(m)
     solved = np.zeros(m, dtype=bool)
     evaluations = 0
-    spring = 1.5 * (problem.numbers[4] ** 2 * load) ** (1.0 / 3.0)  # one ball under all the load
+    # of one ball under all of the load
+    spring = (
+        problem.packed.exponent[0] * load / packing.typical_compression(problem.scene.bearing, load)
+    )
     shift = np.full(m, 1e-3)
     state = contacts(problem, q)
     evaluations += m
@@ -276,15 +277,12 @@ def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool)
 
 def _compiled(problem: StaticProblem, tolerance: float, warm: bool) -> Found:
     """The program's own, whose tolerance is fixed."""
-    paths = path_tables(problem.scene.defects, problem.scene.bearing)
-    arguments = (
-        problem.angles, *paths, problem.force, problem.active,
-        *problem.scene.bearing.contact_numbers,
-    )  # fmt: skip
+    load = kernels.StaticLoad(problem.force, problem.active)
+    arguments = (problem.angles, problem.packed, packing.path(problem.scene), load)
     if warm:
         q, _, _, _, status, _, _, evaluations = kernels.static_states(*arguments)
         return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
-    q, evaluations, met = kernels.static_states_cold(*arguments)
+    q, evaluations, met = static_states_cold(*arguments)
     return Found(q, np.full(len(q), met), int(evaluations))
 
 

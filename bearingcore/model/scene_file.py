@@ -46,11 +46,11 @@ T = TypeVar("T")
 
 
 def to_data(value: Any) -> dict[str, Any]:
-    """A dataclass as dictionaries, lists, numbers and strings; what is None is left out."""
+    """A dataclass as dictionaries, lists, numbers and strings, without what is None or empty."""
     data: dict[str, Any] = {}
     for field in dataclasses.fields(value):
         held = getattr(value, field.name)
-        if held is None:
+        if held is None or held == ():
             continue
         named = len(_parts(type(value))[field.name]) > 1
         data[field.name] = _plain(held, named)

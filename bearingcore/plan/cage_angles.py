@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.dynamics.modes import two_body_matrix
+from bearingcore.model.packing import contacts, typical_compression
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.statics.passes import ball_drop, path_kinks
@@ -136,7 +137,7 @@ class _Nodes:
         self.angles, self.values, self.gaps = self.solve(angles)
         self.touch = np.zeros(angles.size, dtype=bool)
         load = float(np.linalg.norm(scene.load.vector[:3])) or 1.0
-        self.compression = (load / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
+        self.compression = typical_compression(scene.bearing, load)
 
     def solve(self, angles: Array) -> tuple[Array, Array, Array]:
         """Angles, curves (n, m) and `gaps_at` (n, 2, N_b) [m]."""
@@ -153,13 +154,13 @@ class _Nodes:
         """
         state = equilibrium(self.scene, angles, self.dofs)
         self.solved += angles.size
-        bearing = self.scene.bearing
-        _, ca, sa, A0, rL, _ = bearing.contact_numbers
+        one = contacts(self.scene.bearing)
+        ca, sa, A0 = one.line_r, one.line_z, one.distance
         phi = state.ball_angle
         c, s = np.cos(phi), np.sin(phi)
         x, y, z, rx, ry = (state.state[:, i, None] for i in range(5))
-        radial = x * c + y * s - rL
-        axial = z + rx * s - ry * c
+        radial = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
+        axial = z + one.reach * (rx * s - ry * c)
         drop = ball_drop(self.scene, phi, angles[:, None])
         along = A0 + radial * ca + axial * sa - drop
         distance = np.hypot(np.maximum(along, 0.0), axial * ca - radial * sa)

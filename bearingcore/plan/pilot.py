@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
-from bearingcore.dynamics.motion import Motion, default_step_rate, is_flat, simulate
+from bearingcore.dynamics.motion import Motion, default_step_rate, simulate
+from bearingcore.model.packing import is_planar
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.plan.plans import (
     FULL_RATE,
@@ -92,14 +93,14 @@ class Pilot:
         """Time [s] of a right-hand side, with its share of everything else."""
         scene = self.scene
         n_dofs = len(scene.active_dofs)
-        if n_dofs == 2 and not is_flat(scene):
+        if n_dofs == 2 and not is_planar(scene):
             n_dofs = 3  # the kernel for any directions
         return seconds_a_call(kind, scene.bearing.n_balls, n_dofs, scene.contact_law)
 
     @property
     def adaptive_work(self) -> float:
         """Calls with fixed steps that take as long as one where steps choose themselves."""
-        return 6.0 if is_flat(self.scene) else 2.0
+        return 6.0 if is_planar(self.scene) else 2.0
 
     def _way(self, kind: str, setting: float, finer: float) -> Way:
         found, calls = self.signal(kind, setting)

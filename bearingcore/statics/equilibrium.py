@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model.defect import path_tables
+from bearingcore.model import packing
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
 from bearingcore.statics.load_capacity import runs_away
 
@@ -102,18 +102,18 @@ class Equilibrium:
 
     @cached_property
     def ball_angle(self) -> NDArray[np.float64]:
-        """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4)."""
-        n_balls = self.scene.bearing.n_balls
-        offsets = self.scene.bearing.ball_spacing * np.arange(n_balls)
+        """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""
+        offsets = packing.contacts(self.scene.bearing).angle
         return (self.cage_angles[:, None] + offsets) % (2.0 * math.pi)
 
     @cached_property
     def contact_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
-        paths = path_tables(self.scene.defects, self.scene.bearing)
-        n_balls, ca, sa, A0, rL, _ = self.scene.bearing.contact_numbers
         angles = kernels.contact_angles(
-            self.cage_angles, *paths, self.state, n_balls, ca, sa, A0, rL
+            self.cage_angles,
+            self.state,
+            packing.contacts(self.scene.bearing),
+            packing.path(self.scene),
         )
         angles[self.status >= kernels.NOT_CARRIED] = math.nan
         return angles
@@ -198,21 +198,15 @@ def equilibrium(
     else:
         angles = checks.finite("cage_angles", cage_angles, "rad")
     free = scene.active_dofs if dofs is None else check_dofs(dofs)
-    active = np.array([DOF_NAMES.index(name) for name in free])
-    bearing = scene.bearing
-    units = np.ones(5)
-    units[3:] = bearing.groove_center_radius
+    units = packing.length_units(scene)
+    load = packing.static_load(scene, free)
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
-        angles,
-        *path_tables(scene.defects, bearing),
-        scene.load.vector / units,
-        active,
-        *bearing.contact_numbers,
+        angles, packing.contacts(scene.bearing), packing.path(scene), load
     )
     displacement = q / units
     failed = np.flatnonzero(status)
     if failed.size:
-        _explain(scene, angles, active, q, status, stiffness, displacement, failed)
+        _explain(scene, angles, load, status, stiffness, displacement, failed)
         gone = status >= kernels.NOT_CARRIED
         loads[gone] = math.nan
         loaded[gone] = 0
@@ -242,22 +236,21 @@ def equilibrium(
 def _explain(
     scene: Scene,
     angles: NDArray[np.float64],
-    active: NDArray[np.int64],
-    q: NDArray[np.float64],
+    load: kernels.StaticLoad,
     status: NDArray[np.int8],
     stiffness: NDArray[np.float64],
     displacement: NDArray[np.float64],
     failed: NDArray[np.int64],
 ) -> None:
     """Find the true reason of each failure: the free directions, or a load nothing can carry."""
-    bearing = scene.bearing
-    load = scene.load.vector[active].copy()
-    load[active >= 3] /= bearing.groove_center_radius
+    active = load.active
     for k in failed:
         if status[k] == kernels.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif status[k] == kernels.NOT_CONVERGED and runs_away(scene, angles[k], active, load):
+        elif status[k] == kernels.NOT_CONVERGED and runs_away(
+            scene, angles[k], active, load.force[active]
+        ):
             status[k] = kernels.NOT_CARRIED

@@ -10,12 +10,11 @@ and across it                                                   | t_j    |      
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.kernels import RESIDUAL_LIMIT
+from bearingcore.model.packing import contacts
 from bearingcore.model.scene import Scene
 
 Array = NDArray[np.float64]
@@ -40,15 +39,15 @@ def way_out(
     load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share of the load
     is 0 where contacts can carry all of it.
     """
-    bearing = scene.bearing
     nothing = np.zeros(len(active)), 0.0
     if not load.any():
         return nothing
-    phi = cage_angle + bearing.ball_spacing * np.arange(bearing.n_balls)
-    zero, one = np.zeros_like(phi), np.ones_like(phi)
-    radial = np.stack([np.cos(phi), np.sin(phi), zero, zero, zero], axis=1)[:, active]
-    axial = np.stack([zero, zero, one, np.sin(phi), -np.cos(phi)], axis=1)[:, active]
-    ca, sa = math.cos(bearing.contact_angle), math.sin(bearing.contact_angle)
+    every = contacts(scene.bearing)
+    phi = cage_angle + every.angle
+    c, s, zero, one = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
+    radial = np.stack([c, s, zero, -every.arm * s, every.arm * c], axis=1)[:, active]
+    axial = np.stack([zero, zero, one, every.reach * s, -every.reach * c], axis=1)[:, active]
+    ca, sa = every.line_r[:, None], every.line_z[:, None]
     across = axial * ca - radial * sa
     across[np.abs(across) < ROUNDING] = 0.0
     _, sizes, vectors = np.linalg.svd(across)

@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model import packing
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import TWO_PI, Defect, path_tables
-from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
+from bearingcore.model.scene import Scene, check_dofs
 from bearingcore.statics.equilibrium import (
     REASONS,
     STIFFNESS_TERMS,
@@ -155,10 +156,7 @@ def stiffness_maps(
     else:
         angles = checks.finite("cage_angles", cage_angles, "rad")
     free = scene.active_dofs if dofs is None else check_dofs(dofs)
-    active = np.array([DOF_NAMES.index(name) for name in free])
     bearing = scene.bearing
-    units = np.ones(5)
-    units[3:] = bearing.groove_center_radius
 
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
@@ -169,25 +167,28 @@ def stiffness_maps(
     stiffness = np.full((15, *shape), math.nan)
     loaded = np.zeros(shape, dtype=np.int64)
     greatest, residual = np.full(shape, math.nan), np.full(shape, math.nan)
-    q = np.zeros((angles.size, 5))
-    drops = np.full((angles.size, bearing.n_balls), math.nan)
-    load = scene.load.vector / units
+    contacts = packing.contacts(bearing)
+    load = packing.static_load(scene, free)
+    memory = kernels.MapMemory(
+        q=np.zeros((angles.size, 5)), drops=np.full((angles.size, contacts.angle.size), math.nan)
+    )
+    units = packing.length_units(scene)
+    answers = kernels.MapAnswers(units, stiffness, loaded, greatest, status, residual)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
         return kernels.static_maps(
-            angles, paths.rows, paths.counts, paths.tables, load, active, *bearing.contact_numbers,
-            units, begin, end, q, drops, stiffness, loaded, greatest, status, residual,
-        )  # fmt: skip
+            angles, contacts, paths.packed, load, begin, end, memory, answers
+        )
 
-    # Whether a load can be carried hangs on the cage angle alone, and to find out that it cannot
+    # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row tells which cage angles the others need not try.
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
     solved, evaluations = solve(start, begun)
-    gone = _run_away(scene, angles, active, load, status[start:begun])
+    gone = _run_away(scene, angles, load, status[start:begun])
     status[:, gone] = np.where(refused[:, None], kernels.REFUSED, kernels.NOT_CARRIED)
     more, calls = solve(begun, sizes.size)
-    gone = _run_away(scene, angles, active, load, status)
+    gone = _run_away(scene, angles, load, status)
     status[:, gone] = np.where(
         status[:, gone] == kernels.NOT_CONVERGED, kernels.NOT_CARRIED, status[:, gone]
     )
@@ -210,23 +211,21 @@ def stiffness_maps(
 def _run_away(
     scene: Scene,
     angles: Array,
-    active: NDArray[np.int64],
-    load: Array,
+    load: kernels.StaticLoad,
     status: NDArray[np.int8],
 ) -> NDArray[np.int64]:
     """Indices of the cage angles without an answer at which nothing can carry the load."""
     failed = np.flatnonzero((status == kernels.NOT_CONVERGED).any(axis=0))
-    gone = [k for k in failed if runs_away(scene, float(angles[k]), active, load[active])]
+    active, force = load.active, load.force[load.active]
+    gone = [k for k in failed if runs_away(scene, float(angles[k]), active, force)]
     return np.array(gone, dtype=np.int64)
 
 
 @dataclass(frozen=True)
 class _Paths:
-    """What `kernels.static_maps` needs to know of the defects of every row."""
+    """The defects of every row of a map, and why a row's defects cannot be."""
 
-    rows: Array
-    counts: NDArray[np.int64]
-    tables: Array
+    packed: kernels.MapPaths
     refusals: tuple[str, ...]
 
 
@@ -248,7 +247,7 @@ def _paths(
         rows[:, 0, _HALF_EXTENT] = 0.5 * sizes
         rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
         counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
-        return _Paths(rows, counts, np.zeros(0), ("",) * sizes.size)
+        return _Paths(kernels.MapPaths(rows, counts, np.zeros(0)), ("",) * sizes.size)
     found: list[tuple[Array, Array]] = []
     refusals = []
     for extent in extents:
@@ -268,7 +267,7 @@ def _paths(
         all_rows[i, : len(rows), _TABLE_START] += size
         size += table.size
     tables = np.concatenate([*(table for _, table in found), np.zeros(0)])
-    return _Paths(all_rows, counts, tables, tuple(refusals))
+    return _Paths(kernels.MapPaths(all_rows, counts, tables), tuple(refusals))
 
 
 _HALF_EXTENT, _FLOOR_ANGLE, _TABLE_START = (

@@ -37,6 +37,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.hertz import in_series
+from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
@@ -289,7 +290,7 @@ def _compression(scene: Scene, load: float) -> Limit:
     if math.isnan(load):
         return _unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
     bearing = scene.bearing
-    compression = (load / bearing.load_deflection_factor) ** (2.0 / 3.0)
+    compression = typical_compression(bearing, load)
     share = compression / bearing.groove_center_distance
     crossed = share > GREATEST_COMPRESSION
     sentence = (

@@ -39,7 +39,8 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.dynamics.motion import length_units, static_start
+from bearingcore.dynamics.motion import static_start
+from bearingcore.model.packing import length_units
 from tests.benchmarks.yardstick import FAST_MATH, FLAGS, CMotion, CStatics
 from tests.browser.helpers import explorer_server, find_chromium
 

@@ -20,9 +20,9 @@ import numpy as np
 
 from bearingcore import Scene, equilibrium, presets
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import length_units
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.references import motion_reference
+from bearingcore.model.packing import length_units
 from bearingcore.plan import SETTLED, VIBRATION, Plan, plan
 from bearingcore.plan.cage_angles import LEAST_INTERVAL, curves_of, swings
 from bearingcore.plan.pilot import BAND, spectra_apart

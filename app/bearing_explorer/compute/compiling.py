@@ -11,7 +11,6 @@ import atexit
 import os
 import subprocess
 import threading
-from pathlib import Path
 
 from bearingcore import kernels, presets
 from bearingcore.plan import SETTLED, plan
@@ -30,7 +29,7 @@ def begin() -> None:
         if _begun:
             return
         _begun = True
-        if all(map(_on_disk, _slowest())):
+        if all(map(kernels.on_disk, _slowest())):
             return
         # in a session of its own: Ctrl+C is for the server, which ends it
         _helper = start_python(
@@ -56,18 +55,7 @@ def compile_all() -> None:
 
 def _slowest() -> tuple[object, ...]:
     """The kernels that take longest; they are compiled last."""
-    return kernels.march_flat_with_tangent, kernels.march_with_tangent
-
-
-def _on_disk(kernel: object) -> bool:
-    """Whether machine code of a kernel lies on disk that is newer than its source."""
-    stats = getattr(kernel, "stats", None)  # none where compiling is switched off
-    if stats is None:
-        return True
-    source = Path(kernels.__file__).stat().st_mtime
-    name = getattr(kernel, "__name__", "")
-    found = Path(stats.cache_path).glob(f"kernels.{name}-*.nbi")
-    return any(index.stat().st_mtime >= source for index in found)
+    return (kernels.march_with_tangent,)
 
 
 def _end() -> None:

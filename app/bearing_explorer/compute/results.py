@@ -35,10 +35,11 @@ from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate, is_flat
+from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
 from bearingcore.dynamics.repeated import repeated
 from bearingcore.model.defect import RACES
+from bearingcore.model.packing import is_planar
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import ball_drop
@@ -179,7 +180,7 @@ def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
     except ValueError:
         return False  # there is no motion
     touched = duration * rate * scene.bearing.n_balls
-    return touched * (1.0 if is_flat(scene) else GENERAL_COST) > MOST_TOUCHED
+    return touched * (1.0 if is_planar(scene) else GENERAL_COST) > MOST_TOUCHED
 
 
 GENERAL_COST = 4.0

@@ -1,0 +1,97 @@
+"""Compiled code: small structs of numbers and arrays in, arrays out; one module a subject.
+
+Nothing here knows of the rest of bearingcore, and no compiled function takes more than eight
+arguments. `compiling` says how functions are compiled and kept on disk.
+"""
+
+from bearingcore.kernels.adaptive import march_adaptive
+from bearingcore.kernels.compiling import on_disk
+from bearingcore.kernels.contact import POINT_CONTACT
+from bearingcore.kernels.motion import (
+    between_steps,
+    elastic_loads,
+    march,
+    march_with_tangent,
+    motion_rates,
+    turn_smooth,
+)
+from bearingcore.kernels.path import (
+    EVERY_ROW,
+    INNER_EXACT,
+    PATH_COLUMNS,
+    TABLE,
+    ball_path,
+    roll_over,
+)
+from bearingcore.kernels.statics import (
+    CONVERGED,
+    FREE_DIRECTION,
+    NO_PIVOT,
+    NOT_CARRIED,
+    NOT_CONVERGED,
+    NOTHING_TOUCHES,
+    OPEN,
+    REFUSED,
+    RESIDUAL_AIM,
+    RESIDUAL_LIMIT,
+    contact_angles,
+    static_maps,
+    static_states,
+)
+from bearingcore.kernels.structs import (
+    PLANAR,
+    SMOOTH,
+    VELOCITIES,
+    Adaptive,
+    Contacts,
+    MapAnswers,
+    MapMemory,
+    MapPaths,
+    Path,
+    Rotor,
+    StaticLoad,
+    System,
+)
+
+__all__ = [
+    "CONVERGED",
+    "EVERY_ROW",
+    "FREE_DIRECTION",
+    "INNER_EXACT",
+    "NOTHING_TOUCHES",
+    "NOT_CARRIED",
+    "NOT_CONVERGED",
+    "NO_PIVOT",
+    "OPEN",
+    "PATH_COLUMNS",
+    "PLANAR",
+    "POINT_CONTACT",
+    "REFUSED",
+    "RESIDUAL_AIM",
+    "RESIDUAL_LIMIT",
+    "SMOOTH",
+    "TABLE",
+    "VELOCITIES",
+    "Adaptive",
+    "Contacts",
+    "MapAnswers",
+    "MapMemory",
+    "MapPaths",
+    "Path",
+    "Rotor",
+    "StaticLoad",
+    "System",
+    "ball_path",
+    "between_steps",
+    "contact_angles",
+    "elastic_loads",
+    "march",
+    "march_adaptive",
+    "march_with_tangent",
+    "motion_rates",
+    "on_disk",
+    "roll_over",
+    "static_maps",
+    "static_states",
+    "turn_smooth",
+]

@@ -1,0 +1,129 @@
+"""One contact: where the centres stand, how far it is compressed, and what it then carries.
+
+The paper's A (Eq. 8) is an unsigned distance, which mistakes a ball sunk beyond the other groove's
+centre for a loaded one; here the part of the distance along the unloaded line of contact counts
+only while it is positive, which changes nothing else and makes the energy
+
+    V(q) = Σ_j K/(n + 1) δ_j^(n+1) − F·q,   n = 3/2 for balls,
+
+convex.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bearingcore.kernels.compiling import inlined
+
+# Where the centres of a loaded ball have passed each other nothing holds it across its line; nearer
+# than this part of A0 to passing, rounding decides whether they have.
+GUARD = 1e-12
+
+POINT_CONTACT = 1.5
+"""Exponent of a ball between grooves (Hertz)."""
+
+
+@inlined
+def contact_load(delta, factor, exponent):
+    """Energy [N·m], load [N] (Eq. 13) and stiffness [N/m] of a contact compressed by δ ≥ 0."""
+    if exponent == POINT_CONTACT:
+        root = math.sqrt(delta)  # a power takes ten times as long
+        load = factor * delta * root
+        return 0.4 * load * delta, load, 1.5 * factor * root
+    load = factor * delta**exponent
+    energy = load * delta / (exponent + 1.0)
+    return energy, load, exponent * load / delta if delta > 0.0 else 0.0
+
+
+@inlined
+def compression_under(load, factor, exponent):
+    """Compression [m] of a contact that carries a load [N]."""
+    return (load / factor) ** (1.0 / exponent)
+
+
+@inlined
+def compression(m, w, A0):
+    """Compression δ [m], its direction (eu, ew) along and across the line of contact, and 1/A.
+
+    m and w are the ball's displacement along and across the unloaded line of contact, so that
+    (A0 + m, w) is the vector between the groove centres (Eqs. 8-10). δ ≤ 0 is a gap. In place of
+    1/A stands 0 where the centres have passed each other: only what lies across the line counts
+    there, and the contact does not swivel.
+    """
+    p = A0 + m
+    if p > 0.0:
+        rise = m * (2.0 * A0 + m) + w * w  # A² − A0² without its cancellation
+        if rise <= 0.0:
+            return 0.0, 1.0, 0.0, 0.0
+        A = math.sqrt(p * p + w * w)
+        bend = 1.0 / A
+        return rise / (A + A0), p * bend, w * bend, bend if p > GUARD * A0 else 0.0  # Equation (7)
+    return max(abs(w) - A0, 0.0), 0.0, 1.0 if w > 0.0 else -1.0, 0.0
+
+
+@inlined
+def touch(x, cj, sj, drop, j, contacts):
+    """Compression δ [m] of contact j, its direction (er, ez) and 1/A at the displacement x.
+
+    x is a tuple of five; cj, sj and drop are the ball's place. er = cos α_j, ez = sin α_j (Eq. 14).
+    """
+    arm = contacts.arm[j]
+    ca = contacts.line_r[j]
+    sa = contacts.line_z[j]
+    # Equations (11) and (12), d taken along the line of contact
+    r = (x[0] + arm * x[4]) * cj + (x[1] - arm * x[3]) * sj - contacts.clearance[j]
+    z = x[2] + contacts.reach[j] * (x[3] * sj - x[4] * cj) + contacts.offset[j]
+    delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, contacts.distance[j])
+    return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
+
+
+@inlined
+def tilting(er, ez, j, contacts):
+    """What a force of one unit along (er, ez) is to tilts, over r_d: it acts as (c, s) times it.
+
+    Along q it is (er c, er s, ez, τ s, −τ c), τ this number.
+    """
+    return contacts.reach[j] * ez - contacts.arm[j] * er
+
+
+@inlined
+def carried(x, place, j, contacts):
+    """Elastic load [N] of contact j at the displacement x, a tuple of five, and its direction."""
+    delta, er, ez, _ = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
+    if delta <= 0.0:
+        return 0.0, er, ez
+    _, load, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+    return load, er, ez
+
+
+@inlined
+def seen_from_the_cage(x, v, cage_speed):
+    """Velocity of the inner ring against balls that stand still: their turning moved to the ring.
+
+    x and v (5,) are displacement and velocity against the outer ring; a tuple of five.
+    """
+    return (
+        v[0] + cage_speed * x[1],
+        v[1] - cage_speed * x[0],
+        v[2],
+        v[3] + cage_speed * x[4],
+        v[4] - cage_speed * x[3],
+    )
+
+
+@inlined
+def approach(u, cj, sj, d_rate, j, contacts):
+    """Rates [m/s], radial and axial, at which contact j is pushed together.
+
+    u is what `seen_from_the_cage` gives; d_rate is the rate of the ball's drop.
+    """
+    arm = contacts.arm[j]
+    r_rate = (u[0] + arm * u[4]) * cj + (u[1] - arm * u[3]) * sj - contacts.line_r[j] * d_rate
+    z_rate = u[2] + contacts.reach[j] * (u[3] * sj - u[4] * cj) - contacts.line_z[j] * d_rate
+    return r_rate, z_rate
+
+
+@inlined
+def components(q):
+    """An array of five as a tuple, which need not be read again after others were written."""
+    return q[0], q[1], q[2], q[3], q[4]

@@ -1,0 +1,420 @@
+"""Motion of both rings (Eqs. 18-23): the equations of motion, and steps of order 4.
+
+The published damper's force c δ̇ e jumps as a ball touches, and a step across the jump errs by as
+much as the step is long. But c δ̇ e = d/dt(c δ e) − c δ ė while δ > 0, so with
+
+    S = Σ δ_j e_j,    w_i = v_i + (c/m_i) S,    w_o = v_o − (c/m_o) S
+
+the equations of motion (Eq. 18) have no jump left:
+
+    ẋ_i = w_i − (c/m_i) S,    m_i ẇ_i = F − p,    p = Σ (Q_j e_j − c δ_j ė_j)
+
+and likewise, with opposite signs and its support, for the outer ring. It is the same law: only the
+variable that is marched has changed. Against velocities the error of a motion at the same steps is
+smaller by a factor of 10 to 100. A law without tension has no such S: there w = v, and p is the
+force itself.
+
+A contact's direction e turns with the ball and swivels as the contact angle changes. Where α0, z
+and tilts are zero it is e = (c, s) whatever the rings do, and δ = δx c + δy s − r_L − d (Eq. 19):
+then ė = ω_c (−s, c), and neither δ̇ nor the slope of d is needed. That case has its own sums over
+the contacts (`planar`), and nothing else of its own.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.contact import (
+    approach,
+    carried,
+    components,
+    contact_load,
+    seen_from_the_cage,
+    tilting,
+    touch,
+)
+from bearingcore.kernels.path import BLOCK, lay_out_balls, new_passage
+from bearingcore.kernels.planar import accelerations, planar_equations_of_motion, planar_forces
+from bearingcore.kernels.structs import (
+    PLANAR,
+    SMOOTH,
+    VELOCITIES,
+    Forces,
+    Place,
+    Steps,
+    TangentSteps,
+)
+from bearingcore.kernels.tangent import contact_slopes, new_slopes, saltation, tangent_rates
+
+
+@compiled
+def new_forces(n_contacts):
+    """Empty work space of the equations of motion."""
+    return Forces(
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.empty(n_contacts, dtype=np.int64),
+        np.empty((n_contacts, 5)),
+    )
+
+
+@inlined
+def find_touching(passage, at, contacts, work):
+    """List the contacts compressed at work.x, and Σ δ e into work.S; returns how many."""
+    x = components(work.x)
+    touching = work.touching
+    contact = work.contact
+    S0 = 0.0
+    S1 = 0.0
+    S2 = 0.0
+    S3 = 0.0
+    S4 = 0.0
+    count = 0
+    for j in range(contacts.angle.size):
+        cj = passage.c[at, j]
+        sj = passage.s[at, j]
+        delta, er, ez, bend = touch(x, cj, sj, passage.d[at, j], j, contacts)
+        if delta <= 0.0:
+            continue
+        touching[count] = j
+        contact[count, 0] = delta
+        contact[count, 1] = er
+        contact[count, 2] = ez
+        contact[count, 3] = bend
+        contact[count, 4] = 1.0
+        count += 1
+        et = delta * tilting(er, ez, j, contacts)
+        er *= delta
+        ez *= delta
+        S0 += er * cj
+        S1 += er * sj
+        S2 += ez
+        S3 += et * sj
+        S4 -= et * cj
+    S = work.S
+    S[0], S[1], S[2], S[3], S[4] = S0, S1, S2, S3, S4
+    return count
+
+
+@inlined
+def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
+    """Force of all contacts on the outer ring [N], moments over r_d, into work.f.
+
+    Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact, δ̇ the full time
+    derivative: velocities of the rings, turning of the ball, slope of the path. Where `smooth` it
+    is p = Σ (Q e − c δ ė): e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A,
+    t across the contact and ṗ the rate of the ball's displacement.
+    """
+    w = rotor.cage_speed
+    damping = rotor.contact_damping
+    tension = rotor.tension
+    u = seen_from_the_cage(work.x, work.v, w)
+    contact = work.contact
+    f0 = 0.0
+    f1 = 0.0
+    f2 = 0.0
+    f3 = 0.0
+    f4 = 0.0
+    for i in range(count):
+        j = work.touching[i]
+        delta = contact[i, 0]
+        er = contact[i, 1]
+        ez = contact[i, 2]
+        cj = passage.c[at, j]
+        sj = passage.s[at, j]
+        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
+        _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+        if smooth:
+            damped = damping * delta
+            swivel = damped * (er * z_rate - ez * r_rate) * contact[i, 3]
+            turn_r = damped * w * er
+            turn_t = damped * w * tilting(er, ez, j, contacts)
+            along_r = Q * er + swivel * ez
+            along_z = Q * ez - swivel * er
+            along_t = tilting(along_r, along_z, j, contacts)
+            f0 += along_r * cj + turn_r * sj
+            f1 += along_r * sj - turn_r * cj
+            f2 += along_z
+            f3 += along_t * sj - turn_t * cj
+            f4 -= along_t * cj + turn_t * sj
+        else:
+            push = Q + damping * (er * r_rate + ez * z_rate)
+            if push <= 0.0 and not tension:
+                contact[i, 4] = 0.0
+                continue
+            push_t = push * tilting(er, ez, j, contacts)
+            f0 += push * er * cj
+            f1 += push * er * sj
+            f2 += push * ez
+            f3 += push_t * sj
+            f4 -= push_t * cj
+    f = work.f
+    f[0], f[1], f[2], f[3], f[4] = f0, f1, f2, f3, f4
+
+
+@inlined
+def equations_of_motion(y, k, passage, at, rotor, contacts, work):
+    """dy/dt into k (4 n,); y is x, w of the inner, x, w of the outer ring, n directions each.
+
+    Returns how many contacts are compressed. `work` is left as it is at y.
+    """
+    active = rotor.active
+    n = active.size
+    damping = rotor.contact_damping
+    x = work.x
+    v = work.v
+    f = work.f
+    S = work.S
+    smooth = rotor.variables != VELOCITIES
+    if rotor.variables == PLANAR:
+        planar_equations_of_motion(y, k, passage, at, rotor, contacts)
+        return 0
+    for a in range(n):
+        x[active[a]] = y[a] - y[2 * n + a]
+    count = find_touching(passage, at, contacts, work)
+    for a in range(n):
+        jump = damping * S[active[a]] if smooth else 0.0
+        k[a] = y[n + a] - rotor.inverse_inner[a] * jump
+        k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * jump
+        v[active[a]] = k[a] - k[2 * n + a]
+    push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
+    for a in range(n):
+        k[n + a], k[3 * n + a] = accelerations(rotor, a, f[active[a]], y[2 * n + a], k[2 * n + a])
+    return count
+
+
+@inlined
+def record(history, step, y, k, rotor, force):
+    """Displacements, velocities and accelerations (Eq. 18) of one instant into history[step].
+
+    `force` (5,) is that of the contacts.
+    """
+    active = rotor.active
+    n = active.size
+    for a in range(n):
+        inner, outer = accelerations(rotor, a, force[active[a]], y[2 * n + a], k[2 * n + a])
+        history[step, 0, a] = y[a]
+        history[step, 1, a] = k[a]
+        history[step, 2, a] = inner
+        history[step, 3, a] = y[2 * n + a]
+        history[step, 4, a] = k[2 * n + a]
+        history[step, 5, a] = outer
+
+
+@inlined
+def all_finite(y):
+    """Whether every number of y (n,) is finite."""
+    total = 0.0
+    for i in range(y.size):
+        total += y[i] - y[i]  # 0, or NaN for what is not finite
+    return total == 0.0
+
+
+@inlined
+def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
+    """Classical Runge-Kutta steps of order 4; Y and tangent may be None. See `march`."""
+    rotor = system.rotor
+    contacts = system.contacts
+    passage = work.passage
+    forces = work.forces
+    k = work.k
+    trial = work.trial
+    n_steps = history.shape[0] - 1
+    size = y.size
+    half_turn = 0.5 * h * rotor.cage_speed
+    sixth = h / 6.0
+    for step in range(n_steps + 1):
+        i = (2 * step) % BLOCK
+        if i == 0:
+            if not all_finite(y):
+                return max(step - BLOCK // 2, 0)
+            instants = min(BLOCK, 2 * (n_steps - step)) + 1
+            angle = start_angle + 2 * step * half_turn
+            lay_out_balls(
+                angle, half_turn, instants, rotor.cage_speed, contacts, system.path, passage
+            )
+        for stage in range(4):
+            at = i + (stage + 1) // 2
+            part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
+            before = max(stage - 1, 0)
+            for r in range(size):
+                trial[r] = y[r] + part * k[before, r]
+            count = equations_of_motion(trial, k[stage], passage, at, rotor, contacts, forces)
+            if Y is not None:
+                slopes = tangent.slopes
+                if stage == 0 and rotor.variables == VELOCITIES:
+                    saltation(Y, passage, at, rotor, contacts, forces, count, slopes)
+                for r in range(size):
+                    for column in range(Y.shape[1]):
+                        tangent.trial[r, column] = (
+                            Y[r, column] + part * tangent.k[before, r, column]
+                        )
+                contact_slopes(trial, passage, at, system, forces, count, slopes)
+                tangent_rates(tangent.trial, tangent.k[stage], rotor, slopes)
+            if stage == 0:
+                if rotor.variables == PLANAR:
+                    planar_forces(y, k[0], passage, at, rotor, contacts, forces.f)
+                elif rotor.variables == SMOOTH:
+                    push_of_contacts(passage, at, rotor, contacts, forces, count, False)
+                record(history, step, y, k[0], rotor, forces.f)
+                if step == n_steps:
+                    break
+        if step == n_steps:
+            break
+        for r in range(size):
+            y[r] += sixth * (k[0, r] + 2.0 * (k[1, r] + k[2, r]) + k[3, r])
+        if Y is not None:
+            kY = tangent.k
+            for r in range(size):
+                for column in range(Y.shape[1]):
+                    Y[r, column] += sixth * (
+                        kY[0, r, column]
+                        + 2.0 * (kY[1, r, column] + kY[2, r, column])
+                        + kY[3, r, column]
+                    )
+    return n_steps if all_finite(y) else max(n_steps - BLOCK // 2, 0)
+
+
+@compiled
+def new_steps(size, n_contacts):
+    """Empty work space of steps."""
+    return Steps(
+        new_passage(BLOCK + 1, n_contacts),
+        new_forces(n_contacts),
+        np.zeros((4, size)),
+        np.zeros(size),
+    )
+
+
+@compiled
+def march(y, h, start_angle, system, history):
+    """Steps of h [s] from y (4 n,), which is moved to the end; the cage begins at start_angle.
+
+    history (steps + 1, 6, n) takes displacement, velocity and acceleration of the inner ring, then
+    of the outer ring, at every step. Returns the number of steps after which all was still finite,
+    which is looked at once in half a BLOCK.
+    """
+    work = new_steps(y.size, system.contacts.angle.size)
+    return runge_kutta(y, None, h, start_angle, system, history, work, None)
+
+
+@compiled
+def march_with_tangent(y, Y, h, start_angle, system, history):
+    """`march`, and beside it the tangent Y (4 n, columns): how the end changes with the beginning.
+
+    In smooth variables nothing jumps as balls touch: the steps of the tangent are the derivative of
+    those of the motion, without corrections.
+    """
+    n_contacts = system.contacts.angle.size
+    work = new_steps(y.size, n_contacts)
+    tangent = TangentSteps(
+        new_slopes(Y.shape[0], Y.shape[1], n_contacts),
+        np.zeros((4, Y.shape[0], Y.shape[1])),
+        np.zeros((Y.shape[0], Y.shape[1])),
+    )
+    return runge_kutta(y, Y, h, start_angle, system, history, work, tangent)
+
+
+@compiled
+def turn_smooth(y, sign, angle, system):
+    """Turn velocities in the state y (4 n,) into w (sign 1), or back (sign −1), in place.
+
+    Where velocities are what the rotor marches they stay as they are.
+    """
+    rotor = system.rotor
+    if rotor.variables == VELOCITIES:
+        return
+    active = rotor.active
+    n = active.size
+    n_contacts = system.contacts.angle.size
+    passage = new_passage(1, n_contacts)
+    lay_out_balls(angle, 0.0, 1, rotor.cage_speed, system.contacts, system.path, passage)
+    work = new_forces(n_contacts)
+    for a in range(n):
+        work.x[active[a]] = y[a] - y[2 * n + a]
+    find_touching(passage, 0, system.contacts, work)
+    for a in range(n):
+        jump = sign * rotor.contact_damping * work.S[active[a]]
+        y[n + a] += rotor.inverse_inner[a] * jump
+        y[3 * n + a] -= rotor.inverse_outer[a] * jump
+
+
+@borrowing
+def rates_at(angle, y, k, system, passage, work):
+    """`equations_of_motion` at a cage angle [rad], which takes laying out the balls."""
+    rotor = system.rotor
+    lay_out_balls(angle, 0.0, 1, rotor.cage_speed, system.contacts, system.path, passage)
+    equations_of_motion(y, k, passage, 0, rotor, system.contacts, work)
+
+
+@compiled
+def motion_rates(times, states, start_angle, system):
+    """dy/dt (m, 4 n) of what the rotor marches, at times (m,) [s] and states (m, 4 n)."""
+    n_contacts = system.contacts.angle.size
+    passage = new_passage(1, n_contacts)
+    work = new_forces(n_contacts)
+    rates = np.empty(states.shape)
+    for i in range(times.size):
+        angle = start_angle + system.rotor.cage_speed * times[i]
+        rates_at(angle, states[i], rates[i], system, passage, work)
+    return rates
+
+
+@compiled
+def elastic_loads(x, active, start_angle, turn, contacts, path):
+    """K δ^n (m, contacts) [N] (Eq. 13) at displacements x (m, len(active)) [m], tilts times r_d.
+
+    The cage stands at start_angle + k·turn at row k.
+    """
+    n_contacts = contacts.angle.size
+    passage = new_passage(BLOCK, n_contacts)
+    loads = np.zeros((x.shape[0], n_contacts))
+    q = np.zeros(5)
+    for first in range(0, x.shape[0], BLOCK):
+        instants = min(BLOCK, x.shape[0] - first)
+        lay_out_balls(start_angle + first * turn, turn, instants, 1.0, contacts, path, passage)
+        loads_of_block(x, active, first, contacts, passage, q, loads)
+    return loads
+
+
+@borrowing
+def loads_of_block(x, active, first, contacts, passage, q, loads):
+    """Loads of the instants from `first` on that a passage holds; q (5,) is work space, 0."""
+    for i in range(min(BLOCK, x.shape[0] - first)):
+        for a in range(active.size):
+            q[active[a]] = x[first + i, a]
+        place = Place(passage.c[i], passage.s[i], passage.d[i])
+        for j in range(loads.shape[1]):
+            loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
+
+
+@compiled
+def between_steps(history, body, weights, first, out):
+    """Fill out (n_out, n) with a quantity of one body, samples from `first` on, between steps.
+
+    weights (ratio, 6) multiply x, v, acceleration at a step and at the next one; body is 0 for the
+    inner and 3 for the outer ring. Sample k lies (k mod ratio)/ratio of a step after step k//ratio.
+    """
+    ratio = weights.shape[0]
+    last = history.shape[0] - 2
+    for row in range(out.shape[0]):
+        k = first + row
+        step = min(k // ratio, last)
+        w = k - step * ratio
+        if w == ratio:  # the very end, one whole step after the last but one
+            step += 1
+            w = 0
+        following = min(step + 1, last + 1)
+        for a in range(out.shape[1]):
+            # the difference of displacements first: on its own each is many times larger
+            out[row, a] = (
+                (weights[w, 0] + weights[w, 3]) * history[step, body, a]
+                + weights[w, 3] * (history[following, body, a] - history[step, body, a])
+                + weights[w, 1] * history[step, body + 1, a]
+                + weights[w, 4] * history[following, body + 1, a]
+                + weights[w, 2] * history[step, body + 2, a]
+                + weights[w, 5] * history[following, body + 2, a]
+            )

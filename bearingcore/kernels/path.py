@@ -1,0 +1,254 @@
+"""Where the balls are, and how deep they have sunk into defects (Eqs. 4 and 6)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.structs import Passage
+
+PATH_COLUMNS = (
+    "center",
+    "turn_ratio",
+    "half_extent",
+    "depth",
+    "angle_from_edge_to_floor",
+    "edge",
+    "raceway_radius",
+    "ball_radius",
+    "table_start",
+    "table_size",
+    "row",
+)
+"""Columns of the rows that describe defects; the last is the bearing's row, or EVERY_ROW."""
+CENTER, TURN_RATIO, HALF_EXTENT, DEPTH, FLOOR_ANGLE, EDGE = 0, 1, 2, 3, 4, 5
+RACEWAY_RADIUS, BALL_RADIUS, TABLE_START, TABLE_SIZE, ROW = 6, 7, 8, 9, 10
+
+PUBLISHED, CHORD, EXACT, INNER_EXACT, TABLE = 0, 1, 2, 3, 4
+"""Values of the column `edge`."""
+
+EVERY_ROW = -1
+"""In the column `row`: a defect that the balls of all rows meet."""
+
+BLOCK = 256
+"""Half steps whose ball positions are laid out at once: small enough to stay in the cache."""
+
+
+@borrowing
+def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
+    """Drop of a ball's centre [m] at the angle x [rad] from the defect's middle, and its slope.
+
+    Written so that no two nearly equal numbers are subtracted: 1 − cos s = sin²s/(1 + cos s).
+    """
+    s = half_extent - abs(x)  # angle from the nearer edge inwards
+    if s < 0.0:
+        return 0.0, 0.0
+    if s >= s_floor:
+        return depth, 0.0
+    if edge in (PUBLISHED, CHORD):
+        factor = 0.25 if edge == PUBLISHED else 1.0
+        u = factor * R * R * s * s
+        root = math.sqrt(max(r_b * r_b - u, 0.0))
+        drop = u / (r_b + root)  # Equation (6): r_b − sqrt(r_b² − factor R² s²)
+        steep = factor * R * R * s / root if root > 0.0 else 0.0
+    else:
+        sn = math.sin(s)
+        cs = math.cos(s)
+        root = math.sqrt(max(r_b * r_b - R * R * sn * sn, 0.0))
+        sagitta = R * sn * sn / (1.0 + cs)
+        sink = R * R * sn * sn / (r_b + root)
+        lever = R * R * sn * cs / root if root > 0.0 else 0.0
+        if edge == EXACT:  # R cos s − sqrt(r_b² − R² sin² s) − (R − r_b)
+            drop = sink - sagitta
+            steep = lever - R * sn
+        else:  # (R + r_b) − (R cos s + sqrt(r_b² − R² sin² s))
+            drop = sink + sagitta
+            steep = lever + R * sn
+    if drop >= depth:
+        return depth, 0.0
+    return drop, -steep if x > 0.0 else steep
+
+
+@borrowing
+def path_drop(angle, cage_angle, row, path):
+    """Drop [m] of a ball of a row at `angle`, and its derivative with the cage's turning [m/rad].
+
+    Defects of one race do not overlap here (those that do share a table); drops into both races
+    add.
+    """
+    defects = path.defects
+    tables = path.tables
+    total = 0.0
+    total_slope = 0.0
+    for i in range(defects.shape[0]):
+        if defects[i, ROW] != EVERY_ROW and defects[i, ROW] != row:
+            continue
+        turn = defects[i, TURN_RATIO]
+        half = defects[i, HALF_EXTENT]
+        x = angle - defects[i, CENTER] - turn * cage_angle
+        x -= 2.0 * math.pi * math.floor(x / (2.0 * math.pi) + 0.5)
+        if abs(x) > half:
+            continue
+        if defects[i, EDGE] == TABLE:
+            start = int(defects[i, TABLE_START])
+            cells = int(defects[i, TABLE_SIZE]) - 1
+            at = (x + half) / (2.0 * half) * cells
+            k = min(int(at), cells - 1)
+            rise = tables[start + k + 1] - tables[start + k]
+            drop = tables[start + k] + (at - k) * rise
+            slope = rise * cells / (2.0 * half)
+        else:
+            drop, slope = drop_and_slope(
+                x,
+                half,
+                defects[i, DEPTH],
+                defects[i, FLOOR_ANGLE],
+                defects[i, EDGE],
+                defects[i, RACEWAY_RADIUS],
+                defects[i, BALL_RADIUS],
+            )
+        total += drop
+        total_slope += slope * (1.0 - turn)
+    return total, total_slope
+
+
+@compiled
+def ball_path(ball_angles, cage_angles, row, path):
+    """Drop [m] of a ball of a row at every angle, the cage at the angle of the same index; (n,)."""
+    drops = np.empty(ball_angles.size)
+    for i in range(ball_angles.size):
+        drops[i], _ = path_drop(ball_angles[i], cage_angles[i], row, path)
+    return drops
+
+
+@compiled
+def roll_over(surface, circle):
+    """Depth (n,) to which a ball sinks over a surface: min over j of surface[j] + circle[|i − j|].
+
+    circle holds how far the ball hangs below a point that it touches so many nodes away: it rises
+    and is convex, and so the point touched moves on as the ball does. Halving the nodes again and
+    again finds it for all of them in n log n steps.
+    """
+    n = surface.size
+    reach = circle.size - 1
+    path = np.empty(n)
+    waiting = np.empty((128, 4), dtype=np.int64)  # nodes from, to; touched points from, to
+    waiting[0] = (0, n - 1, 0, n - 1)
+    size = 1
+    while size > 0:
+        size -= 1
+        first, last, low, high = waiting[size]
+        i = (first + last) // 2
+        least = math.inf
+        touched = low
+        for j in range(max(low, i - reach), min(high, i + reach) + 1):
+            depth = surface[j] + circle[abs(i - j)]
+            if depth < least:
+                least = depth
+                touched = j
+        path[i] = least
+        if first < i:
+            waiting[size] = (first, i - 1, low, touched)
+            size += 1
+        if i < last:
+            waiting[size] = (i + 1, last, touched, high)
+            size += 1
+    return path
+
+
+@compiled
+def ball_circle(angle):
+    """Cosine and sine (n,) of the angles (n,) [rad] from the first ball to each."""
+    c = np.empty(angle.size)
+    s = np.empty(angle.size)
+    for j in range(angle.size):
+        c[j] = math.cos(angle[j])
+        s[j] = math.sin(angle[j])
+    return c, s
+
+
+@inlined
+def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s):
+    """Cosine and sine of each ball into c and s (n,), those of the cage being cage_c and cage_s.
+
+    A rotation instead of a sine and a cosine for each ball.
+    """
+    for j in range(c.size):
+        c[j] = cage_c * circle_c[j] - cage_s * circle_s[j]
+        s[j] = cage_s * circle_c[j] + cage_c * circle_s[j]
+
+
+@inlined
+def drops_of_balls(cage, contacts, path, d, slope):
+    """Drop [m] of every ball into d (n,) and its derivative [m/rad] with the cage's turning.
+
+    Only balls at a defect are asked for it: from the first one after the defect's beginning to the
+    last one before its end.
+    """
+    defects = path.defects
+    rows = contacts.rows
+    for j in range(d.size):
+        d[j] = 0.0
+        slope[j] = 0.0
+    for k in range(defects.shape[0]):
+        half = defects[k, HALF_EXTENT]
+        turn = defects[k, TURN_RATIO]
+        for row in range(rows.shape[0]):
+            if defects[k, ROW] != EVERY_ROW and defects[k, ROW] != row:
+                continue
+            first = rows[row, 0]
+            n = rows[row, 1]
+            spacing = 2.0 * math.pi / n
+            start = cage + contacts.angle[first]
+            begin = (defects[k, CENTER] + turn * cage - half - start) / spacing
+            ball = math.ceil(begin - 1e-9)
+            end = min(begin + 2.0 * half / spacing + 1e-9, ball + n - 0.5)
+            while ball <= end:
+                j = first + int(ball) % n
+                d[j], slope[j] = path_drop(start + spacing * ball, cage, row, path)
+                ball += 1.0
+
+
+@borrowing
+def lay_out_drops(cage, contacts, path, d, slope):
+    """`drops_of_balls`, called."""
+    drops_of_balls(cage, contacts, path, d, slope)
+
+
+@compiled
+def new_passage(instants, n):
+    """An empty `Passage` of n contacts."""
+    shape = (instants, n)
+    return Passage(np.empty(shape), np.empty(shape), np.zeros(shape), np.zeros(shape))
+
+
+@compiled
+def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
+    """Where the balls are at `count` cage angles start + i·turn [rad], into a passage.
+
+    The cage is turned by recurrence and each ball stands at a fixed angle to it.
+    """
+    circle_c, circle_s = ball_circle(contacts.angle)
+    fill_passage((start, turn, count, cage_speed), circle_c, circle_s, contacts, path, passage)
+
+
+@inlined
+def fill_passage(turning, circle_c, circle_s, contacts, path, passage):
+    """What `lay_out_balls` does: turning is (start, turn, count, cage_speed)."""
+    start, turn, count, cage_speed = turning
+    turn_c = math.cos(turn)
+    turn_s = math.sin(turn)
+    cage_c = math.cos(start)
+    cage_s = math.sin(start)
+    for i in range(count):
+        turn_balls(cage_c, cage_s, circle_c, circle_s, passage.c[i], passage.s[i])
+        cage_c, cage_s = cage_c * turn_c - cage_s * turn_s, cage_s * turn_c + cage_c * turn_s
+    if path.defects.shape[0] == 0:
+        return
+    for i in range(count):
+        rate = passage.d_rate[i]
+        drops_of_balls(start + i * turn, contacts, path, passage.d[i], rate)
+        for j in range(rate.size):
+            rate[j] *= cage_speed

@@ -1,0 +1,704 @@
+"""Static equilibrium (Eq. 15): the minimum of V(q), by Newton's method with a line search."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.contact import (
+    carried,
+    components,
+    compression_under,
+    contact_load,
+    tilting,
+    touch,
+)
+from bearingcore.kernels.path import ball_circle, lay_out_drops, turn_balls
+from bearingcore.kernels.structs import Contacts, Descent, Path, Place
+
+CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
+"""What became of a cage angle; the sentences are beside `equilibrium`."""
+
+OPEN, REFUSED = -1, 5
+"""What a map says of a point beside the statuses above: not solved yet; no such defects."""
+
+# A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
+# it is still taken below the second. The third is the least pivot, relative to the greatest
+# stiffness, with which a Newton step is taken as it is.
+RESIDUAL_AIM, RESIDUAL_LIMIT, LEAST_PIVOT = 1e-12, 1e-9, 1e-12
+# So many Newton steps before another way is taken, and at each softness of that way. (Plain
+# integers would be types of their own, and what takes them compiled for each.)
+MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = np.int64(60), np.int64(600)
+
+# A stiffness below this part of the greatest is none: rounding leaves more than it. Where a pivot
+# is below the second, taking them in the order of the directions does not tell.
+NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
+
+# Digits that q loses times the stiffness are a residual too: where a light load meets stiff balls
+# far from q = 0, none smaller can be had.
+ROUNDING = 4e-16
+
+# A ball that carries less than this many residuals may as well carry nothing; where even the
+# greatest stiffness is below this part of that of one ball under all of the load, rounding made it.
+FAINT, FAINT_STIFFNESS = 10.0, 1e-12
+
+
+@inlined
+def energy_gradient_hessian(q, force, place, contacts, g, H):
+    """V(q) [N·m], its gradient g (5,) [N] and its Hessian H (5, 5) [N/m], of which half is filled.
+
+    Returns V, a scale and the least load [N] that a touching ball carries. The scale is the sum of
+    the sizes of V's terms: rounding of V is a small part of it.
+    """
+    energy = 0.0
+    faintest = math.inf
+    f0 = 0.0
+    f1 = 0.0
+    f2 = 0.0
+    f3 = 0.0
+    f4 = 0.0
+    rr_cc = 0.0
+    rr_cs = 0.0
+    rr_ss = 0.0
+    rz_c = 0.0
+    rz_s = 0.0
+    zz = 0.0
+    rt_cc = 0.0
+    rt_cs = 0.0
+    rt_ss = 0.0
+    zt_c = 0.0
+    zt_s = 0.0
+    tt_cc = 0.0
+    tt_cs = 0.0
+    tt_ss = 0.0
+    x = components(q)
+    c = place.c
+    s = place.s
+    d = place.d
+    for j in range(c.size):
+        cj = c[j]
+        sj = s[j]
+        delta, er, ez, bend = touch(x, cj, sj, d[j], j, contacts)
+        if delta <= 0.0:
+            continue
+        stored, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+        k2 = Q * bend
+        et = tilting(er, ez, j, contacts)
+        # across the contact, (−ez, er):
+        at = tilting(-ez, er, j, contacts)
+        energy += stored
+        faintest = min(faintest, Q)
+        Qr = Q * er
+        Qt = Q * et
+        f0 += Qr * cj  # Equation (15)
+        f1 += Qr * sj
+        f2 += Q * ez
+        f3 += Qt * sj
+        f4 -= Qt * cj
+        rr = k1 * er * er + k2 * ez * ez  # Appendix A: rr for (A.1), rz for (A.3), zz for (A.10)
+        rz = (k1 - k2) * er * ez
+        rt = k1 * er * et - k2 * ez * at
+        zt = k1 * ez * et + k2 * er * at
+        tt = k1 * et * et + k2 * at * at
+        cc = cj * cj
+        cs = cj * sj
+        ss = sj * sj
+        rr_cc += rr * cc
+        rr_cs += rr * cs
+        rr_ss += rr * ss
+        rz_c += rz * cj
+        rz_s += rz * sj
+        zz += k1 * ez * ez + k2 * er * er
+        rt_cc += rt * cc
+        rt_cs += rt * cs
+        rt_ss += rt * ss
+        zt_c += zt * cj
+        zt_s += zt * sj
+        tt_cc += tt * cc
+        tt_cs += tt * cs
+        tt_ss += tt * ss
+    work = 0.0
+    for i in range(5):
+        work += force[i] * q[i]
+    g[0] = f0 - force[0]
+    g[1] = f1 - force[1]
+    g[2] = f2 - force[2]
+    g[3] = f3 - force[3]
+    g[4] = f4 - force[4]
+    H[0, 0] = rr_cc  # (A.1)
+    H[1, 0] = rr_cs  # (A.2)
+    H[1, 1] = rr_ss  # (A.6)
+    H[2, 0] = rz_c  # (A.3)
+    H[2, 1] = rz_s  # (A.7)
+    H[2, 2] = zz  # (A.10)
+    H[3, 0] = rt_cs  # (A.4)
+    H[3, 1] = rt_ss  # (A.8)
+    H[3, 2] = zt_s  # (A.11)
+    H[3, 3] = tt_ss  # (A.13)
+    H[4, 0] = -rt_cc  # (A.5)
+    H[4, 1] = -rt_cs  # (A.9)
+    H[4, 2] = -zt_c  # (A.12)
+    H[4, 3] = -tt_cs  # (A.14)
+    H[4, 4] = tt_cc  # (A.15)
+    return energy - work, energy + abs(work), faintest
+
+
+@borrowing
+def newton_direction(H, g, active, shift, L, p):
+    """P = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
+
+    Returns the least pivot over the greatest diagonal element; where that is not above
+    LEAST_PIVOT the direction is not computed.
+    """
+    n = active.size
+    greatest = 0.0
+    for i in range(n):
+        greatest = max(greatest, H[active[i], active[i]] + shift)
+    if greatest <= 0.0:
+        return 0.0
+    least = 1.0
+    for i in range(n):
+        for j in range(i + 1):
+            x = H[active[i], active[j]]
+            if i == j:
+                x += shift
+            for k in range(j):
+                x -= L[i, k] * L[j, k]
+            if i == j:
+                least = min(least, x / greatest)
+                if not least > LEAST_PIVOT:
+                    return least
+                L[i, i] = 1.0 / math.sqrt(x)
+            else:
+                L[i, j] = x * L[j, j]
+    for i in range(n):
+        x = -g[active[i]]
+        for k in range(i):
+            x -= L[i, k] * p[active[k]]
+        p[active[i]] = x * L[i, i]
+    for i in range(n - 1, -1, -1):
+        x = p[active[i]]
+        for k in range(i + 1, n):
+            x -= L[k, i] * p[active[k]]
+        p[active[i]] = x * L[i, i]
+    return least
+
+
+@compiled
+def least_pivot(H, active):
+    """Least pivot of H over the active directions, relative to the greatest, the greatest first.
+
+    In any other order a pivot that should be zero keeps the rounding of those before it, divided by
+    the least of them.
+    """
+    n = active.size
+    A = np.empty((n, n))
+    for i in range(n):
+        for j in range(n):
+            A[i, j] = H[max(active[i], active[j]), min(active[i], active[j])]
+    greatest = 0.0
+    least = 0.0
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if A[i, i] > A[best, best]:
+                best = i
+        for i in range(n):
+            A[k, i], A[best, i] = A[best, i], A[k, i]
+        for i in range(n):
+            A[i, k], A[i, best] = A[i, best], A[i, k]
+        least = A[k, k]
+        if k == 0:
+            greatest = least
+        if least <= NO_PIVOT * greatest:
+            return 0.0
+        for i in range(k + 1, n):
+            for j in range(k + 1, n):
+                A[i, j] -= A[i, k] * A[k, j] / least
+    return least / greatest
+
+
+@inlined
+def with_factors(contacts, factor):
+    """The same contacts with other load-deflection factors (n,)."""
+    return Contacts(
+        contacts.angle,
+        contacts.arm,
+        contacts.reach,
+        contacts.line_r,
+        contacts.line_z,
+        contacts.distance,
+        contacts.clearance,
+        contacts.offset,
+        factor,
+        contacts.exponent,
+        contacts.rows,
+    )
+
+
+@borrowing
+def without_faint(q, noise, place, contacts, load, work, other):
+    """Whether the balls that carry more than `noise` [N] hold the ring on their own.
+
+    The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
+    they held the ring there. Returns the least pivot without them, whose gradient and Hessian are
+    put into work.g[other] and work.H[other].
+    """
+    factor = work.firm
+    x = components(q)
+    for j in range(factor.size):
+        Q, _, _ = carried(x, place, j, contacts)
+        factor[j] = contacts.factor[j] if noise < Q else 0.0
+    firm = with_factors(contacts, factor)
+    H = work.H[other]
+    energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
+    return least_pivot(H, load.active)
+
+
+@compiled
+def pressed_load(q, place, contacts):
+    """Sum [N] of what all contacts carry."""
+    x = components(q)
+    total = 0.0
+    for j in range(contacts.factor.size):
+        Q, _, _ = carried(x, place, j, contacts)
+        total += Q
+    return total
+
+
+@inlined
+def hardest(contacts):
+    """Number of the contact with the greatest load-deflection factor."""
+    found = 0
+    for j in range(contacts.factor.size):
+        if contacts.factor[j] > contacts.factor[found]:
+            found = j
+    return found
+
+
+@inlined
+def load_size(load):
+    """Size [N] of the load along the free directions."""
+    size = 0.0
+    for i in load.active:
+        size += load.force[i] * load.force[i]
+    return math.sqrt(size)
+
+
+@borrowing
+def descend(q, place, contacts, load, work, most):
+    """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
+
+    What is returned is that of `minimise_energy`.
+    """
+    F = load.force
+    active = load.active
+    G = work.g
+    H = work.H
+    L = work.L
+    p = work.p
+    trial = work.trial
+    hard = hardest(contacts)
+    K = contacts.factor[hard]
+    exponent = contacts.exponent[hard]
+    carried_load = 0.0
+    axial = False
+    for i in active:
+        carried_load += F[i] * F[i]
+        axial = axial or i == 2
+    size = math.sqrt(carried_load)
+    nothing = 0.0
+    k_typical = 0.0
+    shift_part = 1e-3
+    residual = math.inf
+    limit = RESIDUAL_LIMIT
+    stuck = False
+    preloaded = False
+    slope = 0.0
+    V = 0.0
+    scale = 0.0
+    faintest = 0.0
+    now = 1
+    evaluations = 0
+    # The first time round only evaluates the energy where q stands: written so, its code stands
+    # here once, which halves the time to compile it.
+    for iteration in range(-1, most):
+        g = G[now]
+        if iteration >= 0:
+            norm = 0.0
+            taken = 0.0  # by what holds the directions that are not active
+            reach = 0.0
+            for i in range(5):
+                taken += (g[i] + F[i]) ** 2
+                reach = max(reach, abs(q[i]))
+            stiffest = 0.0
+            for i in active:
+                taken -= (g[i] + F[i]) ** 2
+                norm += g[i] * g[i]
+                stiffest = max(stiffest, H[now, i, i])
+            whole = math.sqrt(carried_load + max(taken, 0.0))
+            if preloaded:
+                whole = pressed_load(q, place, contacts)
+            if whole <= nothing:
+                return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
+            before = residual
+            residual = math.sqrt(norm) / whole
+            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+            least = newton_direction(H[now], g, active, 0.0, L, p)
+            settled = residual <= limit and residual >= 0.5 * before
+            if residual <= RESIDUAL_AIM or settled or stuck:
+                noise = FAINT * max(residual, RESIDUAL_AIM) * whole
+                if faintest < noise:
+                    least = without_faint(q, noise, place, contacts, load, work, 1 - now)
+                    if not least > NO_PIVOT:
+                        now = 1 - now
+                if least < DOUBTFUL_PIVOT:
+                    least = least_pivot(H[now], active)
+                status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
+                return now, status, residual, iteration, evaluations
+            if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
+                # too few balls touch: a small spring to ground stands in for the missing stiffness
+                newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
+                shift_part = max(0.1 * shift_part, 1e-10)
+            slope = 0.0
+            for i in active:
+                slope += g[i] * p[i]
+        step = 1.0
+        short = 0.0
+        long = math.inf
+        found = False
+        for _ in range(60):
+            for i in active:
+                trial[i] = q[i] + step * p[i] if iteration >= 0 else q[i]
+            V1, scale1, faintest1 = energy_gradient_hessian(
+                trial, F, place, contacts, G[1 - now], H[1 - now]
+            )
+            evaluations += 1
+            if iteration < 0:
+                found = True
+                break
+            slope1 = 0.0
+            for i in active:
+                slope1 += G[1 - now, i] * p[i]
+            # V is convex: while it slopes down it has fallen, whatever rounding says. Beyond, it
+            # must have fallen; where its fall drowns in rounding its slope must.
+            if (
+                slope1 <= 0.0
+                or V + 1e-4 * step * slope >= V1
+                or (slope1 <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V)
+            ):
+                if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
+                    found = True
+                    break
+                # V still falls as steeply as at the start: between here and the step that was
+                # too long there is a better one
+                short = step
+                step = math.sqrt(short * long)
+            else:
+                long = step
+                secant = slope / (slope - slope1) if slope1 > 0.0 else 0.5
+                step *= min(max(secant, 0.05), 0.6)
+                if step <= short:
+                    step = math.sqrt(short * long)
+        if not found:
+            if residual > limit:
+                return now, NOT_CONVERGED, residual, iteration, evaluations
+            stuck = True
+            continue
+        for i in active:
+            q[i] = trial[i]
+        V = V1
+        scale = scale1
+        faintest = faintest1
+        now = 1 - now
+        if iteration < 0:
+            if size == 0.0:
+                # only a clearance so large that the ring, held axially, is wedged presses balls,
+                # or rows that press each other
+                preloaded = contacts.rows.shape[0] > 1
+                for i in range(5):
+                    size += (G[now, i] + F[i]) ** 2
+                size = pressed_load(q, place, contacts) if preloaded else math.sqrt(size)
+                if size == 0.0 or (axial and not preloaded):
+                    return now, NOTHING_TOUCHES, math.nan, 0, 1
+                lost = ROUNDING * (contacts.distance[hard] + contacts.clearance[hard])
+                _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
+                nothing = max(RESIDUAL_AIM * size, least_load)
+            # of one ball under all of the load
+            _, _, k_typical = contact_load(compression_under(size, K, exponent), K, exponent)
+    return now, NOT_CONVERGED, residual, most, evaluations
+
+
+@borrowing
+def minimise_energy(q, place, contacts, load, work):
+    """Move q to the minimum of V over the active directions.
+
+    Returns (which, status, residual, iterations, evaluations): work.g[which] and work.H[which]
+    belong to the final q.
+
+    A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
+    as wide as a compression; Newton's straight steps in it are short. Where they do not come to
+    their end it is reached with soft balls first, whose valley is wide, and from there with harder
+    ones: how far their answers lie apart is about what the softer balls are compressed.
+    """
+    now, status, residual, iterations, evaluations = descend(
+        q, place, contacts, load, work, MOST_ITERATIONS
+    )
+    if status != NOT_CONVERGED:
+        return now, status, residual, iterations, evaluations
+    F = load.force
+    active = load.active
+    size = load_size(load)
+    one = hardest(contacts)
+    K = contacts.factor[one]
+    exponent = contacts.exponent[one]
+    soft = contacts.distance[one]  # compression of one ball under all of the load, at this softness
+    hard = compression_under(size, K, exponent)
+    start = work.start
+    soft_factor = work.soft
+    for i in active:
+        # of a wedged ring without a load nothing tells how soft to begin
+        away = contacts.clearance[one] / contacts.line_r[one] + soft
+        start[i] = away * F[i] / size if size > 0.0 else q[i]
+    ratio = 1.0
+    for _ in range(40):
+        target = max(soft * ratio, hard)
+        softer = 1.0
+        if target != hard and size != 0.0:
+            _, stiff_load, _ = contact_load(target, K, exponent)
+            softer = size / stiff_load
+        for i in active:
+            q[i] = start[i]
+        for j in range(soft_factor.size):
+            soft_factor[j] = softer * contacts.factor[j]
+        softened = with_factors(contacts, soft_factor)
+        now, status, residual, more, calls = descend(
+            q, place, softened, load, work, MOST_PATIENT_ITERATIONS
+        )
+        iterations += more
+        evaluations += calls
+        if size == 0.0:
+            break
+        if status != NOT_CONVERGED:
+            if softer == 1.0:
+                break
+            for i in active:
+                start[i] = q[i]
+            soft = target
+            ratio = 0.1 if ratio == 1.0 else max(ratio * ratio, 1e-4)
+        elif ratio == 1.0 or ratio > 0.7:
+            break
+        else:
+            ratio = math.sqrt(ratio)
+    else:
+        status = NOT_CONVERGED
+    return now, status, residual, iterations, evaluations
+
+
+@inlined
+def extrapolate(cage_angles, k, q, active, state):
+    """Guess the state at cage angle k: the parabola through the last three answers q.
+
+    Where they do not stand near and in order, the state stays as it is.
+    """
+    x1 = cage_angles[k] - cage_angles[k - 1]
+    x2 = cage_angles[k] - cage_angles[k - 2]
+    x3 = cage_angles[k] - cage_angles[k - 3]
+    if abs(x1) < abs(x2) < abs(x3) < 8.0 * abs(x1) and x1 * x2 > 0.0 and x2 * x3 > 0.0:
+        u1 = x2 * x3 / ((x2 - x1) * (x3 - x1))
+        u2 = x1 * x3 / ((x1 - x2) * (x3 - x2))
+        u3 = x1 * x2 / ((x1 - x3) * (x2 - x3))
+        if abs(u1) + abs(u2) + abs(u3) < 20.0:
+            for i in active:
+                state[i] = u1 * q[k - 1, i] + u2 * q[k - 2, i] + u3 * q[k - 3, i]
+
+
+@inlined
+def first_guess(contacts, load, state):
+    """Put into state (5,): the clearance and one ball's compression, along the load."""
+    size = load_size(load)
+    one = hardest(contacts)
+    reach = contacts.clearance[one] / contacts.line_r[one] + compression_under(
+        size, contacts.factor[one], contacts.exponent[one]
+    )
+    for i in load.active:
+        state[i] = reach * load.force[i] / max(size, 1e-300)
+
+
+@compiled
+def new_descent(n_contacts):
+    """Empty work space of Newton's descent."""
+    return Descent(
+        np.zeros((2, 5)),
+        np.zeros((2, 5, 5)),
+        np.zeros((5, 5)),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(n_contacts),
+        np.zeros(n_contacts),
+    )
+
+
+@compiled
+def static_states(cage_angles, contacts, path, load):
+    """Static equilibrium at each cage angle, each started from those before it.
+
+    Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded contacts, status,
+    residual, iterations and evaluations (n,), tilts and moments scaled as at the head of `structs`.
+    """
+    n = cage_angles.size
+    n_contacts = contacts.angle.size
+    active = load.active
+    q = np.zeros((n, 5))
+    loads = np.zeros((n, n_contacts))
+    stiffness = np.empty((n, 5, 5))
+    loaded = np.zeros(n, dtype=np.int64)
+    status = np.empty(n, dtype=np.int8)
+    residuals = np.empty(n)
+    iterations = np.empty(n, dtype=np.int64)
+    evaluations = np.empty(n, dtype=np.int64)
+    place = Place(np.empty(n_contacts), np.empty(n_contacts), np.zeros(n_contacts))
+    slope = np.empty(n_contacts)
+    circle_c, circle_s = ball_circle(contacts.angle)
+    work = new_descent(n_contacts)
+    state = np.zeros(5)
+    first_guess(contacts, load, state)
+    guess = state.copy()
+    for k in range(n):
+        cage = cage_angles[k]
+        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, place.c, place.s)
+        lay_out_drops(cage, contacts, path, place.d, slope)
+        if k > 0 and status[k - 1] >= NOT_CARRIED:
+            for i in active:
+                state[i] = guess[i]
+        elif k >= 3 and max(status[k - 2], status[k - 3]) < NOT_CARRIED:
+            extrapolate(cage_angles, k, q, active, state)
+        now, status[k], residuals[k], iterations[k], evaluations[k] = minimise_energy(
+            state, place, contacts, load, work
+        )
+        for i in range(5):
+            q[k, i] = state[i]
+            work.trial[i] = state[i]
+            for j in range(i + 1):
+                stiffness[k, i, j] = work.H[now, i, j]
+                stiffness[k, j, i] = work.H[now, i, j]
+        x = components(state)
+        for j in range(n_contacts):
+            loads[k, j], _, _ = carried(x, place, j, contacts)
+            if loads[k, j] > 0.0:
+                loaded[k] += 1
+    return q, loads, stiffness, loaded, status, residuals, iterations, evaluations
+
+
+@compiled
+def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers):
+    """Static states of rows first to last of a map: the defects differ, cage angles do not.
+
+    Points that are not OPEN are left alone. `memory` carries states and drops over from row to row,
+    NaN before the first. Returns how many points were solved, and how often the energy was
+    evaluated.
+
+    Where all balls have sunk as deep as in the row before, the answer is that of the row before:
+    most of a map of square defects is, as a ball is on the race or on the floor and seldom between.
+    """
+    n = cage_angles.size
+    n_contacts = contacts.angle.size
+    active = load.active
+    q = memory.q
+    drops = memory.drops
+    units = answers.units
+    stiffness = answers.stiffness
+    loaded = answers.loaded
+    greatest = answers.greatest
+    status = answers.status
+    residual = answers.residual
+    c = np.empty((n, n_contacts))
+    s = np.empty((n, n_contacts))
+    d = np.empty(n_contacts)
+    slope = np.empty(n_contacts)
+    circle_c, circle_s = ball_circle(contacts.angle)
+    for k in range(n):
+        cage = cage_angles[k]
+        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, c[k], s[k])
+    work = new_descent(n_contacts)
+    state = np.zeros(5)
+    guess = np.zeros(5)
+    first_guess(contacts, load, guess)
+    solved = 0
+    evaluations = 0
+    for e in range(first, last):
+        path = Path(paths.defects[e, : paths.counts[e]], paths.tables)
+        for k in range(n):
+            if status[e, k] != OPEN:
+                drops[k, 0] = math.nan
+                continue
+            lay_out_drops(cage_angles[k], contacts, path, d, slope)
+            same = True
+            for j in range(n_contacts):
+                same = same and drops[k, j] == d[j]
+                drops[k, j] = d[j]
+            if same:
+                status[e, k] = status[e - 1, k]
+                residual[e, k] = residual[e - 1, k]
+                loaded[e, k] = loaded[e - 1, k]
+                greatest[e, k] = greatest[e - 1, k]
+                for term in range(15):
+                    stiffness[term, e, k] = stiffness[term, e - 1, k]
+                continue
+            known = 0  # answers in a row just before this one
+            while known < min(k, 3) and CONVERGED <= status[e, k - 1 - known] < NOT_CARRIED:
+                known += 1
+            for i in active:
+                state[i] = q[k - 1, i] if known > 0 else guess[i]
+            if known == 3:
+                extrapolate(cage_angles, k, q, active, state)
+            place = Place(c[k], s[k], d)
+            now, status[e, k], residual[e, k], _, calls = minimise_energy(
+                state, place, contacts, load, work
+            )
+            solved += 1
+            evaluations += calls
+            for i in range(5):
+                q[k, i] = state[i]
+            gone = status[e, k] >= NOT_CARRIED
+            loose = status[e, k] == NOTHING_TOUCHES
+            count = 0
+            most = 0.0
+            x = components(state)
+            for j in range(n_contacts):
+                Q, _, _ = carried(x, place, j, contacts)
+                if Q > 0.0:
+                    count += 1
+                    most = max(most, Q)
+            nowhere = gone or loose
+            loaded[e, k] = 0 if nowhere else count
+            greatest[e, k] = math.nan if gone else 0.0 if loose else most
+            term = 0
+            for a in range(5):
+                for b in range(a, 5):
+                    value = work.H[now, b, a] * units[a] * units[b]
+                    stiffness[term, e, k] = math.nan if nowhere else value
+                    term += 1
+    return solved, evaluations
+
+
+@compiled
+def contact_angles(cage_angles, q, contacts, path):
+    """Loaded contact angle α_j (n, contacts) [rad] (Eq. 14) at states q; NaN at gaps."""
+    n_contacts = contacts.angle.size
+    angles = np.empty((cage_angles.size, n_contacts))
+    place = Place(np.empty(n_contacts), np.empty(n_contacts), np.zeros(n_contacts))
+    slope = np.empty(n_contacts)
+    circle_c, circle_s = ball_circle(contacts.angle)
+    for k in range(cage_angles.size):
+        cage = cage_angles[k]
+        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, place.c, place.s)
+        lay_out_drops(cage, contacts, path, place.d, slope)
+        x = components(q[k])
+        for j in range(n_contacts):
+            Q, er, ez = carried(x, place, j, contacts)
+            angles[k, j] = math.atan2(ez, er) if Q > 0.0 else math.nan
+    return angles

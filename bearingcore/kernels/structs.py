@@ -1,0 +1,306 @@
+"""What kernels take: small structs of arrays and numbers.
+
+Quantity                                          | Symbol            | Unit
+------------------------------------------------- | ----------------- | --------
+displacement of the inner ring, tilts times r_d   | q = (x, y, z, r_d θx, r_d θy) | m
+loads on the inner ring, moments over r_d         | F                 | N
+cosine and sine of a ball's angle φ_j             | c, s              |
+cosine and sine of the unloaded contact angle α0  | ca, sa            |
+drop of the ball's centre, its rate               | d, d_rate         | m, m/s
+parts of the ball's displacement along and across the unloaded line of contact | m, w | m
+direction of the contact, radial and axial        | er, ez            |
+compression, load and stiffness of a contact      | δ, Q, k1 = ∂Q/∂δ  | m, N, N/m
+load over loaded distance, Q/A                    | k2                | N/m
+radial and axial displacement of the inner groove's centre at a ball | r, z | m
+
+Tilts are carried as r_d θ and moments as M/r_d, so that all five components of q are lengths, all
+of F are forces, and one number measures a residual. r_d is the common lever of the bearing; where
+rows differ, `Contacts.reach` and `Contacts.arm` relate their own lengths to it.
+
+Equation numbers are those of Petersen, Howard & Prime (2014).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class Contacts(NamedTuple):
+    """The contacts of all balls of all rows, each array (n,); those of a row follow each other.
+
+    Attributes
+    ----------
+    angle [rad]
+        from the first ball to the contact's.
+    arm
+        axial place z_k of the row over r_d.
+    reach
+        radius on which the inner groove's centres of the row lie, over r_d.
+    line_r, line_z
+        unloaded line of contact, radial and axial: cos α0, sin α0.
+    distance [m]
+        unloaded distance A0 of the groove curvature centres.
+    clearance [m]
+        radial clearance r_L.
+    offset [m]
+        axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
+    factor [N/m^exponent], exponent
+        of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
+    rows : (k, 2)
+        first contact of each row and how many it has.
+    """
+
+    angle: Array
+    arm: Array
+    reach: Array
+    line_r: Array
+    line_z: Array
+    distance: Array
+    clearance: Array
+    offset: Array
+    factor: Array
+    exponent: Array
+    rows: Integers
+
+
+class Path(NamedTuple):
+    """The way of a ball's centre over all defects.
+
+    Attributes
+    ----------
+    defects : (m, len(PATH_COLUMNS))
+        see `path.PATH_COLUMNS`.
+    tables : (t,) [m]
+        tabulated drops, one after the other.
+    """
+
+    defects: Array
+    tables: Array
+
+
+class Place(NamedTuple):
+    """Where the balls are at one instant, each array (n,): cosine, sine and drop [m]."""
+
+    c: Array
+    s: Array
+    d: Array
+
+
+class Passage(NamedTuple):
+    """Where the balls are at some instants, each array (instants, n).
+
+    Cosine, sine, drop [m] and its rate [m/s].
+    """
+
+    c: Array
+    s: Array
+    d: Array
+    d_rate: Array
+
+
+class StaticLoad(NamedTuple):
+    """Loads (5,) [N], moments over r_d, and the free directions, rising numbers out of 0 to 4."""
+
+    force: Array
+    active: Integers
+
+
+class Descent(NamedTuple):
+    """Work space of Newton's descent.
+
+    Attributes
+    ----------
+    g : (2, 5) [N], H : (2, 5, 5) [N/m]
+        gradient and Hessian where the ring stands and where it is tried.
+    L : (5, 5), p : (5,) [m], trial : (5,) [m]
+        Cholesky factor, step, and the displacement tried.
+    start : (5,) [m]
+        where the descent with softened contacts begins.
+    soft, firm : (contacts,) [N/m^exponent]
+        factors of softened contacts, and of those that carry more than rounding.
+    """
+
+    g: Array
+    H: Array
+    L: Array
+    p: Array
+    trial: Array
+    start: Array
+    soft: Array
+    firm: Array
+
+
+class MapPaths(NamedTuple):
+    """Paths of the e rows of a map: defects (e, m, columns), of which counts (e,) stand; tables."""
+
+    defects: Array
+    counts: Integers
+    tables: Array
+
+
+class MapMemory(NamedTuple):
+    """What a map carries over from row to row: states (n, 5) [m], drops (n, contacts) [m]."""
+
+    q: Array
+    drops: Array
+
+
+class MapAnswers(NamedTuple):
+    """What a map of e rows and n cage angles is filled with.
+
+    Attributes
+    ----------
+    stiffness : (15, e, n) [N/m, N/rad, N·m/rad]
+        in the units that `units` (5,) gives back: 1 and r_d.
+    loaded : (e, n)
+    greatest : (e, n) [N]
+        load of the contact that carries most.
+    status, residual : (e, n)
+    """
+
+    units: Array
+    stiffness: Array
+    loaded: Integers
+    greatest: Array
+    status: NDArray[np.int8]
+    residual: Array
+
+
+VELOCITIES, SMOOTH, PLANAR = 0, 1, 2
+"""What a motion is marched in: v as it is; w; w where contacts stay in the plane. See `motion`."""
+
+
+class Rotor(NamedTuple):
+    """Both bodies along the n active directions, each array (n,), and how their motion is marched.
+
+    Attributes
+    ----------
+    force [N], inverse_inner [1/kg], inverse_outer [1/kg], stiffness [N/m], damping [N·s/m]
+        load and inverse mass of the inner ring, inverse mass and support of the outer one.
+    active : (n,)
+        numbers of the directions.
+    cage_speed [rad/s]
+    contact_damping [N·s/m]
+        c of Eq. 18.
+    variables
+        `VELOCITIES`, `SMOOTH` or `PLANAR`: what is marched.
+    tension
+        whether the damper may draw a ball back, as published.
+    """
+
+    force: Array
+    inverse_inner: Array
+    inverse_outer: Array
+    stiffness: Array
+    damping: Array
+    active: Integers
+    cage_speed: float
+    contact_damping: float
+    variables: int
+    tension: bool
+
+
+class System(NamedTuple):
+    """All that moves: two bodies, the contacts between them, and the way over their defects."""
+
+    rotor: Rotor
+    contacts: Contacts
+    path: Path
+
+
+class Adaptive(NamedTuple):
+    """How adaptive steps are chosen.
+
+    Attributes
+    ----------
+    sample_step [s]
+        between the rows of the history.
+    tolerance, scale : (4 n,)
+        the root mean square of error/scale of a step stays below the tolerance.
+    stops : (m,) [s]
+        rising times at each of which a step ends.
+    most_calls
+        right-hand sides before giving up.
+    """
+
+    sample_step: float
+    tolerance: float
+    scale: Array
+    stops: Array
+    most_calls: int
+
+
+class Forces(NamedTuple):
+    """Work space of the equations of motion.
+
+    Attributes
+    ----------
+    x, v : (5,) [m], [m/s]
+        inner against outer ring.
+    f : (5,) [N], S : (5,) [m]
+        force on the outer ring; Σ δ e.
+    touching : (contacts,)
+        numbers of the compressed contacts, in order.
+    contact : (contacts, 5)
+        their δ [m], er, ez, 1/A [1/m] (0 where the centres have passed each other and a contact
+        does not swivel), and 1 where they push, 0 where the damper takes all of it.
+    """
+
+    x: Array
+    v: Array
+    f: Array
+    S: Array
+    touching: Integers
+    contact: Array
+
+
+class Slopes(NamedTuple):
+    """Work space of the tangent.
+
+    Attributes
+    ----------
+    Sx : (5, 5), Px : (5, 5) [N/m], Pv : (5, 5) [N·s/m]
+        how Σ δ e and the force change with displacement and velocity.
+    e, t, e_turn, t_turn : (5,)
+        along and across a contact in q, and their derivatives with the cage's turning.
+    rows : (2 n, 4 n)
+        sums over directions, of all columns.
+    pushed, pushing : (contacts,)
+        which contacts pushed a step ago, and push now.
+    """
+
+    Sx: Array
+    Px: Array
+    Pv: Array
+    e: Array
+    t: Array
+    e_turn: Array
+    t_turn: Array
+    rows: Array
+    pushed: NDArray[np.bool_]
+    pushing: NDArray[np.bool_]
+
+
+class Steps(NamedTuple):
+    """Work space of steps: ball positions, the equations of motion's, rates of the four stages
+    (4, 4 n), and the state tried (4 n,).
+    """
+
+    passage: Passage
+    forces: Forces
+    k: Array
+    trial: Array
+
+
+class TangentSteps(NamedTuple):
+    """What the tangent needs beside: its slopes, rates (4, 4 n, columns), and what is tried."""
+
+    slopes: Slopes
+    k: Array
+    trial: Array

@@ -1,0 +1,145 @@
+"""A scene as the structs that kernels take: the one place that fills them.
+
+Tilts are carried times r_d and moments over r_d, r_d being the bearing's `groove_center_radius`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import kernels
+from bearingcore.model.bearing import Bearing
+from bearingcore.model.defect import path_tables
+from bearingcore.model.scene import DOF_NAMES, Scene
+
+Array = NDArray[np.float64]
+
+
+class BodyNumbers(NamedTuple):
+    """Both bodies along n directions, each (n,), tilts scaled to lengths.
+
+    Load [N], inertia of the inner and of the outer body [kg], stiffness [N/m] and damping [N·s/m]
+    of the support.
+    """
+
+    force: Array
+    inner_mass: Array
+    outer_mass: Array
+    stiffness: Array
+    damping: Array
+
+
+@lru_cache(maxsize=256)
+def contacts(bearing: Bearing) -> kernels.Contacts:
+    """All contacts of a bearing."""
+    n, rows = bearing.n_balls, bearing.all_rows
+
+    def each(*values: float) -> Array:
+        """The values of the rows, once for each of their contacts."""
+        return np.repeat(np.array(values, dtype=float), n)
+
+    def alike(value: float) -> Array:
+        return np.full(n * len(rows), float(value))
+
+    return kernels.Contacts(
+        angle=np.concatenate([row.turn + bearing.ball_spacing * np.arange(n) for row in rows]),
+        arm=each(*(row.place / bearing.groove_center_radius for row in rows)),
+        reach=alike(1.0),
+        line_r=alike(math.cos(bearing.contact_angle)),
+        line_z=each(*(row.facing * math.sin(bearing.contact_angle) for row in rows)),
+        distance=alike(bearing.groove_center_distance),
+        clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
+        offset=each(*(row.offset for row in rows)),
+        factor=alike(bearing.load_deflection_factor),
+        exponent=alike(bearing.contact_exponent),
+        rows=np.array([[k * n, n] for k in range(len(rows))]),
+    )
+
+
+def path(scene: Scene) -> kernels.Path:
+    """The way of a ball's centre over all defects of a scene."""
+    return path_tables(scene.defects, scene.bearing)
+
+
+def typical_compression(bearing: Bearing, load: float) -> float:
+    """Compression [m] of one contact of a bearing that carries a load [N]."""
+    one = contacts(bearing)
+    return float((load / one.factor[0]) ** (1.0 / one.exponent[0]))
+
+
+def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:
+    """Where directions stand in x, y, z, rx, ry."""
+    return np.array([DOF_NAMES.index(name) for name in dofs], dtype=np.int64)
+
+
+def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
+    """What a scaled displacement is divided by: 1 [m], or r_d for tilts [m/rad]."""
+    lever = scene.bearing.groove_center_radius
+    return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
+
+
+def static_load(scene: Scene, dofs: Sequence[str]) -> kernels.StaticLoad:
+    """The load of a scene whose ring is free along `dofs`."""
+    return kernels.StaticLoad(scene.load.vector / length_units(scene), direction_numbers(dofs))
+
+
+def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
+    """Load, inertia and support along `dofs`.
+
+    Raises
+    ------
+    ValueError
+        for a support that lacks a number.
+    """
+    units = length_units(scene, dofs)
+    return BodyNumbers(
+        scene.load.vector[direction_numbers(dofs)] / units,
+        scene.support.inertia("inner", dofs) / units**2,
+        scene.support.inertia("outer", dofs) / units**2,
+        scene.support.stiffness(dofs) / units**2,
+        scene.support.damping(dofs) / units**2,
+    )
+
+
+def rotor(
+    scene: Scene, dofs: tuple[str, ...], contact_damping: float, *, velocities: bool = False
+) -> kernels.Rotor:
+    """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
+
+    That is variables without jumps where the contact law has them, with the shorter sums of
+    contacts that stay in the plane where they do; `velocities` asks for these as they are, which
+    adaptive steps and general-purpose integrators take. contact_damping: c [N·s/m] of Eq. 18.
+    """
+    published = scene.contact_law == "published"
+    variables = kernels.VELOCITIES
+    if published and not velocities:
+        flat = is_planar(scene) and dofs == DOF_NAMES[:2]
+        variables = kernels.PLANAR if flat else kernels.SMOOTH
+    bodies = body_numbers(scene, dofs)
+    return kernels.Rotor(
+        force=bodies.force,
+        inverse_inner=1.0 / bodies.inner_mass,
+        inverse_outer=1.0 / bodies.outer_mass,
+        stiffness=bodies.stiffness,
+        damping=bodies.damping,
+        active=direction_numbers(dofs),
+        cage_speed=float(scene.cage_speed),
+        contact_damping=float(contact_damping),
+        variables=variables,
+        tension=published,
+    )
+
+
+def is_planar(scene: Scene) -> bool:
+    """True where only x and y move, α0 = 0 and the law is the published one.
+
+    Such a motion is cheaper: its contacts never swivel.
+    """
+    flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.is_flat
+    return flat and scene.contact_law == "published"

@@ -25,7 +25,7 @@ DUE = 10
 _NEVER = 2**30
 
 
-class Collector:
+class IdleCollection:
     """Collects in full when that is due and nobody is waiting.
 
     `quiet_for` says for how long [s] nobody has sent anything.
@@ -63,6 +63,6 @@ def begin(quiet_for: Callable[[], float]) -> None:
     gc.freeze()  # modules and kernels stay for as long as the process does
     young, middle, _ = gc.get_threshold()
     gc.set_threshold(young, middle, _NEVER)
-    collector = Collector(quiet_for)
+    collector = IdleCollection(quiet_for)
     collect_elsewhere(collector.ask)
     PeriodicCallback(collector.look, 250).start()

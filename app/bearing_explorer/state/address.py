@@ -313,32 +313,28 @@ def _read(given: dict[str, str]) -> Place:
     }  # fmt: skip
     if given:
         raise ValueError(f"“{_shown(next(iter(given)))}” is about a defect that is not there.")
-    scene = Scene(
+    scene = dataclasses.replace(
+        base,
         bearing=_part(base.bearing, fields),
         defect=defects[0] if count == 1 else tuple(defects),
         load=_part(base.load, fields),
         support=_part(base.support, fields),
-        contact_law=base.contact_law,
         dofs=dofs,
-        **{
-            name: _si(fields, name, getattr(base, name))
-            for name in ("shaft_speed", "contact_damping")
-        },
+        **_own_of(base, fields),
     )
     scene = scene.replace(**chosen) if chosen else scene
     return Place(scene, preset, selected, cage_angle, tab[:40], " ".join(notes))
 
 
-def _si(fields: Mapping[str, float | None], field: str, usual: Any) -> Any:
-    """The number given for a field of the core, or the usual one."""
-    name = next(q.name for q in _OF_SCENE if q.field == field)
-    return fields.get(name, usual)
+def _own_of(part: Any, fields: Mapping[str, float | None]) -> dict[str, Any]:
+    """The numbers given, by names, for the fields that a part of a scene has."""
+    return {
+        q.field: fields[q.name] for q in _OF_SCENE if q.name in fields and hasattr(part, q.field)
+    }
 
 
 def _part(part: Any, fields: Mapping[str, float | None]) -> Any:
-    own: dict[str, Any] = {
-        q.field: fields[q.name] for q in _OF_SCENE if q.name in fields and hasattr(part, q.field)
-    }
+    own = _own_of(part, fields)
     for name, value in own.items():
         if value is not None and name == "n_balls":
             own[name] = int(value) if value == int(value) else value

@@ -96,7 +96,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("status", explorer.status)
     template.add_panel("plan", explorer.plan)
     template.add_panel("limits", explorer.limits)
-    template.add_panel("wire", pn.pane.Bokeh(explorer.wire.anchor, margin=0))
+    template.add_panel("packed", pn.pane.Bokeh(explorer.packed.anchor, margin=0))
     doc = pn.state.curdoc
     pn.state.onload(lambda: on_loop(doc, explorer.start))
     pn.state.on_session_destroyed(lambda _: explorer.stop())

@@ -61,16 +61,16 @@ class Band:
 
 
 def comparison_band(scene: Scene, sample_rate: float) -> Band:
-    """From a quarter of the sound bearing's lowest natural frequency to 1.35 of its highest.
+    """From a quarter of the healthy bearing's lowest natural frequency to 1.35 of its highest.
 
     Raises
     ------
     ValueError
         where the sample rate leaves less than an octave of it, or no static state is known.
     """
-    limits = np.array(list(modes(scene.sound()).bands().values()))
+    limits = np.array(list(modes(scene.healthy()).bands().values()))
     if not np.isfinite(limits).all():
-        raise checks.refuse("load", "such that the sound bearing has no modes", "a static state")
+        raise checks.refuse("load", "such that the healthy bearing has no modes", "a static state")
     lowest, highest = 0.25 * float(limits.min()), 1.35 * float(limits.max())
     if 0.4 * sample_rate < 8.0 * lowest:
         raise checks.refuse(

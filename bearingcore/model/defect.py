@@ -94,7 +94,7 @@ class Defect:
 
     @classmethod
     def none(cls) -> Self:
-        """A sound bearing: no extent, no depth."""
+        """A healthy bearing: no extent, no depth."""
         return cls(extent=0.0, depth=0.0, center=0.0)
 
     @classmethod
@@ -334,7 +334,7 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, N
         raise checks.refuse(
             "defect",
             f"{len(group)} around the whole race",
-            "defects that leave some of the race sound where they touch",
+            "defects that leave some of the race healthy where they touch",
         )
     middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
     angle = _nodes(half) + middle
@@ -364,7 +364,7 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray
     step = angle[1] - angle[0]
     surface = defect.surface(defect.center + angle, bearing)
     whole = defect.extent >= TWO_PI
-    # the corners belong to the sound race; a whole race closes on itself
+    # the corners belong to the healthy race; a whole race closes on itself
     surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
     # no farther than the floor is long: a tiny defect would ask for steps without end
     with np.errstate(over="ignore", divide="ignore"):

@@ -72,7 +72,7 @@ class RoughFloor:
     ) -> NDArray[np.float64]:
         """Depth [m] at angles [rad] from the middle of a defect on a race of `radius` [m].
 
-        It is never above the sound race.
+        It is never above the healthy race.
         """
         step = self.correlation_length / SAMPLES_A_LENGTH
         reach = math.ceil(0.5 * extent * radius / step) + 1
@@ -110,7 +110,7 @@ class MeasuredFloor:
     places
         rising, from −1 (beginning of the defect) to 1 (its end).
     depths
-        at those places, over the defect's depth: 0 is the sound race, 1 the deepest point.
+        at those places, over the defect's depth: 0 is the healthy race, 1 the deepest point.
     """
 
     kind: ClassVar[str] = "measured"

@@ -19,9 +19,10 @@ from bearingcore.dynamics.modes import modes_at
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
 from bearingcore.dynamics.speed_run import SETTLING
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
+    TERM_SYMBOLS,
     TERM_UNITS,
     default_cage_angles,
     equilibrium,
@@ -91,6 +92,9 @@ class Output:
     ----------
     unit, meaning
         for people; the unit is "1" where there is none.
+    group, label
+        for lists and axes: the heading that it stands under, and a few words. With a number for
+        each mode, "{}" stands for the mode in the label.
     needs
         which computation: "statics", "life", "modes", "motion" or "orbit".
     dof
@@ -101,9 +105,19 @@ class Output:
 
     unit: str
     meaning: str
+    group: str
+    label: str
     needs: str
     dof: str = ""
     per_mode: bool = False
+
+
+def mode_symbol(label: str) -> str:
+    """Symbol of a mode by its label: "x₁" for "x1"."""
+    return DOF_SYMBOLS[label[:-1]] + label[-1].translate(_LOWERED)
+
+
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def _table() -> dict[str, Output]:
@@ -112,47 +126,76 @@ def _table() -> dict[str, Output]:
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
-                TERM_UNITS[term], f"{which} stiffness {term} {over}", STATICS
+                TERM_UNITS[term],
+                f"{which} stiffness {term} {over}",
+                f"Stiffness, {which}",
+                f"{TERM_SYMBOLS[term]}, {which}",
+                STATICS,
             )
     for which in ("mean", "least", "greatest"):
         table[f"loaded_balls_{which}"] = Output(
-            "1", f"{which} number of balls that carry load {over}", STATICS
+            "1",
+            f"{which} number of balls that carry load {over}",
+            "Balls",
+            f"loaded balls, {which}",
+            STATICS,
         )
-    table["ball_load_greatest"] = Output("N", f"greatest load of a ball {over}", STATICS)
+    table["ball_load_greatest"] = Output(
+        "N", f"greatest load of a ball {over}", "Balls", "greatest ball load", STATICS
+    )
     table["converged_share"] = Output(
-        "1", "share of the cage angles that have one static state, and it was found", STATICS
+        "1",
+        "share of the cage angles that have one static state, and it was found",
+        "Balls",
+        "cage angles with a static state, share",
+        STATICS,
     )
     for race in ("inner", "outer"):
         table[f"contact_pressure_{race}"] = Output(
-            "Pa", f"greatest contact pressure of a ball on the {race} race {over}", LIFE
+            "Pa",
+            f"greatest contact pressure of a ball on the {race} race {over}",
+            "Balls",
+            f"contact pressure, {race} race",
+            LIFE,
         )
     not_in_it = "; pressure and blows on the edges of a defect are left out: an upper bound"
-    table["life_turns"] = Output(
-        "1", f"turns that 9 of 10 bearings reach, by ISO 16281{not_in_it}", LIFE
-    )
-    table["life_hours"] = Output(
-        "h", f"hours that 9 of 10 bearings reach, by ISO 16281{not_in_it}", LIFE
-    )
-    table["life_share_of_healthy"] = Output(
-        "1", f"life over that of the healthy bearing{not_in_it}", LIFE
-    )
+    for unit, name in (("1", "turns"), ("h", "hours")):
+        reached = f"{name} that 9 of 10 bearings reach"
+        table[f"life_{name}"] = Output(
+            unit, f"{reached}, by ISO 16281{not_in_it}", "Life", reached, LIFE
+        )
+    share = "life over that of the healthy bearing"
+    table["life_share_of_healthy"] = Output("1", share + not_in_it, "Life", share, LIFE)
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
-            "Hz", f"{which} natural frequency of each mode {over}", MODES, per_mode=True
+            "Hz",
+            f"{which} natural frequency of each mode {over}",
+            "Natural frequencies",
+            f"mode {{}}, {which}",
+            MODES,
+            per_mode=True,
         )
     for dof in DOF_NAMES:
         unit, way = ("rad/s²", "about") if dof.startswith("r") else ("m/s²", "along")
         along = f"of the housing {way} {dof[-1]} in the settled part of a simulated motion"
-        table[f"acceleration_rms_{dof}"] = Output(
-            unit, f"root mean square acceleration {along}", MOTION, dof
-        )
-        table[f"acceleration_greatest_{dof}"] = Output(
-            unit, f"greatest acceleration, either way, {along}", MOTION, dof
-        )
+        for which, words, short in (
+            ("rms", "root mean square acceleration", "RMS"),
+            ("greatest", "greatest acceleration, either way,", "greatest"),
+        ):
+            table[f"acceleration_{which}_{dof}"] = Output(
+                unit,
+                f"{words} {along}",
+                "Vibration of the housing",
+                f"acceleration {way} {dof[-1]}, {short}",
+                MOTION,
+                dof,
+            )
     table["floquet_multiplier_greatest"] = Output(
         "1",
         "size of the largest Floquet multiplier of the periodic motion; "
         "above 1 a disturbance of it grows",
+        "Motion that repeats",
+        "largest Floquet multiplier |μ|",
         ORBIT,
     )
     return table

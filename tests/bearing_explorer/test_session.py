@@ -14,11 +14,11 @@ from tests.helpers.sections import SECTIONS
 
 
 @pytest.fixture
-def told(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
-    """What the controls were told."""
+def news(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
+    """What the controls were shown."""
     news: list[dict] = []
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.tell", lambda self, **n: news.append(n)
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
     )
     return news
 
@@ -33,7 +33,7 @@ def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
         for act in acts:
             act(explorer)
             await idle(explorer)
-        while rest and not explorer._rest.idle:
+        while rest and not explorer._idle_task.idle:
             await asyncio.sleep(0.002)
         await idle(explorer)
         return explorer
@@ -49,17 +49,17 @@ def drawn(explorer: Explorer, section: str) -> list[float]:
     return explorer._views[section][0].drawn  # type: ignore[attr-defined]
 
 
-def test_a_slider_reaches_the_view(told: list[dict]) -> None:
+def test_a_slider_reaches_the_view(news: list[dict]) -> None:
     explorer = session(lambda e: e._asked({"mark": 4, "set": {"depth_um": 80}}))
     assert explorer.scene.defect.depth == pytest.approx(80e-6)
     assert drawn(explorer, "one")[-1] == explorer.scene.defect.depth
     assert explorer._drawn_mark == 4
-    assert told == [], "a control that moved itself is not moved again"
+    assert news == [], "a control that moved itself is not moved again"
     assert explorer._views["one"][0].csv() == "depth_m\n8e-05\n"
     assert explorer.status.line["mood"] == "good"
 
 
-def test_only_what_is_on_screen_is_made_and_drawn(told: list[dict]) -> None:
+def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     explorer = session(lambda e: e._asked({"mark": 1, "set": {"depth_um": 80}}))
     assert "two" not in explorer._views
     shown = session(lambda e: e._tab_asked({"show": "two"}))
@@ -67,21 +67,21 @@ def test_only_what_is_on_screen_is_made_and_drawn(told: list[dict]) -> None:
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
 
-def test_a_typed_number_is_confirmed_and_a_bad_one_refused(told: list[dict]) -> None:
+def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:
     explorer = session(lambda e: e._asked({"mark": 1, "typed": {"extent_deg": "33,5"}}))
     assert explorer.values["extent_deg"] == 33.5
-    assert len(told) == 1
-    assert told[0]["state"]["values"] == {"extent_deg": 33.5}
-    told.clear()
+    assert len(news) == 1
+    assert news[0]["state"]["values"] == {"extent_deg": 33.5}
+    news.clear()
     before = presets["fan-rig"]
     explorer = session(lambda e: e._asked({"mark": 9, "typed": {"extent_deg": "500"}}))
     assert explorer.scene.defect.extent == pytest.approx(before.defect.extent)
-    assert list(told[0]["refused"]) == ["extent_deg"]
+    assert list(news[0]["refused"]) == ["extent_deg"]
     assert explorer._drawn_mark == 9, "a refusal is answered too, or the browser would wait"
 
 
 def test_what_the_scene_refuses_stays_as_it_was(
-    told: list[dict], monkeypatch: pytest.MonkeyPatch
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise ValueError("extent is 3; allowed: less")
@@ -92,33 +92,33 @@ def test_what_the_scene_refuses_stays_as_it_was(
 
     explorer = session(act)
     assert explorer.values["extent_deg"] == pytest.approx(12.9)
-    assert "allowed: less" in told[0]["refused"]["extent_deg"]
+    assert "allowed: less" in news[0]["refused"]["extent_deg"]
 
 
-def test_choosing_a_preset_brings_its_values_and_ranges(told: list[dict]) -> None:
+def test_choosing_a_preset_brings_its_values_and_ranges(news: list[dict]) -> None:
     explorer = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "liew-lim"}}))
     assert explorer.scene.bearing == presets["liew-lim"].bearing
-    assert told[0]["state"]["values"]["fy_n"] == -2000
-    assert told[0]["state"]["limits"]["fy_n"]["most"] >= 2000
+    assert news[0]["state"]["values"]["fy_n"] == -2000
+    assert news[0]["state"]["limits"]["fy_n"]["most"] >= 2000
     explorer = session(lambda e: e._asked({"mark": 1, "choose": {"edge": "exact"}}))
     assert explorer.scene.defect.edge == "exact"
 
 
-def test_reset_brings_the_preset_back(told: list[dict]) -> None:
+def test_reset_brings_the_preset_back(news: list[dict]) -> None:
     def act(explorer: Explorer) -> None:
         explorer._asked({"mark": 1, "set": {"extent_deg": 90}})
         explorer._asked({"mark": 2, "reset": True})
 
     explorer = session(act)
     assert explorer.values["extent_deg"] == pytest.approx(12.9)
-    assert told[-1]["state"]["values"]["extent_deg"] == pytest.approx(12.9)
+    assert news[-1]["state"]["values"]["extent_deg"] == pytest.approx(12.9)
 
 
 @pytest.mark.parametrize(
     ("depth_um", "words"), [(400, "more than this view can show"), (5, "could not be computed")]
 )
 def test_a_view_that_fails_says_so_and_keeps_its_picture(
-    told: list[dict], depth_um: float, words: str
+    news: list[dict], depth_um: float, words: str
 ) -> None:
     explorer = session(lambda e: e._asked({"mark": 3, "set": {"depth_um": depth_um}}))
     view = explorer._views["one"][0]
@@ -152,7 +152,7 @@ def test_a_view_that_fails_says_so_and_keeps_its_picture(
         {"set": {"n_balls": -5, "ball_diameter_mm": {}, "stiffness_x": "", "seed": "1e99"}},
     ],
 )
-def test_strangers_messages_change_nothing(told: list[dict], message: object) -> None:
+def test_strangers_messages_change_nothing(news: list[dict], message: object) -> None:
     explorer = session(lambda e: e._asked(message))
     untouched = session(lambda e: None)
     assert explorer.scene == untouched.scene
@@ -160,11 +160,11 @@ def test_strangers_messages_change_nothing(told: list[dict], message: object) ->
 
 
 @pytest.mark.parametrize("message", [None, {}, {"show": "nowhere"}, {"show": ["one"]}, 5])
-def test_strangers_tabs_do_not_exist(told: list[dict], message: object) -> None:
+def test_strangers_tabs_do_not_exist(news: list[dict], message: object) -> None:
     assert session(lambda e: e._tab_asked(message))._shown == "one"
 
 
-def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(told: list[dict]) -> None:
+def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> None:
     text = "250 0\n265 60\n280 0\n"
 
     async def live(text: str) -> Explorer:
@@ -177,21 +177,21 @@ def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(told: list[dict]) -> No
     explorer = run(live(text))
     assert explorer.scene.defect.floor is not None
     assert explorer.values["extent_deg"] == pytest.approx(30.0)
-    assert told[-1]["state"]["floor"]["words"] == "wear.txt: 3 points"
+    assert news[-1]["state"]["floor"]["words"] == "wear.txt: 3 points"
     assert drawn(explorer, "one")[-1] == pytest.approx(60e-6)
     explorer = run(live("nothing"))
     assert explorer.scene == presets["fan-rig"]
-    assert told[-1]["state"]["floor"]["bad"]
+    assert news[-1]["state"]["floor"]["bad"]
 
 
-def test_what_is_told_names_the_change_it_answers(told: list[dict]) -> None:
+def test_what_is_shown_names_the_change_it_answers(news: list[dict]) -> None:
     """The browser passes over it where a hand has moved on meanwhile."""
     session(lambda e: e._asked({"mark": 7, "typed": {"extent_deg": "20"}}))
-    assert told[-1]["state"]["mark"] == 7
+    assert news[-1]["state"]["mark"] == 7
 
 
 def test_limits_are_looked_at_when_the_hand_rests(
-    told: list[dict], monkeypatch: pytest.MonkeyPatch
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     looked: list[float] = []
     real = Results.limits.func

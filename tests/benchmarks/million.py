@@ -3,7 +3,7 @@
     python -m tests.benchmarks.million [--scenes 1000000] [--seed 1] [--processes 2]
 
 Every scene is solved at four cage angles in order. Each answer is judged in extended precision by
-`tests.independent`, which shares no code with the solver: a converged state must balance, be held
+`helpers.independent`, which shares no code with the solver: a converged state must balance, be held
 in every direction and have the right symmetric, positive semidefinite stiffness; a reason given
 instead must be true. Points of the box where an answer is wrong or missing are printed, and the
 exit code is then 1.

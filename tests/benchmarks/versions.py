@@ -28,7 +28,7 @@ TESTS = (
     "tests/bearing_explorer/server",
     "tests/bearing_explorer/test_page.py",
     "tests/bearing_explorer/test_session.py",
-    "tests/browser/test_wire.py",
+    "tests/browser/test_packed_source.py",
     "tests/browser/test_explorer.py",
 )
 

@@ -189,7 +189,7 @@ class Session:
     def _new(self) -> None:
         self.explorer = Explorer(SECTIONS)
         self.explorer._worker.stop()
-        self.explorer._rest.begin = lambda *_: None  # type: ignore[method-assign]
+        self.explorer._idle_task.begin = lambda *_: None  # type: ignore[method-assign]
 
     def make(self, random_: random.Random) -> tuple[str, Any]:
         """A handler and a message for it."""
@@ -224,7 +224,7 @@ class Session:
         assert isinstance(scene, Scene)
         self._met += 1
         if self._met % 1000 == 0:
-            views = [view(explorer.wire.__class__()) for view in SECTIONS[0].views]
+            views = [view(explorer.packed.__class__()) for view in SECTIONS[0].views]
             picture = _picture(explorer.inputs.results, views, 0.0)
             assert all(drawing.sentence != _BROKEN for drawing in picture.drawings)
         if self._met % 5000 == 0:

@@ -1,8 +1,9 @@
 """A client that acts like the page, without a browser: for benchmarks, fuzzing and serving tests.
 
 It opens the page, its websocket, takes the document, says that it is ready, and then speaks as the
-scripts of the page do: a message carries a mark, and packets of the wire come back with the mark
-of the newest change that is drawn. Packets are cut into sources and ranges as the page cuts them.
+scripts of the page do: a message carries a mark, and packets of the packed source come back with
+the mark of the newest change that is drawn. Packets are cut into sources and ranges as the page
+cuts them.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ LARGEST = 200 * 2**20  # bytes of a message that a client takes
 
 
 class PageClient:
-    """One person at the page. `on_packet(mark, seconds)` hears of each packet of the wire."""
+    """One person at the page. `on_packet(mark, seconds)` hears of each packet."""
 
     def __init__(self, url: str, on_packet: Callable[[int, float], None] | None = None) -> None:
         self.url = url if url.endswith("/") else url + "/"
@@ -211,7 +212,7 @@ class PageClient:
         if kind == "ModelChanged":
             self._look(event["new"])
             if model == self.ids["unpack"] and event["attr"] == "args":
-                self._learn_wire(_plain(event["new"]))
+                self._learn_packed_source(_plain(event["new"]))
             if event["attr"] in ("text", "line", "active", "state"):
                 self.words[model] = _plain(event["new"])
         data = event.get("data" if kind == "ColumnDataChanged" else "new")
@@ -254,10 +255,10 @@ class PageClient:
                 self.ids["packet"] = made["id"]
             if made["name"] == "CustomJS" and "__mark" in attributes.get("code", ""):
                 self.ids["unpack"] = made["id"]
-                self._learn_wire(_plain(attributes["args"]))
+                self._learn_packed_source(_plain(attributes["args"]))
 
     def _look(self, value: Any) -> None:
-        """Names of sources, which the callback of the wire lists by id; and components."""
+        """Names of sources, which the callback of the packed source lists by id; and components."""
         for made in _models(value):
             attributes = made.get("attributes", {})
             if attributes.get("name"):
@@ -268,7 +269,7 @@ class PageClient:
                 self.ids[name] = made["id"]
                 self.components[name] = _plain_map(shown.get("attributes", {}))
 
-    def _learn_wire(self, args: dict[str, Any]) -> None:
+    def _learn_packed_source(self, args: dict[str, Any]) -> None:
         columns = args["columns"]
         for index, source in enumerate(args["sources"]):
             name = self._names.get(source["id"], source["id"])

@@ -12,11 +12,11 @@ class Depth(View):
     title = "Depth"
     needs = frozenset({"equilibrium"})
 
-    def build(self, wire):
+    def build(self, packed):
         from bokeh.models import Spacer
 
         self.drawn: list[float] = []
-        self.source = wire.source(f"{self.name}", "depth")
+        self.source = packed.source(f"{self.name}", "depth")
         return Spacer()
 
     def data(self, results):

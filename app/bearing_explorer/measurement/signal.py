@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.compute.results import ComputedOnce, Results, Settings
+from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearingcore.signals.envelope_band import PIECES
 
 if TYPE_CHECKING:
@@ -204,5 +205,5 @@ def _envelope(
     return core.envelope_spectrum(signal, motion.sample_rate, (low, high), resolution)
 
 
-simulated_spectra = ComputedOnce(_spectrum, 64)
-simulated_envelopes = ComputedOnce(_envelope, 64)
+simulated_spectra = SingleFlightCache(_spectrum, 64)
+simulated_envelopes = SingleFlightCache(_envelope, 64)

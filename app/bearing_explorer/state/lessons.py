@@ -48,10 +48,11 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from bearing_explorer.assets import asset_path
+from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.quantities import QUANTITIES
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
-from bearing_explorer.state.scene_editor import FLOORS, SceneEditor
-from bearingcore import CONTACT_LAWS, EDGES, RACES, presets
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearingcore import presets
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
 """Names of the tabs, each with the names of its views."""
@@ -63,16 +64,13 @@ _LONGEST_TITLE = 90  # characters
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
-    "race": RACES,
-    "edge": EDGES,
-    "floor": tuple(floor for floor in FLOORS if floor != "measured"),
-    "law": CONTACT_LAWS,
+    choice.name: choice.in_lessons for choice in CHOICE_LIST if choice.in_lessons
 }
 """What a lesson may choose besides numbers."""
 
 DRAGGED = (
     *(quantity.name for quantity in QUANTITY_LIST if quantity.group in SCENE_GROUPS),
-    *("race", "edge", "floor"),
+    *(choice.name for choice in CHOICE_LIST if choice.beside_words),
 )
 """The controls that can stand beside the words."""
 
@@ -388,9 +386,9 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
             if scheme in ("set", "show"):
-                told = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
+                asks = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
                 token.type, closing = "html_inline", "</button>"
-                token.content = f'<button type="button" class="do" {told}>'
+                token.content = f'<button type="button" class="do" {asks}>'
             elif scheme in ("http", "https"):
                 token.attrSet("target", "_blank")
                 token.attrSet("rel", "noopener noreferrer")

@@ -53,7 +53,7 @@ class MeasuredEnvelope(FrequencyView):
         return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
 
     def band(self, measured: Measured, direction: str, passing: float) -> tuple[float, float]:
-        """The band [Hz] as chosen, or where knocks stand out; what is not told is guessed."""
+        """The band [Hz] as chosen, or where knocks stand out; what is not given is guessed."""
         low, high = self.look.band
         if low is None or high is None:
             best = measured.band(direction, passing)

@@ -19,7 +19,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import focused
@@ -77,17 +77,17 @@ class DefectSize(JobView[Sized], MeasuredView):
         "the scene; its extent is not looked at."
     )
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
         self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self.candidates = CandidateList(self._looked_at)
         self._looked: int | None = None
         self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
         self._levels = {dof: StickyRange(-80.0, -20.0, least_span=30.0) for dof in SHOWN}
-        seconds = wire.range("sizing_time", 0.0, 0.03)
-        frequency = wire.range("sizing_frequency", 0.0, 2500.0)
-        events = wire.source("sizing_events", "time", "exit", "row", "shift")
-        knocks = wire.source("sizing_knocks", "time", "shift")
+        seconds = packed.range("sizing_time", 0.0, 0.03)
+        frequency = packed.range("sizing_frequency", 0.0, 2500.0)
+        events = packed.source("sizing_events", "time", "exit", "row", "shift")
+        knocks = packed.source("sizing_knocks", "time", "shift")
         self._rows = {}
         wide: dict[str, Any] = {
             "sizing_mode": "stretch_width",
@@ -96,8 +96,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         }
         for dof in SHOWN:
             self._rows[dof] = pn.Row(
-                self._pass_plot(wire, dof, seconds, events, knocks),
-                self._spectrum_plot(wire, dof, frequency),
+                self._pass_plot(packed, dof, seconds, events, knocks),
+                self._spectrum_plot(packed, dof, frequency),
                 **wide,
             )
         self._answer_part = pn.Column(
@@ -111,13 +111,13 @@ class DefectSize(JobView[Sized], MeasuredView):
         return self.hidden
 
     def _pass_plot(
-        self, wire: Wire, dof: str, seconds: Range1d, events: Any, knocks: Any
+        self, packed: PackedSource, dof: str, seconds: Range1d, events: Any, knocks: Any
     ) -> figure:
         plot = style.house_figure(
             style.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
             style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
             seconds,
-            wire.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
+            packed.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
             height=HEIGHT,
             title=f"Mean ball pass along {dof}",
         )
@@ -127,32 +127,34 @@ class DefectSize(JobView[Sized], MeasuredView):
         plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
         words = style.words_of(events, _EDGE_WORDS)
         write_over(plot, events, words, "time", "row", style.INK, x_offset="shift")
-        self._curves(wire, plot, dof, "pass", "time", "size")
+        self._curves(packed, plot, dof, "pass", "time", "size")
         return plot
 
-    def _spectrum_plot(self, wire: Wire, dof: str, frequency: Range1d) -> figure:
+    def _spectrum_plot(self, packed: PackedSource, dof: str, frequency: Range1d) -> figure:
         plot = style.house_figure(
             FREQUENCY,
             style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
             frequency,
-            wire.range(f"sizing_level_{dof}", -80.0, -20.0),
+            packed.range(f"sizing_level_{dof}", -80.0, -20.0),
             height=HEIGHT,
             title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
         )
         color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-        bands = wire.source(f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at")
+        bands = packed.source(
+            f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at"
+        )
         plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
         words = style.words_of(bands, BAND_WORDS)
         write_over(plot, bands, words, "label_at", 0.93, color, text_align="center")
-        self._curves(wire, plot, dof, "spectrum", "frequency", "level")
+        self._curves(packed, plot, dof, "spectrum", "frequency", "level")
         return plot
 
     def _curves(
-        self, wire: Wire, plot: figure, dof: str, what: str, along: str, value: str
+        self, packed: PackedSource, plot: figure, dof: str, what: str, along: str, value: str
     ) -> None:
         color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
         for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
-            source = wire.source(f"sizing_{what}_{who}_{dof}", along, value)
+            source = packed.source(f"sizing_{what}_{who}_{dof}", along, value)
             plot.line(along, value, source=source, line_color=line, line_width=width)
 
     # The job

@@ -165,35 +165,35 @@ def crushed(scene: Scene) -> float:
     return 1e-3 * greatest
 
 
-SOUND = fan(0.0)
+HEALTHY = fan(0.0)
 E = math.radians
 
 #: what a lesson says, word for word, with every number in it computed here
 CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
     "01": [
-        ("with 100 N", (-SOUND.load.fy,)),
-        ("There are 14 balls", (SOUND.bearing.n_balls,)),
-        ("Only 4 or 5 of the 14 carry anything", (*between(loads(SOUND).loaded_balls), 14)),
-        ("a ball at the very bottom carries 39 n", (below(SOUND),)),
-        ("sinks by 6.7 µm", (sunk(SOUND),)),
-        ("first 3 µm are the clearance", (1e6 * SOUND.bearing.radial_clearance,)),
+        ("with 100 N", (-HEALTHY.load.fy,)),
+        ("There are 14 balls", (HEALTHY.bearing.n_balls,)),
+        ("Only 4 or 5 of the 14 carry anything", (*between(loads(HEALTHY).loaded_balls), 14)),
+        ("a ball at the very bottom carries 39 n", (below(HEALTHY),)),
+        ("sinks by 6.7 µm", (sunk(HEALTHY),)),
+        ("first 3 µm are the clearance", (1e6 * HEALTHY.bearing.radial_clearance,)),
         ("7 balls share and the greatest load is 31 N",
          (loads(fan(0.0, radial_clearance=0.0)).loaded_balls.max(),
           loads(fan(0.0, radial_clearance=0.0)).ball_load.max())),
         ("with 20 µm two or three balls are left to carry all of it, up to 61 N each",
          (20, loads(fan(0.0, radial_clearance=20e-6)).ball_load.max())),
         ("268 N instead of 312 N",
-         (loads(fan(0.0, fy=-800.0)).ball_load.max(), 8 * round(below(SOUND)))),
+         (loads(fan(0.0, fy=-800.0)).ball_load.max(), 8 * round(below(HEALTHY)))),
     ],
     "02": [
         ("12.9° long, 50 µm deep", (math.degrees(FAN.defect.extent), 1e6 * FAN.defect.depth)),
         ("The ball at 270°", (math.degrees(FAN.defect.center),)),
         ("pressed together by 3.7 µm, the ring follows it by 1.2 µm",
-         (sunk(SOUND) - 3.0, sunk(fan()) - sunk(SOUND))),
+         (sunk(HEALTHY) - 3.0, sunk(fan()) - sunk(HEALTHY))),
         ("About 5 µm are enough", (sunk(fan()) - 3.0,)),
-        ("4 µm leave it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(SOUND))),
+        ("4 µm leave it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(HEALTHY))),
         ("5 µm leave it nothing, and 500 µm change nothing further", (5, 500)),
-        ("45 N each instead of 29 N", (below(fan(), 1), below(SOUND, 1))),
+        ("45 N each instead of 29 N", (below(fan(), 1), below(HEALTHY, 1))),
         ("Eq. 6; where the quarter comes from is a question for lesson 6", (6, 6)),
         ("at 5° the ball meets the other edge after 42 µm", (5, drop_in_the_middle(5.0))),
         ("only from 5.5° on it comes down to 50 µm", (5.5, drop_in_the_middle(5.5))),
@@ -336,18 +336,18 @@ def test_what_lessons_say_in_words() -> None:
     np.testing.assert_allclose([below(scene, 1) for scene in deep], below(deep[0], 1), rtol=1e-9)
     assert between(loads(fan(0.0, radial_clearance=20e-6)).loaded_balls) == (2, 3)
     assert loads(fan(0.0, radial_clearance=0.0)).loaded_balls.min() == 7
-    assert loads(fan(0.0, fy=-800.0)).loaded_balls.min() > loads(SOUND).loaded_balls.max()
+    assert loads(fan(0.0, fy=-800.0)).loaded_balls.min() > loads(HEALTHY).loaded_balls.max()
     # 2: from 5.5° on the floor is reached, and at 5.4° it is not
     assert drop_in_the_middle(5.4) < 49.9
     # 3: up to 30° blue lies on grey at times, beyond it never
     for extent_deg, times in ((29.0, True), (31.0, False)):
-        damaged, sound = loads(liew_lim(extent_deg)), loads(liew_lim(0.0))
-        same = np.abs(damaged.ball_load - sound.ball_load).max(axis=1) < 1e-6
+        damaged, healthy = loads(liew_lim(extent_deg)), loads(liew_lim(0.0))
+        same = np.abs(damaged.ball_load - healthy.ball_load).max(axis=1) < 1e-6
         assert same.any() == times
     # 4
-    damaged, sound = loads(liew_lim()), loads(liew_lim(0.0))
+    damaged, healthy = loads(liew_lim()), loads(liew_lim(0.0))
     assert greatest_coupling(40.0) / greatest_coupling(0.0) == pytest.approx(11.0, abs=0.5)
-    assert min(np.abs(found.term("k_xry")).min() for found in (damaged, sound)) > 0.5e6
+    assert min(np.abs(found.term("k_xry")).min() for found in (damaged, healthy)) > 0.5e6
     tied = [f"k_{a}{b}" for a in "xy" for b in ("z", "rx", "ry")]
     assert all(not loads(fan()).term(term).any() for term in tied)
     # 6
@@ -365,7 +365,7 @@ def test_what_lessons_say_in_words() -> None:
     assert orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).residual < 1e-9
     nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
     assert not nothing.converged.any()
-    assert naive.newton(SOUND, 0.0, np.zeros(5)).failure == "singular matrix"
+    assert naive.newton(HEALTHY, 0.0, np.zeros(5)).failure == "singular matrix"
 
 
 @pytest.mark.parametrize("halfway", [False, True])

@@ -19,7 +19,7 @@ def answers(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
         "bearing_explorer.widgets.share.ShareBar.answer", lambda self, **news: given.append(news)
     )
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.tell", lambda self, **news: None
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
     )
     return given
 

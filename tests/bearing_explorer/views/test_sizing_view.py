@@ -15,7 +15,7 @@ from bearing_explorer.compute.jobs import Jobs, JobState, Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.session import Sized, read_file
 from bearing_explorer.measurement.signal import Measured, Simulated
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.frequency_lines import (
     FAMILIES,
@@ -44,7 +44,7 @@ RESULTS = Results(RIG)
 
 
 def view_of(kind, measured: Measured | None = None):
-    made = kind(Wire())
+    made = kind(PackedSource())
     made.measure(measuring(measured))
     return made
 

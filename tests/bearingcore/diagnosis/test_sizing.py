@@ -140,8 +140,8 @@ def test_what_is_no_defect_s_signal_is_not_sized():
     sized = size_defect(Recording(noise, RATE), RIG)
     assert not sized.conclusive
     assert "no lines stand out" in sized.status
-    sound = size_defect(Recording(noisy(signal_of(RIG.sound()), 20.0), RATE), RIG)
-    assert not sound.conclusive
+    healthy = size_defect(Recording(noisy(signal_of(RIG.healthy()), 20.0), RATE), RIG)
+    assert not healthy.conclusive
     elsewhere = RIG.replace(shaft_speed=1.07 * RIG.shaft_speed)
     wrong = size_defect(Recording(signal_of(RIG), RATE), elsewhere)
     assert not wrong.conclusive

@@ -167,27 +167,27 @@ def test_a_race_worn_all_round_only_shifts_the_ring() -> None:
     scene = presets["fan-rig"]
     angles = np.linspace(0.0, scene.bearing.ball_spacing, 7)
     worn = scene.replace(extent=2.0 * math.pi, depth=20e-6)
-    loose = scene.sound().replace(radial_clearance=23e-6)
+    loose = scene.healthy().replace(radial_clearance=23e-6)
     np.testing.assert_allclose(
         equilibrium(worn, angles).ball_load, equilibrium(loose, angles).ball_load, rtol=1e-9
     )
 
 
 def test_several_defects_load_the_ring_at_once() -> None:
-    """Two defects far apart: where balls stand in neither, the sound bearing's loads."""
+    """Two defects far apart: where balls stand in neither, the healthy bearing's loads."""
     scene = presets["fan-rig"]
     pair = (Defect(0.1, 50e-6, 1.5 * math.pi - 0.3), Defect(0.1, 50e-6, 1.5 * math.pi + 0.3))
     several = scene.replace(defect=pair)
-    state, sound = equilibrium(several), equilibrium(scene.sound())
+    state, healthy = equilibrium(several), equilibrium(scene.healthy())
     free = np.all(drop_into(pair, scene.bearing, state.ball_angle) == 0.0, axis=1)
     assert 0 < free.sum() < free.size
-    np.testing.assert_allclose(state.ball_load[free], sound.ball_load[free], rtol=1e-9, atol=1e-9)
-    assert np.all(np.abs(state.ball_load[~free] - sound.ball_load[~free]).max(axis=1) > 1e-3)
+    np.testing.assert_allclose(state.ball_load[free], healthy.ball_load[free], rtol=1e-9, atol=1e-9)
+    assert np.all(np.abs(state.ball_load[~free] - healthy.ball_load[~free]).max(axis=1) > 1e-3)
 
 
 @pytest.mark.parametrize("extent", [1e-6, 1e-9, 1e-320])
 def test_a_defect_may_be_tiny_and_rough(extent: float) -> None:
     """The circle of the ball is rolled no farther than the floor is long, or memory would end."""
     scene = presets["fan-rig"].replace(extent=extent, floor=RoughFloor(2e-6, 200e-6))
-    sound = equilibrium(scene.sound()).ball_load
-    np.testing.assert_allclose(equilibrium(scene).ball_load, sound, rtol=1e-3, atol=1e-3)
+    healthy = equilibrium(scene.healthy()).ball_load
+    np.testing.assert_allclose(equilibrium(scene).ball_load, healthy, rtol=1e-3, atol=1e-3)

@@ -31,10 +31,10 @@ def test_floors_several_defects_and_options_come_back() -> None:
     assert Scene.from_toml(scene.to_toml()) == scene
 
 
-def test_a_sound_scene_has_no_defect_table() -> None:
-    sound = presets["fan-rig"].sound()
-    assert sound.to_data()["defect"] == []
-    assert Scene.from_toml(sound.to_toml()).defects == ()
+def test_a_healthy_scene_has_no_defect_table() -> None:
+    healthy = presets["fan-rig"].healthy()
+    assert healthy.to_data()["defect"] == []
+    assert Scene.from_toml(healthy.to_toml()).defects == ()
 
 
 @settings(max_examples=60, derandomize=True)

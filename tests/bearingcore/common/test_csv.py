@@ -1,7 +1,8 @@
-"""The numbers behind a figure as a file."""
+"""Tables as files."""
 
 import numpy as np
-from bearing_explorer.views.base import as_csv
+
+from bearingcore.common.table import as_csv
 
 
 def test_columns_of_different_length_end_in_empty_cells() -> None:

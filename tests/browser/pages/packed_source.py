@@ -2,8 +2,10 @@
 
 import numpy as np
 import panel as pn
-from bearing_explorer.server.live import LatestWins, in_thread, on_loop, one_message, send_at_once
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.compute.executors import in_thread
+from bearing_explorer.compute.latest_wins import LatestWins
+from bearing_explorer.server.live import on_loop, one_message, send_at_once
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import View
 from bokeh.plotting import figure
 
@@ -14,11 +16,11 @@ class Line(View):
     about = "Whatever the last packet said."
     needs = frozenset()
 
-    def build(self, wire):
+    def build(self, packed):
         plot = figure(
-            width=400, height=200, y_range=wire.range("y", 0, 1), x_range=(0, 10), name="plot"
+            width=400, height=200, y_range=packed.range("y", 0, 1), x_range=(0, 10), name="plot"
         )
-        plot.line("x", "y", source=wire.source("line", "x", "y"), name="drawn")
+        plot.line("x", "y", source=packed.source("line", "x", "y"), name="drawn")
         return plot
 
     def data(self, results):
@@ -32,8 +34,8 @@ class Line(View):
         return {"height_m": np.array([results, 2.5])}
 
 
-wire = Wire()
-view = Line(wire)
+packed = PackedSource()
+view = Line(packed)
 doc = pn.state.curdoc
 nodelay = pn.pane.Str("0", css_classes=["nodelay"])
 
@@ -42,7 +44,7 @@ async def draw(value):
     data, ranges = await in_thread(view.data, float(value))
 
     def change():
-        wire.send(data, ranges, mark=value)
+        packed.send(data, ranges, mark=value)
         view.say(float(value), view.sentence(float(value)))
 
     await one_message(doc, change)
@@ -62,4 +64,4 @@ def ready():
 
 
 pn.state.onload(lambda: on_loop(doc, ready))
-pn.Column(view.panel, nodelay, pn.pane.Bokeh(wire.anchor)).servable()
+pn.Column(view.panel, nodelay, pn.pane.Bokeh(packed.anchor)).servable()

@@ -1,4 +1,4 @@
-"""The wire, the live sentence and the private names of `server.live`, in a real browser."""
+"""The packed source, the live sentence and `server.bokeh_private`, in a real browser."""
 
 from collections.abc import Iterator
 
@@ -9,14 +9,16 @@ from tests.browser.helpers import PAGES, Server, Watch, page_server, serving
 
 
 @pytest.fixture(scope="module")
-def wire_page() -> Iterator[Server]:
-    with serving(page_server(PAGES / "wire.py")) as server:
+def packed_source_page() -> Iterator[Server]:
+    with serving(page_server(PAGES / "packed_source.py")) as server:
         yield server
 
 
-def test_the_last_packet_is_drawn_whole(watch: tuple[Page, Watch], wire_page: Server) -> None:
+def test_the_last_packet_is_drawn_whole(
+    watch: tuple[Page, Watch], packed_source_page: Server
+) -> None:
     page, watching = watch
-    page.goto(wire_page.url)
+    page.goto(packed_source_page.url)
     page.wait_for_function("window.__mark == 40")
     frames = watching.frames_sent
     drawn = page.evaluate(
@@ -34,15 +36,17 @@ def test_the_last_packet_is_drawn_whole(watch: tuple[Page, Watch], wire_page: Se
     assert frames < 40, f"{frames} frames went back to the server"
 
 
-def test_the_websocket_sends_at_once(watch: tuple[Page, Watch], wire_page: Server) -> None:
+def test_the_websocket_sends_at_once(watch: tuple[Page, Watch], packed_source_page: Server) -> None:
     page, _ = watch
-    page.goto(wire_page.url)
+    page.goto(packed_source_page.url)
     expect(page.locator(".nodelay")).to_contain_text("1")
 
 
-def test_the_numbers_of_a_figure_can_be_saved(watch: tuple[Page, Watch], wire_page: Server) -> None:
+def test_the_numbers_of_a_figure_can_be_saved(
+    watch: tuple[Page, Watch], packed_source_page: Server
+) -> None:
     page, _ = watch
-    page.goto(wire_page.url)
+    page.goto(packed_source_page.url)
     page.wait_for_function("window.__mark == 40")
     with page.expect_download() as saving:
         page.get_by_role("button", name="“A line”: save the numbers").click()

@@ -2,8 +2,8 @@
 
 Every cage angle is either converged, with a relative residual of 1e-9 and a symmetric, positive
 semidefinite stiffness that holds the ring, or has a reason that is true: nothing touches, a
-direction is free, the load cannot be carried. `helpers.independent` judges, in extended precision and
-without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
+direction is free, the load cannot be carried. `helpers.independent` judges, in extended precision
+and without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Scene, presets, read_floor
-from bearingcore.signals.recording import read_table
+from bearingcore.signals.read import read_table
 from bearingcore.sweep.file import grid_from_toml
 from tests.fuzz.inputs import bytes_like, plain_value, text_like
 

@@ -59,9 +59,7 @@ class NumberTable:
     stamps: tuple[int, ...]
 
 
-def read_numbers(
-    name: str, content: bytes, *, most_numbers: int, most_columns: int
-) -> NumberTable:
+def read_numbers(name: str, content: bytes, *, most_numbers: int, most_columns: int) -> NumberTable:
     """The table in a text.
 
     Parameters
@@ -292,8 +290,10 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     first = _row(plain[0], style.delimiter)
     if first is None:
         return None
-    closed = style.delimiter is not None and len(first) > 1 and plain[0].rstrip(" ")[-1:] == (
-        style.delimiter
+    closed = (
+        style.delimiter is not None
+        and len(first) > 1
+        and plain[0].rstrip(" ")[-1:] == (style.delimiter)
     )
     width = len(first) - closed
     rows = [_row(line, style.delimiter) for line in plain]
@@ -305,9 +305,7 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
         marked = (_POINT_STAMP if style.delimiter == "," else _COMMA_STAMP).sub("?", lines[0])
         cells = _cells(marked.replace('"', ""), style.delimiter)
         stamps = tuple(index for index, cell in enumerate(cells[:width]) if cell == "?")
-    made = _Style(
-        style.delimiter, style.decimal_comma, closed, stamps, _Clock() if stamp else None
-    )
+    made = _Style(style.delimiter, style.decimal_comma, closed, stamps, _Clock() if stamp else None)
     return fits, made, width
 
 

@@ -194,7 +194,8 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
         that says which line cannot be read, or what `measured_floor` refuses.
     """
     table = read_numbers(
-        "the floor", text.encode("utf-8", "replace"), most_numbers=2 * MOST_ROWS, most_columns=64)
+        "the floor", text.encode("utf-8", "replace"), most_numbers=2 * MOST_ROWS, most_columns=64
+    )
     columns = table.columns
     if columns.shape[1] != 2:
         raise checks.refuse(

@@ -90,7 +90,9 @@ def place_in(name: str) -> str:
     for word in words:
         if word in _PLACES:
             return _PLACES[word]
-    match = re.search(r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower())
+    match = re.search(
+        r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
+    )
     return f"bearing {match[1] or match[2]}" if match else ""
 
 
@@ -120,7 +122,13 @@ def choose(columns: Sequence[Column], moving: Sequence[bool], why: str) -> Choic
         if column.role == SIGNAL and moving[index] and column.direction != "z"
     ]
     if not signals:
-        return Choice({}, "", "No column looks like a signal of acceleration.")
+        still = any(column.role == SIGNAL for column in columns)
+        words = (
+            "Every column is the same number throughout."
+            if still
+            else ("No column looks like a signal of acceleration.")
+        )
+        return Choice({}, "", words)
     places = {columns[index].place for index in signals} - {""}
     if len(places) > 1:
         told = ", ".join(sorted(places))

@@ -67,9 +67,7 @@ def known_shape(
 
 
 def _case_western(names: Sequence[str], named: Sequence[Named]) -> Known | None:
-    ends = {
-        match[1] for name in names if (match := re.fullmatch(r"X\d{3}_(DE|FE|BA)_time", name))
-    }
+    ends = {match[1] for name in names if (match := re.fullmatch(r"X\d{3}_(DE|FE|BA)_time", name))}
     if not ends:
         return None
     why = "variables named as in the Case Western Reserve collection"

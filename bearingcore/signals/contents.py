@@ -95,9 +95,7 @@ def _headed_clock(names: Sequence[str]) -> bool:
     return names[0].strip().lower() in ("hour", "hours", "h", "stunde")
 
 
-def _columns(
-    table: Table, clock: int, known: Known
-) -> tuple[tuple[Column, ...], Sampling | None]:
+def _columns(table: Table, clock: int, known: Known) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [column_of(name) for name in table.names]
     if known.places is not None:

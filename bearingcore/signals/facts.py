@@ -125,8 +125,12 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             return Finding(1.0 / step, f"“{one.name}” in the file")
     for one in named:
         if _key(one.name) == "rate" and one.value >= LEAST_RATE:
-            return Finding(one.value, f"“{one.name}” in the file, if it is that of the samples", False)
-    match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?k(hz|sps)?(?![a-z0-9])", file_name.lower())
+            return Finding(
+                one.value, f"“{one.name}” in the file, if it is that of the samples", False
+            )
+    match = re.search(
+        r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?k(hz|sps)?(?![a-z0-9])", file_name.lower()
+    )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
         return Finding(1e3 * float(match[1]), words, match[2] is not None)

@@ -21,7 +21,7 @@ MOST_SECONDS = 20
 """Of the processor."""
 
 
-class TooMuch(Exception):
+class TooMuchError(Exception):
     """The file passes a limit."""
 
 
@@ -70,7 +70,7 @@ class Reader:
         kind = _text(data.attrs.get("MATLAB_class", b""))
         if h5py.check_ref_dtype(data.dtype) is not None:
             if data.size > MOST_ELEMENTS:
-                raise TooMuch(f"over {MOST_ELEMENTS} parts")
+                raise TooMuchError(f"over {MOST_ELEMENTS} parts")
             for index, reference in enumerate(data[()].ravel()):
                 if reference:
                     inside = f"{path}{{{index + 1}}}" if data.size > 1 else path
@@ -81,7 +81,7 @@ class Reader:
         elif data.dtype.kind in "iuf" and kind != "logical" and len(data.shape) <= 2:
             self._left -= data.size
             if self._left < 0:
-                raise TooMuch("more numbers than are taken")
+                raise TooMuchError("more numbers than are taken")
             self.numbers[path] = data[()]
             self._attributes(data, path)
 
@@ -102,9 +102,9 @@ class Reader:
     def _count(self, depth: int) -> None:
         self._elements += 1
         if self._elements > MOST_ELEMENTS:
-            raise TooMuch(f"over {MOST_ELEMENTS} parts")
+            raise TooMuchError(f"over {MOST_ELEMENTS} parts")
         if depth > DEEPEST:
-            raise TooMuch(f"parts inside one another deeper than {DEEPEST}")
+            raise TooMuchError(f"parts inside one another deeper than {DEEPEST}")
 
 
 def _text(value: Any) -> str:
@@ -138,7 +138,7 @@ def answer(content: bytes, most_numbers: int) -> tuple[dict[str, Any], list[byte
         with h5py.File(io.BytesIO(content), "r") as file:
             reader = Reader(file, most_numbers)
             reader.group(file, "", 0)
-    except TooMuch as error:
+    except TooMuchError as error:
         return {"wrong": str(error)}, []
     except MemoryError:
         return {"wrong": "more in it than this server can unpack"}, []

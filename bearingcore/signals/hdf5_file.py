@@ -55,7 +55,9 @@ def read_hdf5(content: bytes, most_numbers: int) -> Variables:
     except subprocess.TimeoutExpired:
         raise ValueError(f"parts that take over {LONGEST:.0f} s to read") from None
     except OSError:
-        raise ValueError("version 7.3, for which this system starts no process to read it") from None
+        raise ValueError(
+            "version 7.3, for which this system starts no process to read it"
+        ) from None
     line, found, rest = done.stdout.partition(b"\n")
     if done.returncode != 0 or not found:
         raise ValueError("a damaged or unknown part, or more in it than can be unpacked")

@@ -181,7 +181,9 @@ class Table:
         doubts = [level_doubt(float(level)) for level in levels]
         if any(doubts):
             doubt = next(filter(None, doubts))
-            made = Recording(signal, rate, made.directions, self.name, shaft_speed, (*made.notes, doubt))
+            made = Recording(
+                signal, rate, made.directions, self.name, shaft_speed, (*made.notes, doubt)
+            )
         return made
 
     def _check_one_bearing(self, picked: Sequence[int]) -> None:
@@ -228,7 +230,9 @@ class Table:
     def _rows(self, picked: Sequence[int]) -> tuple[int, int]:
         """The rows without a jump of the time that all of the columns have."""
         sampling = self.contents.sampling
-        first, last = (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
+        first, last = (
+            (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
+        )
         missing = np.isnan(self.columns[first:last, picked]).any(axis=1)
         filled = np.flatnonzero(~missing)
         # gaps at the end are where a column is shorter than the longest

@@ -60,8 +60,8 @@ SPEEDS: Mapping[str, float] = MappingProxyType(
 _OTHERS = ("µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "kHz")
 
 _WRITTEN = {
-    "m/s²": "m/s2 m/s/s m/s^2 m/s**2 ms-2 ms^-2 ms⁻² m·s-2 m·s⁻² m*s-2 m*s^-2 mps2 m_s2 ms2 m_per_s2 "
-    "m/sec2 m/sec^2 m/sec²",
+    "m/s²": "m/s2 m/s/s m/s^2 m/s**2 ms-2 ms^-2 ms⁻² m·s-2 m·s⁻² m*s-2 m*s^-2 mps2 m_s2 ms2 "
+    "m_per_s2 m/sec2 m/sec^2 m/sec²",
     "g": "gs gn g_n g's g's grav gravity gravities gpeak grms",
     "mg": "millig milli-g mgs",
     "mm/s²": "mm/s2 mm/s^2 mm/s**2 mms-2 mm_s2 mm_per_s2 mm/sec2 mm/sec²",

@@ -30,7 +30,7 @@ MOST_HEADINGS = 100
 LONGEST_REMARK = 200
 """[characters] of a line above the numbers that are kept."""
 
-BLOCK = 2**17
+BLOCK = 2**16
 """Characters that are read without a pause for other threads."""
 
 SAMPLE = 30
@@ -84,14 +84,15 @@ def read_numbers(name: str, content: bytes, *, most_numbers: int, most_columns: 
     style, width = head.style, head.width
     if width > most_columns:
         raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
-    parts: list[NDArray[np.float64]] = []
-    numbers = 0
+    # no row is shorter than its columns; pages that are never written cost nothing
+    most = min(count + 1, most_numbers // width, len(content) // width + 1)
+    columns = np.empty((most, width))
+    rows = 0
     for first, lines in _and(head.rest, blocks):
         kept = [line for line in lines if line and not line.isspace() and line[0] not in "#%"]
         if not kept:
             continue
-        numbers += len(kept) * width
-        if numbers > most_numbers:
+        if rows + len(kept) > most:
             raise checks.refuse(
                 f"count of numbers in {name}", f"over {most_numbers}", f"at most {most_numbers}"
             )
@@ -99,8 +100,10 @@ def read_numbers(name: str, content: bytes, *, most_numbers: int, most_columns: 
         if part is None:
             number, line, what = _culprit(lines, style, width)
             raise checks.refuse(f"line {first + number} of {name}", line[:40], what)
-        parts.append(part)
-    return NumberTable(np.concatenate(parts), head.names, head.remarks, style.stamps)
+        columns[rows : rows + len(kept)] = part
+        rows += len(kept)
+    found = columns[:rows] if 2 * rows > most else columns[:rows].copy()
+    return NumberTable(found, head.names, head.remarks, style.stamps)
 
 
 # -- lines -----------------------------------------------------------------------------------------
@@ -261,10 +264,10 @@ def _row(line: str, delimiter: str | None) -> list[float] | None:
     return numbers
 
 
-def _style(lines: Sequence[str]) -> tuple[_Style, int] | None:
+def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
     """How the first line is written, and its columns; None where it holds anything but numbers.
 
-    The lines that follow are looked at where more than one way would do.
+    The lines that follow, and the headings `above`, decide where more than one way would do.
     """
     found: list[tuple[int, _Style, int]] = []
     for style in _STYLES:
@@ -272,7 +275,9 @@ def _style(lines: Sequence[str]) -> tuple[_Style, int] | None:
             continue
         made = _fitted(style, lines)
         if made is not None:
-            found.append(made)
+            fits, full, width = made
+            headed = width > 1 and len(_cells(above, style.delimiter)) == width
+            found.append((fits + headed * len(lines), full, width))
     if not found:
         return None
     most = max(fits for fits, _, _ in found)
@@ -351,7 +356,7 @@ def _head(name: str, blocks: Iterator[tuple[int, list[str]]]) -> _Head:
             sample = [
                 one for one in lines[index : index + SAMPLE] if one.strip() and one[0] not in "#%"
             ]
-            found = _style(sample)
+            found = _style(sample, remarks[-1] if remarks else "")
             if found is not None:
                 style, width = found
                 style, width = _one_column(style, width, sample, remarks)

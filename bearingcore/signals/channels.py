@@ -56,7 +56,10 @@ class Column:
 
 @dataclass(frozen=True)
 class Choice:
-    """The columns of this bearing: by direction, with the reason; or the question to ask."""
+    """The columns of this bearing by direction, and the reason.
+
+    Where there is a question the columns are no more than a guess, or none.
+    """
 
     columns: Mapping[str, int]
     reason: str
@@ -102,7 +105,9 @@ def words_of(heading: str) -> set[str]:
     return {word for word in re.split(r"[^a-z0-9]+", bare) if word}
 
 
-def choose(columns: Sequence[Column], moving: Sequence[bool], why: str) -> Choice:
+def choose(
+    columns: Sequence[Column], moving: Sequence[bool], why: str, file_name: str = ""
+) -> Choice:
     """The columns that are likely this bearing's, or the question which they are.
 
     Sensors at several places are never taken for several directions.
@@ -115,6 +120,8 @@ def choose(columns: Sequence[Column], moving: Sequence[bool], why: str) -> Choic
         whether each holds a signal at all.
     why
         the directions of the columns are known.
+    file_name
+        which may say which place it is about.
     """
     signals = [
         index
@@ -132,9 +139,12 @@ def choose(columns: Sequence[Column], moving: Sequence[bool], why: str) -> Choic
     places = {columns[index].place for index in signals} - {""}
     if len(places) > 1:
         told = ", ".join(sorted(places))
-        return Choice(
-            {}, "", f"The file holds signals of several places ({told}). Which is at this bearing?"
-        )
+        question = f"The file holds signals of several places ({told}). Which is at this bearing?"
+        place = place_in(file_name)
+        there = [index for index in signals if columns[index].place == place]
+        if place and len(there) == 1:
+            return Choice({"y": there[0]}, f"the file's name says {place}", question)
+        return Choice({}, "", question)
     named = {
         axis: next((i for i in signals if columns[i].direction == axis), None)
         for axis in ("x", "y")

@@ -75,7 +75,7 @@ def contents_of(table: Table) -> FileContents:
         column.role == SIGNAL and _moves(table.columns[:, index])
         for index, column in enumerate(columns)
     ]
-    choice = choose(columns, moving, "as the headings say" if not known.directions else known.why)
+    choice = choose(columns, moving, known.why or "as the headings say", table.name)
     picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     said = {**{one.name: _text(one) for one in named}, **table.texts}

@@ -149,10 +149,10 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if "rpm" in key or (one.unit == "rpm" and key in _SPEEDS | {"n"}):
             found.append(Finding(value * SPEEDS["rpm"], words))
         elif key in _FREQUENCIES:
-            unit = one.unit if one.unit in SPEEDS else "Hz"
+            unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
             found.append(Finding(value * SPEEDS[unit], words))
         elif key in _SPEEDS:
-            if one.unit in SPEEDS:
+            if one.unit is not None and one.unit in SPEEDS:
                 found.append(Finding(value * SPEEDS[one.unit], words))
             else:
                 unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
@@ -176,7 +176,7 @@ def load_in(named: Sequence[Named]) -> Finding[float] | None:
     for one in named:
         key = _key(one.name)
         unit = one.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
-        if key in _LOADS and unit in FORCES and math.isfinite(one.value):
+        if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(one.value):
             return Finding(one.value * FORCES[unit], f"“{one.name}” in the file")
     return None
 

@@ -101,16 +101,14 @@ def questions(table: Table) -> dict[str, str]:
     """What a person has to answer before the signal can be taken, by field."""
     contents = table.contents
     asked: dict[str, str] = {}
-    if contents.choice.question:
-        asked["y"] = contents.choice.question
+    choice = contents.choice
+    if choice.question:
+        asked["y"] = choice.question + (f" A guess: {choice.reason}." if choice.columns else "")
     rate = contents.sample_rate
     if rate is not None and not rate.told:
         trouble = contents.sampling.trouble if contents.sampling is not None else ""
-        asked["sample_rate"] = " ".join(
-            filter(
-                None, (trouble, f"Is {rate.value:.6g} Hz the sample rate? The file does not say.")
-            )
-        )
+        question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
+        asked["sample_rate"] = f"{trouble} {question}".strip()
     return asked
 
 

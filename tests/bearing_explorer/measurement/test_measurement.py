@@ -242,7 +242,7 @@ def test_sensors_at_several_places_are_asked_about_and_never_mixed():
     assert not made.state.bad
     assert set(made.state.open) == {"y", "sample_rate"}
     assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
-    assert "12000 Hz" in made.state.reasons["sample_rate"]
+    assert "Is 12000 Hz the sample rate? A guess: “12k”" in made.state.reasons["sample_rate"]
     assert "X105RPM" in made.state.reasons["shaft_speed"]
     assert made.state.columns[1] == ["0", "X105_DE_time (drive end)"]
     answer(made, x="1", y="0")

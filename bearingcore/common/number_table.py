@@ -134,6 +134,9 @@ def _blocks(name: str, content: bytes) -> Iterator[tuple[int, list[str]]]:
     while block := text.read(BLOCK):
         if block[-1] != "\n":
             block += text.readline(LONGEST_LINE + 1)
+        if block.isspace() and len(block) > 2:
+            first += block.count("\n")  # a file may be nothing else
+            continue
         lines = block.split("\n")
         if not lines[-1]:
             lines.pop()
@@ -181,7 +184,9 @@ class _Clock:
             except ValueError:
                 return stamp[0]  # a day that is in no calendar is no number either
             self._told = second, whole
-        return repr(whole + float("0." + part[1:])) if part else str(whole)
+        if part and whole < 0:
+            return repr(whole + float(f"0.{part[1:]}"))
+        return f"{whole}.{part[1:]}" if part else str(whole)
 
     def _whole(self, text: str) -> int:
         """Whole seconds since the first stamp."""
@@ -461,15 +466,21 @@ def _numbers(
 
 
 def _mended(lines: Sequence[str], delimiter: str | None, width: int) -> list[str]:
-    """The lines with NaN in their gaps, without empty cells at the end."""
-    between = delimiter or " "
-    made = []
-    for line in lines:
-        cells = _cells(line, delimiter)
-        if len(cells) == width + 1 and not cells[-1]:
-            cells.pop()
-        made.append(between.join([cell or "nan" for cell in cells]))
-    return made
+    """The lines with NaN in their gaps, without an empty cell more than there are columns."""
+    if delimiter is None:
+        return list(lines)  # blanks in a row are one
+    text = "\n".join(
+        [
+            line[:-1] if line.endswith(delimiter) and line.count(delimiter) == width else line
+            for line in lines
+        ]
+    )
+    if " " in text:
+        text = re.sub(rf" *([{delimiter}\n]) *", r"\1", text)
+    gap = f"{delimiter}nan{delimiter}"
+    text = f"\n{text}\n".replace(2 * delimiter, gap).replace(2 * delimiter, gap)
+    text = text.replace(f"\n{delimiter}", f"\nnan{delimiter}")
+    return text.replace(f"{delimiter}\n", f"{delimiter}nan\n")[1:-1].split("\n")
 
 
 def _culprit(lines: Sequence[str], style: _Style, width: int) -> tuple[int, str, str]:

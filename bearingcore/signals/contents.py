@@ -176,12 +176,13 @@ def _unit(
 def _unit_by_level(signals: NDArray[np.float64]) -> Finding[str]:
     """The unit in which signals are more like those of bearings."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
-    means = np.abs(finite.mean(axis=0))
-    level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
+    with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
+        means = np.abs(finite.mean(axis=0))
+        level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
     for unit, gravity in (("g", 1.0), ("m/s²", STANDARD_GRAVITY)):
         if np.any((np.abs(means / gravity - 1.0) < GRAVITY_SHARE) & (level < gravity)):
             return Finding(unit, f"a mean of {means.max():.3g} is gravity in {unit}", False)
-    if level <= 0.0:
+    if not 0.0 < level < np.inf:
         return Finding("m/s²", "nothing says it", False)
     strays = {
         unit: abs(float(np.log(level * ACCELERATIONS[unit] / USUAL_LEVEL)))

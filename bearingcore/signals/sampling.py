@@ -63,7 +63,10 @@ def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
     n = len(time)
     if not np.isfinite(time).all():
         return Sampling(None, False, 0, n, "There are gaps in the time column.")
-    steps = np.diff(time)
+    with np.errstate(over="ignore"):
+        steps = np.diff(time)
+    if not np.isfinite(steps).all():
+        return Sampling(None, False, 0, n, "The time column is out of all bounds.")
     if n < 3 or not (steps > 0.0).any():
         return Sampling(None, False, 0, n, "The time column does not rise.")
     even = _even(time)
@@ -168,7 +171,8 @@ def _jumps(
 ) -> str:
     """What is said of jumps; where rows share times nobody knows how many samples are missing."""
     back = int((steps[jumps] <= 0.0).sum())
-    missing = float(np.maximum(np.round(steps[jumps] / usual) - 1.0, 0.0).sum())
+    with np.errstate(over="ignore"):
+        missing = float(np.maximum(np.round(steps[jumps] / usual) - 1.0, 0.0).sum())
     times = "once" if jumps.size == 1 else f"{jumps.size} times"
     told = f"The times jump {times}, first after row {jumps[0] + 1}"
     remarks = []

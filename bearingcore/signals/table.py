@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -152,39 +153,45 @@ class Table:
         rate, notes = self._rate(sample_rate)
         first, last = self._rows(picked)
         signal = self.columns[first:last, picked] * scale
-        for index, name in enumerate(units):
-            signal[:, index] *= UNITS[name]
-        kinds = [kind_of(name) for name in units]
-        for index, kind in enumerate(kinds):
-            if kind == "voltage":
-                signal[:, index] /= checks.number(
-                    "sensitivity",
-                    np.nan if sensitivity is None else sensitivity,
-                    above=0.0,
-                    unit="V/(m/s²)",
-                )
-        if "velocity" in kinds and np.isfinite(signal).all() and len(signal) >= FEWEST_SAMPLES:
-            for index, kind in enumerate(kinds):
-                if kind == "velocity":
-                    signal[:, [index]] = differentiated(signal[:, [index]], rate)
-            notes.append(
-                "A velocity was differentiated. What its recorder left out (often all above 1 kHz) "
-                "is not in it."
-            )
+        with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
+            notes += self._to_acceleration(signal, units, rate, sensitivity)
         speed = contents.shaft_speed
         if shaft_speed is None and speed is not None and speed.told:
             shaft_speed = speed.value
         made = Recording(
             signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes))
         )
-        levels = made.acceleration.std(axis=0)
-        doubts = [level_doubt(float(level)) for level in levels]
-        if any(doubts):
-            doubt = next(filter(None, doubts))
-            made = Recording(
-                signal, rate, made.directions, self.name, shaft_speed, (*made.notes, doubt)
-            )
-        return made
+        with np.errstate(over="ignore"):
+            levels = made.acceleration.std(axis=0)
+        doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
+        return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
+
+    def _to_acceleration(
+        self,
+        signal: NDArray[np.float64],
+        units: Sequence[str],
+        rate: float,
+        sensitivity: float | None,
+    ) -> list[str]:
+        """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
+        notes = []
+        for index, unit in enumerate(units):
+            signal[:, index] *= UNITS[unit]
+            if kind_of(unit) == "voltage":
+                signal[:, index] /= checks.number(
+                    "sensitivity",
+                    np.nan if sensitivity is None else sensitivity,
+                    above=0.0,
+                    unit="V/(m/s²)",
+                )
+            elif kind_of(unit) == "velocity" and len(signal) >= FEWEST_SAMPLES:
+                if np.isfinite(signal[:, index]).all():
+                    signal[:, [index]] = differentiated(signal[:, [index]], rate)
+                notes = [
+                    "A velocity was differentiated. What its recorder left out (often all above "
+                    "1 kHz) is not in it."
+                ]
+        return notes
 
     def _check_one_bearing(self, picked: Sequence[int]) -> None:
         places = {self.contents.columns[i].place: self.names[i] for i in picked}

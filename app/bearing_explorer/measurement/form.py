@@ -214,6 +214,12 @@ def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]
             f"These are sensors at two places ({' and '.join(sorted(places))}), not two directions "
             "of one bearing: choose one place."
         )
+    units = {column.unit for column in columns.values()} - {None}
+    if len(units) > 1:
+        refused["x"] = (
+            f"The headings give two units ({' and '.join(sorted(map(str, units)))}): choose one of "
+            "these columns."
+        )
     for name, column in columns.items():
         if column.unit is not None and column.unit not in UNITS:
             refused[name] = f"“{_short(column.name)}” is in {column.unit}: no acceleration."

@@ -297,6 +297,14 @@ def test_a_velocity_is_differentiated_and_never_taken_as_an_acceleration():
     assert "says mm/s, which is no acceleration" in made.state.refused["unit"]
 
 
+def test_columns_in_two_units_are_not_read_in_one():
+    made = brought("two.csv", csv_of(NOISE, "time,x [g],y [m/s²]"))
+    assert made.measured is None
+    assert "two units (g and m/s²)" in made.state.refused["x"]
+    answer(made, x="", unit="m/s²")
+    assert made.measured is not None
+
+
 def test_a_gap_is_told_and_a_rounded_time_asks_for_its_rate():
     rows = np.delete(np.arange(2000), slice(700, 720))
     lines = [f"{row / 1e4:.7g},{NOISE[row, 0]:.6g}" for row in rows]

@@ -1,0 +1,1 @@
+"""Measured and simulated signals: their state, their whitening and their envelopes."""

@@ -64,11 +64,17 @@ OTHER_MARGIN = 2.5
 SIDEBAND_MARGIN = 2.0
 """[dB] above their surroundings that the sidebands of a turning part have on average."""
 
+SIDEBAND_LEAD = 6.0
+"""[dB] by which sidebands that the part does not make may be stronger than those it does."""
+
+SIDEBAND_REACH = 25.0
+"""[dB] below the lines themselves down to which sidebands are expected."""
+
 LEAST_DEPTH = 0.03
 """Share of its mean by which the envelope swings at each line of a damaged part. Healthy bearings
 show their lines too, by 1 or 2 %."""
 
-ENOUGH_POWER = 0.15
+ENOUGH_POWER = 0.08
 """The swing that must be visible before the absence of lines means anything."""
 
 FEWEST_PASSES = 12
@@ -85,6 +91,16 @@ NARROWEST = 16.0
 
 WHITENING = 3.0
 """Turns of the shaft a second over which a signal is whitened."""
+
+FAINT = 1.0
+"""[dB] above the level of noise from which lines, too faint to name a part, forbid to call it
+healthy."""
+
+NARROW = 1.3
+"""A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
+
+SHAFT_MARGIN = 6.0
+"""[dB] by which the shaft's lines at one speed must stand above those at another."""
 
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 """[rad/s] between which an unknown shaft is looked for."""
@@ -261,17 +277,35 @@ def _unfit(signal: _Signal, parts: Sequence[PartLines], shaft: float) -> str | N
     return None
 
 
-def _judge(
-    signal: _Signal, parts: Sequence[PartLines], shaft: float, slip: float
-) -> _Judged:
+def _judge(signal: _Signal, parts: Sequence[PartLines], shaft: float, slip: float) -> _Judged:
+    """The best combs of the parts at a speed [Hz], compared."""
+    combs, resolutions = _most_telling(signal, parts, shaft, slip, known_speed=True)
+    return _compare(signal, combs, resolutions, parts, slip)
+
+
+def _most_telling(
+    signal: _Signal, parts: Sequence[PartLines], shaft: float, slip: float, known_speed: bool
+) -> tuple[Combs, list[Combs]]:
+    """The combs at the resolution where one stands highest above noise, and at all of them."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
     envelopes = signal.heard(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
     for turns in TURNS:
-        resolutions.append(listen(envelopes, parts, shaft, True, slip, turns))
+        resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns))
         if turns / shaft >= signal.duration:
             break  # longer segments than the signal are the same again
-    combs = max(resolutions, key=excess)
+    return max(resolutions, key=excess), resolutions
+
+
+def _compare(
+    signal: _Signal,
+    combs: Combs,
+    resolutions: Sequence[Combs],
+    parts: Sequence[PartLines],
+    slip: float,
+) -> _Judged:
+    """How the combs of the parts stand against noise, each other and everything else."""
+    shaft = combs.shaft
     ranked = sorted(combs.found, key=lambda found: -found.level)
     best = ranked[0]
     # a part whose lines are multiples of the best one's has them for free
@@ -334,9 +368,12 @@ def _above_sidebands(combs: Combs, best: Found, cage: float) -> float:
         return float(np.mean([side[:near].mean() for side in beside(one, at, spacing)]))
 
     shaft_level, cage_level = mean(combs.shaft), mean(cage)
-    if best.lines.part == INNER:
-        return min(shaft_level, shaft_level - cage_level + 6.0) - SIDEBAND_MARGIN
-    return min(cage_level, cage_level - shaft_level + 6.0) - SIDEBAND_MARGIN
+    own, other = (
+        (shaft_level, cage_level) if best.lines.part == INNER else (cage_level, shaft_level)
+    )
+    return min(
+        own - SIDEBAND_MARGIN, own - other + SIDEBAND_LEAD, own - best.level + SIDEBAND_REACH
+    )
 
 
 def _evidence(combs: Combs, found: Found, cage: float) -> PartEvidence:
@@ -374,7 +411,8 @@ def _detectable(combs: Combs, signal: _Signal) -> float:
     return float(np.median(widest.levels.floor)) * math.sqrt(max(needed, 0.0))
 
 
-def _decide(signal: _Signal, judged: _Judged, shaft: float, source: str) -> Diagnosis:
+def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) -> Diagnosis:
+    """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
     own, other = judged.own, judged.other
     others_stand_out = other.level - judged.combs.noise >= NOISE_MARGIN
     fault, chance = CANNOT_TELL, _likely(judged)
@@ -383,6 +421,8 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float, source: str) -> Diag
         status = say.damaged(own, judged.combs)
     elif judged.seen:
         status = say.undecided(judged, PART_MARGIN, OTHER_MARGIN)
+    elif judged.above_noise >= FAINT and own.depth >= LEAST_DEPTH:
+        status = say.faint(own)
     elif others_stand_out and _deep(judged):
         status = say.unexplained(other)
     elif signal.dropped > MUCH_DROPPED:
@@ -393,7 +433,7 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float, source: str) -> Diag
         status = say.weak(judged.detectable, signal.duration)
     else:
         fault, chance = NONE_SEEN, _unharmed(judged)
-        status = say.healthy(judged.detectable, shaft)
+        status = say.healthy(judged.detectable)
     one = judged.combs.heard[judged.best.place]
     frequency = one.levels.step * np.arange(len(one.levels.level))
     return Diagnosis(
@@ -401,7 +441,7 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float, source: str) -> Diag
         probability=chance,
         status=status + say.speed(shaft, source),
         evidence=judged.evidence,
-        shaft_speed=2.0 * math.pi * shaft,
+        shaft_speed=None if shaft is None else 2.0 * math.pi * shaft,
         speed_source=source,
         other=other if others_stand_out else None,
         detectable_depth=judged.detectable,
@@ -449,9 +489,66 @@ def _silent(status: str, source: str, shaft: float | None = None) -> Diagnosis:
 def _in_range(
     signal: _Signal, bearing: Bearing, low: float, high: float, slip: float, source: str
 ) -> Diagnosis:
-    """The diagnosis at a speed that lies between two [Hz]: it is looked for."""
+    """The diagnosis at a speed that lies between two [Hz]: it is looked for.
+
+    The strongest comb in the signal may be of each part that has its line there at some speed of
+    the range. Which it is, the shaft's own lines at that speed decide.
+    """
     parts = part_lines(bearing)
-    refused = _unfit(signal, parts, low)
-    if refused is not None and _unfit(signal, parts, high) is not None:
+    refused = _unfit(signal, parts, low) or _unfit(signal, parts, high)
+    if refused is not None:
         return _silent(refused, source)
-    raise NotImplementedError
+    middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
+    combs = _most_telling(signal, parts, middle, reach, known_speed=False)[0]
+    strongest = max(combs.found, key=lambda found: found.level)
+    if strongest.level - combs.noise < NOISE_MARGIN:
+        return _decide(signal, _compare(signal, combs, [combs], parts, reach), None, source)
+    hypotheses = [
+        _Hypothesis.at(signal, parts, lines, strongest.frequency / lines.order, slip)
+        for lines in parts
+        if low * (1.0 - slip) <= strongest.frequency / lines.order <= high * (1.0 + slip)
+    ]
+    hypotheses.sort(key=lambda one: -one.shaft.excess)
+    first = hypotheses[0]
+    rival = next((one for one in hypotheses[1:] if one.holds), None)
+    narrow = high <= NARROW * low
+    told = (
+        first.shaft.clear or (narrow and len(hypotheses) == 1)
+    ) and (rival is None or first.shaft.excess >= rival.shaft.excess + SHAFT_MARGIN)
+    if told:
+        found = "its own lines" if first.shaft.clear else f"the lines of the {first.lines.part}"
+        return _decide(signal, first.judged, first.speed, f"found by {found}")
+    status = say.which_speed(strongest.frequency, [(h.lines.part, h.speed) for h in hypotheses])
+    decided = _decide(signal, first.judged, first.speed, source)
+    return replace(decided, fault=CANNOT_TELL, status=status, probability=1.0 / len(hypotheses),
+                   shaft_speed=None)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Hypothesis:
+    """That a comb is a part's: the speed that follows, and what speaks for it."""
+
+    lines: PartLines
+    speed: float
+    shaft: ShaftLines
+    judged: _Judged
+
+    @classmethod
+    def at(
+        cls,
+        signal: _Signal,
+        parts: Sequence[PartLines],
+        lines: PartLines,
+        speed: float,
+        slip: float,
+    ) -> _Hypothesis:
+        """What follows if a part turns at a speed [Hz]."""
+        shaft = signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip))
+        if shaft.clear:
+            speed = shaft.frequency
+        return cls(lines, speed, shaft, _judge(signal, parts, speed, slip))
+
+    @property
+    def holds(self) -> bool:
+        """Whether the part would be named at that speed."""
+        return self.judged.margin >= 0.0 and self.judged.best.lines.part == self.lines.part

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from bearingcore.diagnosis.evidence import OtherLines, PartEvidence
@@ -89,7 +90,7 @@ def weak(detectable: float, duration: float) -> str:
     )
 
 
-def healthy(detectable: float, shaft: float) -> str:
+def healthy(detectable: float) -> str:
     """None seen."""
     return (
         "No damage seen on outer race, inner race or balls: their lines do not stand out, and "
@@ -97,6 +98,26 @@ def healthy(detectable: float, shaft: float) -> str:
     )
 
 
-def speed(shaft: float, source: str) -> str:
+def faint(own: PartEvidence) -> str:
+    """Lines too faint to name a part."""
+    return (
+        f"Cannot tell: faint lines lie where damage on the {own.part} would have them "
+        f"({own.frequency:.1f} Hz, {own.level:.0f} dB above what surrounds them; noise reaches "
+        f"{own.noise:.0f} dB). Measure again, longer or nearer to the bearing."
+    )
+
+
+def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
+    """Knocks, but the speed decides whose they are."""
+    ways = " or ".join(f"the {part} at {60.0 * speed:.0f}" for part, speed in readings)
+    return (
+        f"Cannot tell: knocks repeat {frequency:.1f} times a second, which may be {ways} turns a "
+        "minute. Tell the shaft speed."
+    )
+
+
+def speed(shaft: float | None, source: str) -> str:
     """On what speed it rests."""
+    if shaft is None:
+        return f" No shaft speed is known ({source})."
     return f" Shaft speed {60.0 * shaft:.0f} turns a minute ({source})."

@@ -155,7 +155,10 @@ def listen(
         heard.append(Listened(direction, envelope.band, envelope.kurtosis, levels, cleared))
     duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
     resolution = 1.0 / min(segment, duration)
-    frequency = np.arange(LOWEST_ORDER * shaft, 1.25 * top * shaft, resolution / FINENESS)
+    slowest = 0.9 * min(lines.order for lines in parts) * (1.0 - slip)
+    frequency = np.arange(
+        min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
+    )
     level = np.stack(
         [comb_level(harmonics(one.cleared, one.levels.step, frequency)) for one in heard]
     )

@@ -1,20 +1,22 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
 
-from bearingcore.bearing import Bearing
-from bearingcore.defect import EDGES, RACES, Defect
-from bearingcore.envelope_band import impulsive_band
-from bearingcore.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
-from bearingcore.floor import MeasuredFloor, RoughFloor, read_floor
-from bearingcore.maps import Maps, stiffness_maps
-from bearingcore.modes import Modes, contact_damping, modes
-from bearingcore.motion import Motion, simulate
-from bearingcore.orbit import Orbit, orbit
-from bearingcore.presets import preset_notes, presets
-from bearingcore.recording import Recording, Table, read_table
-from bearingcore.scene import CONTACT_LAWS, DOF_NAMES, Load, Scene, Support
-from bearingcore.sizing import Candidate, Sizing, size_defect
-from bearingcore.spectrum import Spectrum, envelope_spectrum, spectrum
-from bearingcore.validity import Limit, limits
+from bearingcore.diagnosis.sizing import Candidate, Sizing, size_defect
+from bearingcore.dynamics.modes import Modes, contact_damping, modes
+from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.dynamics.orbit import Orbit, orbit
+from bearingcore.model.bearing import Bearing
+from bearingcore.model.defect import EDGES, RACES, Defect
+from bearingcore.model.floor import MeasuredFloor, RoughFloor, read_floor
+from bearingcore.model.load import Load
+from bearingcore.model.presets import preset_notes, presets
+from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Scene
+from bearingcore.model.support import Support
+from bearingcore.signals.envelope_band import impulsive_band
+from bearingcore.signals.recording import Recording, Table, read_table
+from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
+from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
+from bearingcore.statics.maps import Maps, stiffness_maps
+from bearingcore.statics.validity import Limit, limits
 from bearingcore.warm_up import warm
 
 __all__ = [

@@ -2057,7 +2057,7 @@ def march_smooth_with_tangent(
 
 # -------------------------------------------------- other ways to march, to compare with the above
 #
-# These are measured beside the marches above (bearingcore.precision); of them only the adaptive one
+# These are measured beside the marches above (experiments); of them only the adaptive one
 # is also used, for contacts without tension. Numbers of a scene travel packed as above.
 
 

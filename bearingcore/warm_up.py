@@ -11,12 +11,12 @@ from collections.abc import Callable
 import numpy as np
 
 from bearingcore import kernels
-from bearingcore.maps import stiffness_maps
-from bearingcore.modes import modes
-from bearingcore.motion import Motion, march_from, simulate
-from bearingcore.presets import presets
-from bearingcore.scene import Scene
-from bearingcore.spectrum import spectrum
+from bearingcore.dynamics.modes import modes
+from bearingcore.dynamics.motion import Motion, march_from, simulate
+from bearingcore.model.presets import presets
+from bearingcore.model.scene import Scene
+from bearingcore.signals.spectrum import spectrum
+from bearingcore.statics.maps import stiffness_maps
 
 Report = Callable[[str], object]
 Tasks = tuple[tuple[str, Callable[[], object]], ...]

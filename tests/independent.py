@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from bearingcore import DOF_NAMES, Equilibrium, Scene, kernels
-from bearingcore.carrying import way_out
+from bearingcore.statics.load_capacity import way_out
 
 Long = np.longdouble
 Array = NDArray[np.floating]

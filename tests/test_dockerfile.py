@@ -10,7 +10,7 @@ import json
 import re
 from pathlib import Path
 
-from app.__main__ import options
+from bearing_explorer.__main__ import options
 
 ROOT = Path(__file__).resolve().parents[1]
 TEXT = (ROOT / "Dockerfile").read_text(encoding="utf-8")
@@ -41,7 +41,7 @@ def test_what_is_copied_is_there_and_is_all_that_the_package_is_made_of() -> Non
     included = re.search(r"force-include\]\n\"(\w+)\"", project)
     assert packages is not None
     assert included is not None
-    for name in (*re.findall(r'"(\w+)"', packages[1]), included[1], "LICENSE", "README.md"):
+    for name in (*re.findall(r'"(\w+)', packages[1]), included[1], "LICENSE", "README.md"):
         assert name in copied, name
 
 

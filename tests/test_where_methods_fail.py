@@ -23,7 +23,7 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from bearingcore.orbit import orbit
+from bearingcore.dynamics.orbit import orbit
 from tests import naive
 from tests.independent import Balls, verdict
 

@@ -1,1 +1,1 @@
-"""Which part of a bearing is damaged: what can be told from a signal, and no more."""
+"""From a measured signal to the machine: which part is damaged, and how large the defect is."""

@@ -1,1 +1,1 @@
-"""Measured and simulated signals: their state, their whitening and their envelopes."""
+"""Signals as such, measured or simulated: reading, spectra, envelopes, averages."""

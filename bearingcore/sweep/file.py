@@ -2,7 +2,7 @@
 
 ::
 
-    ... the scene, as `bearingcore.scene_file` has it ...
+    ... the scene, as `bearingcore.model.scene_file` has it ...
 
     [sweep]
     outputs = ["k_yy_mean", "loaded_balls_*", "band_*"]
@@ -20,14 +20,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import tomllib
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from bearingcore import checks
-from bearingcore.scene_file import LARGEST_TEXT, scene_from_data
+from bearingcore.common import checks
+from bearingcore.model import scene_file
+from bearingcore.model.scene import Scene
 from bearingcore.sweep.grid import MOST_AXES, MOST_VALUES, Grid
 from bearingcore.sweep.outputs import Settings
 
@@ -44,23 +43,18 @@ def grid_from_toml(text: str) -> Grid:
     ValueError
         that names the table and field, what stands there and what is allowed.
     """
-    if len(text) > LARGEST_TEXT:
-        raise checks.refuse("length of the text", len(text), f"at most {LARGEST_TEXT} characters")
-    try:
-        data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise ValueError(f"the text is not TOML: {error}") from None
-    asked = _table("sweep", data.pop("sweep", None))
-    scene = scene_from_data(data)
+    data = scene_file.from_toml(text)
+    asked = scene_file.table("sweep", data.pop("sweep", None))
+    scene = Scene.from_data(data)
     for name in asked:
         if name not in _FIELDS:
-            raise checks.refuse("field of sweep", _short(name), ", ".join(_FIELDS))
+            raise checks.refuse("field of sweep", scene_file.short(name), ", ".join(_FIELDS))
     outputs = asked.get("outputs")
     if not isinstance(outputs, list) or not all(isinstance(name, str) for name in outputs):
-        raise checks.refuse("outputs of sweep", _short(outputs), "a list of names")
+        raise checks.refuse("outputs of sweep", scene_file.short(outputs), "a list of names")
     if len(outputs) > 1000:
         raise checks.refuse("number of outputs of sweep", len(outputs), "at most 1000")
-    over = _table("over of sweep", asked.get("over"))
+    over = scene_file.table("over of sweep", asked.get("over"))
     if len(over) > MOST_AXES:
         raise checks.refuse("number of fields in over", len(over), f"at most {MOST_AXES}")
     values = {name: _values(name, given) for name, given in over.items()}
@@ -72,10 +66,14 @@ def _values(name: str, given: Any) -> list[Any]:
     """A list as it stands, or the values of a range, both ends included."""
     if isinstance(given, list):
         return given
-    span = _table(f"{_short(name)} in over", given, "a list, or {start, stop, num}")
+    span = scene_file.table(
+        f"{scene_file.short(name)} in over", given, "a list, or {start, stop, num}"
+    )
     if set(span) != set(_RANGE):
         raise checks.refuse(
-            f"fields of {_short(name)} in over", sorted(span), ", ".join(_RANGE) + ", all three"
+            f"fields of {scene_file.short(name)} in over",
+            sorted(span),
+            ", ".join(_RANGE) + ", all three",
         )
     num = checks.whole_number(f"num of {name}", span["num"], at_least=1, at_most=MOST_VALUES)
     start, stop = (
@@ -90,16 +88,5 @@ def _values(name: str, given: Any) -> list[Any]:
 def _number(name: str, value: Any) -> Any:
     """`value` if TOML has it as a number: text that reads like one is not."""
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise checks.refuse(name, _short(value), "a number")
+        raise checks.refuse(name, scene_file.short(value), "a number")
     return value
-
-
-def _table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:
-    if not isinstance(data, Mapping):
-        raise checks.refuse(name, "missing" if data is None else _short(data), allowed)
-    return dict(data)
-
-
-def _short(value: object) -> str:
-    text = value if isinstance(value, str) else repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import checks
-from bearingcore.defect import Defect
-from bearingcore.scene import DOF_NAMES, Scene
+from bearingcore.common import checks
+from bearingcore.model.defect import Defect
+from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.sweep.outputs import (
     MODE,
     MODES,

@@ -13,14 +13,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import checks, kernels
-from bearingcore.equilibrium import STIFFNESS_TERMS, TERM_INDICES, default_cage_angles, equilibrium
-from bearingcore.maps import stiffness_maps
-from bearingcore.modes import modes_at
-from bearingcore.motion import simulate
-from bearingcore.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
-from bearingcore.scene import DOF_NAMES, Scene
-from bearingcore.speed_run import SETTLING
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.dynamics.modes import modes_at
+from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
+from bearingcore.dynamics.speed_run import SETTLING
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.equilibrium import (
+    STIFFNESS_TERMS,
+    TERM_INDICES,
+    default_cage_angles,
+    equilibrium,
+)
+from bearingcore.statics.maps import stiffness_maps
 
 Array = NDArray[np.float64]
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bearingcore import checks
-from bearingcore.precision.points import Progress
-from bearingcore.scene import Scene
+from bearingcore.common import checks
+from bearingcore.common.progress import Progress
+from bearingcore.model.scene import Scene
 from bearingcore.sweep import store as stores
 from bearingcore.sweep.grid import Grid, program_version
 from bearingcore.sweep.outputs import Settings

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import checks
+from bearingcore.common import checks
 from bearingcore.sweep.grid import Grid, program_version
 from bearingcore.sweep.outputs import MODE, OUTPUTS, STATUSES, Numbers
 

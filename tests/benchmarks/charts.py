@@ -1,9 +1,9 @@
 """Draw the README's charts of speed against accuracy: ``python -m tests.benchmarks.charts``.
 
-Runs every experiment of `bearingcore.precision` on the paper's scenes, prints all points as tables
-and writes SVG figures to assets/figures/. Error is up, cost is to the right, both logarithmic, once
-as time and once as evaluations. A method that failed stands as a cross on the upper edge, with its
-name; the grey band is where the two families of the reference differ.
+Runs every experiment of `bearingcore.experiments` on the paper's scenes, prints all points as
+tables and writes SVG figures to assets/figures/. Error is up, cost is to the right, both
+logarithmic, once as time and once as evaluations. A method that failed stands as a cross on the
+upper edge, with its name; the grey band is where the two families of the reference differ.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bearingcore import presets
-from bearingcore.precision import (
+from bearingcore.experiments import (
     EnergyDrift,
     Experiment,
     Point,
@@ -31,7 +31,7 @@ from bearingcore.precision import (
     stability_chart,
     statics_experiment,
 )
-from bearingcore.precision.stability import VERDICTS
+from bearingcore.experiments.stability import VERDICTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -158,11 +158,11 @@ class Person:
 
 def differences(notes: Notes) -> int:
     """How many of the pictures kept are not those of their scene."""
-    from app.explorer import _picture
-    from app.page import SECTIONS
-    from app.results import Results
-    from app.scene_editor import SceneEditor
-    from app.wire import Wire
+    from bearing_explorer.compute.results import Results
+    from bearing_explorer.page import SECTIONS
+    from bearing_explorer.server.packed_source import Wire
+    from bearing_explorer.session import _picture
+    from bearing_explorer.state.scene_editor import SceneEditor
 
     wire = Wire()
     views = [view(wire) for view in SECTIONS[0].views]

@@ -39,7 +39,7 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.motion import length_units, static_start
+from bearingcore.dynamics.motion import length_units, static_start
 from tests.benchmarks.yardstick import FAST_MATH, FLAGS, CMotion, CStatics
 from tests.browser.helpers import explorer_server, find_chromium
 

@@ -19,12 +19,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore import Scene, equilibrium, presets
-from bearingcore.cage_angles import LEAST_INTERVAL, curves_of, swings
-from bearingcore.modes import highest_natural_frequency
-from bearingcore.motion import length_units
-from bearingcore.plan import BAND, SETTLED, VIBRATION, Plan, plan, spectra_apart
-from bearingcore.precision.problem import motion_problem
-from bearingcore.precision.references import motion_reference
+from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import length_units
+from bearingcore.dynamics.problem import motion_problem
+from bearingcore.experiments.references import motion_reference
+from bearingcore.plan import SETTLED, VIBRATION, Plan, plan
+from bearingcore.plan.cage_angles import LEAST_INTERVAL, curves_of, swings
+from bearingcore.plan.pilot import BAND, spectra_apart
 
 SAMPLE_RATE = 65536.0
 

@@ -30,9 +30,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore import Scene, contact_damping, presets, simulate
-from bearingcore import sizing as method
-from bearingcore.recording import Recording
-from bearingcore.sizing import size_defect
+from bearingcore.diagnosis import sizing as method
+from bearingcore.diagnosis.sizing import size_defect
+from bearingcore.signals.recording import Recording
 
 SAMPLE_RATE, DURATION = 20_480.0, 1.4
 TRAINING, SCORED = 77, 2014

@@ -105,7 +105,15 @@ class Server:
 def explorer_server(*options: str, environment: dict[str, str] | None = None) -> Server:
     """The explorer as a person starts it."""
     port = free_port()
-    command = [sys.executable, "-m", "app", "--port", str(port), "--no-browser", *options]
+    command = [
+        sys.executable,
+        "-m",
+        "bearing_explorer",
+        "--port",
+        str(port),
+        "--no-browser",
+        *options,
+    ]
     return Server(command, port, environment=environment or {})
 
 

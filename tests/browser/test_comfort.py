@@ -7,12 +7,12 @@ from importlib.resources import files
 from typing import Any
 
 import pytest
+from bearing_explorer.page import SECTIONS, TABS
+from bearing_explorer.state.lessons import Lesson, lessons_in, own_folder
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.views.theme import DARK_COLORS
 from playwright.sync_api import Locator, Page, ViewportSize, expect
 
-from app.lessons import Lesson, lessons_in, own_folder
-from app.page import SECTIONS, TABS
-from app.scene_editor import SceneEditor
-from app.views.theme import DARK_COLORS
 from tests.browser.helpers import Server, Watch, choose_tab
 
 NAMES = [section.name for section in SECTIONS]

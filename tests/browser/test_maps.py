@@ -7,13 +7,13 @@ import re
 
 import numpy as np
 import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
+from bearing_explorer.figures.matrix_cells import TERM_UNITS
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from playwright.sync_api import Page, expect
 
-from app.results import Results
-from app.views.color_scales import DIVERGING, SEQUENTIAL, packed
-from app.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
-from app.views.matrix_cells import TERM_UNITS
-from app.wire import Wire
 from bearingcore import STIFFNESS_TERMS, Maps, presets
 from tests.browser.helpers import Server, Watch, drag, move
 from tests.browser.test_explorer import open_page, pixels, settle, slider, source

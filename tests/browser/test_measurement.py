@@ -8,10 +8,10 @@ import re
 
 import numpy as np
 import pytest
+from bearing_explorer.measurement.upload import PIECE
 from playwright.sync_api import Page, expect
 from scipy.io import wavfile
 
-from app.upload import PIECE
 from bearingcore import presets, simulate
 from tests.browser.helpers import Server, Watch
 from tests.browser.test_explorer import open_page, pixels, settle, show, source, value

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Page, expect
 
-from tests.app.proxies import Proxy
+from tests.bearing_explorer.proxies import Proxy
 from tests.browser.helpers import (
     ROOT,
     Server,

@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from bearing_explorer.figures import style
 from playwright.sync_api import Page
 
-from app.views import figures
 from tests.browser.helpers import Server, Watch
 
 MODELS = "[...Bokeh.documents.flatMap(d => [...d._all_models.values()])]"
@@ -29,9 +29,9 @@ def test_numbers_are_written_alike_in_sentences_and_in_figures(
     page, _ = watch
     open_explorer(page, explorer)
     values = [m * 10.0**e for m in (1.0, 2.0616, 5.0, -9.9949) for e in range(-9, 9)] + [0.0]
-    code = f"(values) => {{ {figures.JS_PREFIX}; return values.map(v => si(v, 'N')) }}"
+    code = f"(values) => {{ {style.JS_PREFIX}; return values.map(v => si(v, 'N')) }}"
     written = [text.replace("\u00a0", " ") for text in page.evaluate(code, values)]
-    assert written == [figures.with_prefix(value, "N") for value in values]
+    assert written == [style.with_prefix(value, "N") for value in values]
 
 
 def test_units_of_axes_follow_their_ranges(watch: tuple[Page, Watch], explorer: Server) -> None:

@@ -1,4 +1,4 @@
-"""The wire, the live sentence and the private attributes of `app.live`, in a real browser."""
+"""The wire, the live sentence and the private names of `server.live`, in a real browser."""
 
 from collections.abc import Iterator
 

@@ -12,15 +12,15 @@ from typing import Any
 
 import numpy as np
 import scipy.io
+from bearing_explorer.measurement.form import guess, understood
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.session import _BROKEN, Explorer, _picture
+from bearing_explorer.state.address import opened, place_of, write
+from bearing_explorer.state.quantity_list import QUANTITY_LIST
+from bearing_explorer.state.scene_editor import SceneEditor
 
-from app.address import opened, place_of, write
-from app.explorer import _BROKEN, Explorer, _picture
-from app.measurement_form import guess, understood
-from app.page import SECTIONS
-from app.quantity_list import QUANTITY_LIST
-from app.scene_editor import SceneEditor
 from bearingcore import Scene, presets, read_floor
-from bearingcore.recording import read_table
+from bearingcore.signals.recording import read_table
 from bearingcore.sweep.file import grid_from_toml
 from tests.fuzz.inputs import bytes_like, plain_value, text_like
 

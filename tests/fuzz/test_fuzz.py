@@ -6,7 +6,7 @@ import warnings
 
 import pytest
 
-from tests.app.loops import run
+from tests.bearing_explorer.loops import run
 from tests.fuzz.__main__ import _meet
 from tests.fuzz.targets import targets
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 import panel as pn
+from bearing_explorer.server.live import LatestWins, in_thread, on_loop, one_message, send_at_once
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import View
 from bokeh.plotting import figure
-
-from app.live import LatestWins, in_thread, on_loop, one_message, send_at_once
-from app.views.base import View
-from app.wire import Wire
 
 
 class Line(View):

@@ -1,0 +1,178 @@
+"""``bearing-explorer``: compile and warm the kernels, then serve the page."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from bearing_explorer.server.log import LEVELS, begin
+
+
+def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(
+        prog="bearing-explorer",
+        description="Serve a page on which a damaged ball bearing follows its sliders.",
+    )
+    parser.add_argument("--port", type=int, default=5006, help="port to listen on (5006)")
+    parser.add_argument(
+        "--address",
+        default="localhost",
+        help="address to listen on (localhost: this machine only; 0.0.0.0: all networks)",
+    )
+    parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
+    parser.add_argument(
+        "--allow-websocket-origin",
+        action="append",
+        metavar="HOST[:PORT]",
+        help="host name under which browsers reach the page, where it is not localhost; repeatable",
+    )
+    parser.add_argument(
+        "--num-procs", type=int, default=1, help="processes that share the port (1)"
+    )
+    parser.add_argument(
+        "--root-path", default="", help="path in front of the page behind a proxy, such as /lab"
+    )
+    parser.add_argument(
+        "--frame-ancestor",
+        action="append",
+        metavar="ORIGIN",
+        help="another site that may show the page in a frame, such as https://lms.example.org; "
+        "repeatable",
+    )
+    parser.add_argument(
+        "--max-sessions",
+        type=_positive,
+        default=100,
+        metavar="N",
+        help="people at once in a process (100); whoever comes later is asked to come back",
+    )
+    parser.add_argument(
+        "--max-message-mb",
+        type=_positive,
+        default=16,
+        metavar="N",
+        help="megabytes that a browser may send in one message (16)",
+    )
+    parser.add_argument(
+        "--idle-minutes",
+        type=_positive,
+        default=60,
+        metavar="N",
+        help="after which a page that nobody touches is closed (60)",
+    )
+    parser.add_argument(
+        "--log-level",
+        choices=LEVELS,
+        default="warning",
+        help="info writes a line for each update, with session, scene, view and milliseconds",
+    )
+    parser.add_argument(
+        "--lessons",
+        type=Path,
+        metavar="DIR",
+        help="folder with lessons of your own (*.md), instead of those that come along",
+    )
+    return parser.parse_args(arguments)
+
+
+def _positive(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{value} is out of range; allowed: at least 1")
+    return value
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code."""
+    chosen = options(arguments)
+    begin(chosen.log_level)
+    started = time.perf_counter()
+    _say("Bearing explorer starts.")
+    _say("Loading the page ...")
+    from bearing_explorer.page import TABS, page
+    from bearing_explorer.server import idle_collection
+    from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
+    from bearing_explorer.server.serving import MEGABYTE, Limits, make_server, quiet_for
+    from bearing_explorer.state.lessons import faults_in
+
+    for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
+        _say(f"Lessons: {sentence}")
+    _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
+    import bearingcore
+
+    bearingcore.warm(report=_say)
+
+    # With several processes this one only waits for them, inside `serve`.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    try:
+        server = make_server(
+            page=lambda: page(chosen.lessons),
+            port=chosen.port,
+            address=chosen.address,
+            origins=chosen.allow_websocket_origin or (),
+            root_path=chosen.root_path,
+            num_procs=chosen.num_procs,
+            longest_header=LONGEST_HEADER,
+            frame_ancestors=chosen.frame_ancestor or (),
+            bounds=Limits(
+                sessions=chosen.max_sessions,
+                message=chosen.max_message_mb * MEGABYTE,
+                idle=60.0 * chosen.idle_minutes,
+            ),
+        )
+        send_on(server)
+    except OSError as error:
+        _say(f"Cannot listen on {chosen.address} port {chosen.port}: {error.strerror}.")
+        return 1
+
+    loop = server.io_loop
+
+    def stop(number: int, _: object) -> None:
+        _say(f"{signal.Signals(number).name}: stopping.")
+        loop.add_callback_from_signal(loop.stop)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
+    if chosen.num_procs > 1:
+        _end_with_parent(loop)
+    idle_collection.begin(quiet_for)
+    server.start()
+    shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
+    url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
+    _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
+    if not chosen.no_browser:
+        loop.add_callback(lambda: server.show("/"))
+    try:
+        loop.start()
+    finally:
+        server.stop()
+    _say("Stopped.")
+    return 0
+
+
+def _end_with_parent(loop: Any) -> None:
+    """Stop when the process that started this one is gone: it cannot say good-bye if killed."""
+    from tornado.ioloop import PeriodicCallback
+
+    parent = os.getppid()
+
+    def look() -> None:
+        if os.getppid() != parent:
+            loop.stop()
+
+    PeriodicCallback(look, 500).start()
+
+
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,30 @@
+"""Files the page is made of: styles, scripts, the logo."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+_HERE = Path(__file__).resolve().parent
+_PLACES = (_HERE / "_assets", _HERE.parents[1] / "assets")  # installed; in a checkout
+_FOLDERS = {".js": "scripts", ".css": "styles"}
+
+
+def asset_path(name: str) -> Path:
+    """Where the asset called `name` lies, a file or a folder."""
+    for place in _PLACES:
+        path = place / _FOLDERS.get(Path(name).suffix, "") / name
+        if path.exists():
+            return path
+    raise FileNotFoundError(f"asset {name!r} is in none of {[str(place) for place in _PLACES]}")
+
+
+@cache
+def asset_text(name: str) -> str:
+    """The text of the asset called `name`."""
+    return asset_path(name).read_text(encoding="utf-8")
+
+
+def scripts(*names: str) -> str:
+    """The assets of these names as one script: what a component runs, after what it calls."""
+    return "".join(asset_text(name) for name in names)

@@ -1,0 +1,87 @@
+"""What plans and orbits are made with, compiled before anybody waits for it.
+
+That takes longer than a first start should, and a compiler in this process would hold up every
+page. So another process does it, once the first page is asked for, and leaves the machine code on
+disk. Until then the page draws as it does while a slider moves.
+"""
+
+from __future__ import annotations
+
+import atexit
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+from bearingcore import kernels, presets
+from bearingcore.plan import SETTLED, plan
+
+_NICE = 10
+_lock = threading.Lock()
+_helper: subprocess.Popen[bytes] | None = None
+_begun = False
+
+
+def begin() -> None:
+    """Start compiling what is not on disk yet; does nothing the second time."""
+    global _helper, _begun
+    with _lock:
+        if _begun:
+            return
+        _begun = True
+        if all(map(_on_disk, _slowest())) or not sys.executable:
+            return
+        path = os.pathsep.join(path for path in sys.path if path)
+        try:
+            _helper = subprocess.Popen(
+                [
+                    sys.executable,
+                    "-c",
+                    "from bearing_explorer.compute import compiling; compiling.compile_all()",
+                ],
+                env={**os.environ, "PYTHONPATH": path},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,  # Ctrl+C is for the server, which ends it
+            )
+        except OSError:
+            return  # then it is compiled where it is needed
+        atexit.register(_end)
+
+
+def ready() -> bool:
+    """Whether all is compiled, or nobody is at it."""
+    return _helper is None or _helper.poll() is not None
+
+
+def compile_all() -> None:
+    """Plan what calls every kernel that planning and orbits need."""
+    if hasattr(os, "nice"):
+        os.nice(_NICE)
+    for name in ("fan-rig", "liew-lim"):
+        for law in ("published", "no tension"):
+            plan(presets[name].replace(contact_law=law), SETTLED, duration=0.1)
+
+
+def _slowest() -> tuple[object, ...]:
+    """The kernels that take longest; they are compiled last."""
+    return kernels.march_flat_with_tangent, kernels.march_with_tangent
+
+
+def _on_disk(kernel: object) -> bool:
+    """Whether machine code of a kernel lies on disk that is newer than its source."""
+    stats = getattr(kernel, "stats", None)  # none where compiling is switched off
+    if stats is None:
+        return True
+    source = Path(kernels.__file__).stat().st_mtime
+    name = getattr(kernel, "__name__", "")
+    found = Path(stats.cache_path).glob(f"kernels.{name}-*.nbi")
+    return any(index.stat().st_mtime >= source for index in found)
+
+
+def _end() -> None:
+    if _helper is not None and _helper.poll() is None:
+        _helper.kill()
+        _helper.wait()

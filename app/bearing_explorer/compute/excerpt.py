@@ -1,0 +1,175 @@
+"""The last ball passes of a motion: what the time view shows, cut where balls enter the defect."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import Scene, equilibrium
+from bearingcore.statics.passes import Crossing, crossings
+
+if TYPE_CHECKING:
+    from bearingcore import Motion
+
+STATIC_POINTS = 241
+
+
+@dataclass(frozen=True)
+class Event:
+    """A ball passing an edge of the defect, `time` [s] on the excerpt's clock."""
+
+    time: float
+    ball: int
+    enters: bool
+
+
+@dataclass(frozen=True)
+class Excerpt:
+    """A short stretch of a motion after its transient.
+
+    time : (n,) [s]
+        0 where a ball enters the defect; without a defect, at the start of the stretch.
+    motion_time : float
+        [s] of the motion at which `time` is 0.
+    acceleration : {dof: (n,)} [m/s²]
+        of the outer ring with the housing.
+    events
+        entries and exits within the stretch.
+    balls : (k,)
+        the balls that enter or leave, counted from 0; if none does, the two that carry most.
+    ball_load : (n, k) [N]
+        what they carry as they move.
+    static_time : (p,) [s], static_load : (p, k) [N]
+        what they would carry at rest at each of these instants.
+    greatest_static_load : float [N]
+        of all balls.
+    broke_off
+        why the motion ended early; empty if it did not.
+    """
+
+    time: NDArray[np.float64]
+    motion_time: float
+    acceleration: dict[str, NDArray[np.float64]]
+    events: tuple[Event, ...]
+    balls: NDArray[np.int64]
+    ball_load: NDArray[np.float64]
+    static_time: NDArray[np.float64]
+    static_load: NDArray[np.float64]
+    greatest_static_load: float
+    broke_off: str
+
+
+def excerpt(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
+    """A stretch of `n_passes` ball passes, beginning a quarter pass before an entry.
+
+    `since` [s] is when the motion has settled: the stretch lies after it.
+    """
+    time, cage = motion.time, motion.cage_angle
+    start, length, zero = _stretch(scene, motion, since, n_passes)
+    first = int(np.searchsorted(time, start))
+    last = max(int(np.searchsorted(time, start + length, side="right")), first + 2)
+    cut = slice(first, last)
+    events = tuple(
+        Event(_time_at(scene, motion, found.cage_angle) - zero, found.ball, found.enters)
+        for found in crossings(scene, float(cage[cut][0]), float(cage[cut][-1]))
+    )
+    static_time = np.linspace(time[cut][0], time[cut][-1], STATIC_POINTS)
+    static = equilibrium(scene, np.interp(static_time, time, cage)).ball_load
+    balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
+    if not balls.size:
+        balls = np.sort(np.argsort(np.nan_to_num(static).max(axis=0), kind="stable")[-2:])
+    return Excerpt(
+        time=time[cut] - zero,
+        motion_time=zero,
+        acceleration={
+            dof: motion.outer_acceleration[cut, index] for index, dof in enumerate(motion.dofs)
+        },
+        events=events,
+        balls=balls,
+        ball_load=motion.ball_loads(first, last)[:, balls],
+        static_time=static_time - zero,
+        greatest_static_load=float(np.max(np.nan_to_num(static))),
+        broke_off="" if motion.completed else motion.status,
+        static_load=static[:, balls],
+    )
+
+
+def _stretch(
+    scene: Scene, motion: Motion, since: float, n_passes: float
+) -> tuple[float, float, float]:
+    """Start, length and zero of the stretch [s], after `since`."""
+    end = float(motion.time[-1])
+    settled = end - since
+    speed = scene.cage_speed
+    if speed == 0.0:
+        return since, settled, since
+    defects = scene.defects
+    rate = abs(1.0 - defects[0].turn_ratio(scene.bearing)) if defects else 1.0
+    one_pass = scene.bearing.ball_spacing / (rate * speed)
+    length = min(n_passes * one_pass, settled)
+    before = 0.25 * min(one_pass, length)
+    latest = end - length + before
+    entries = [
+        found
+        for found in crossings(
+            scene, float(motion.cage_angle[-1]) - settled * speed, float(motion.cage_angle[-1])
+        )
+        if found.enters and since + before <= _time_at(scene, motion, found.cage_angle) <= latest
+    ]
+    if entries:
+        entry = _time_at(scene, motion, _most_telling(scene, entries).cage_angle)
+        return entry - before, length, entry
+    return end - length, length, end - length
+
+
+def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
+    """Of the entries at which the ball would carry most without the defect, that of the first ball.
+
+    A defect of the inner race meets balls all around, most of them without load. The first ball
+    rather than the last entry: which one is last hangs on how long the motion is, and a drawing
+    should not change its words because the same motion was marched for longer.
+    """
+    angles = np.array([entry.cage_angle for entry in entries])
+    loads = np.nan_to_num(equilibrium(scene.sound(), angles).ball_load)
+    load = loads[np.arange(len(entries)), [entry.ball for entry in entries]]
+    most = np.flatnonzero(load >= load.max() * (1.0 - 1e-6))
+    return min((entries[int(i)] for i in most), key=lambda entry: (entry.ball, -entry.cage_angle))
+
+
+def _time_at(scene: Scene, motion: Motion, cage_angle: float) -> float:
+    """When the cage passes `cage_angle` [rad], in seconds of the motion: it turns steadily."""
+    end_angle, end = float(motion.cage_angle[-1]), float(motion.time[-1])
+    if scene.cage_speed == 0.0:
+        return math.nan
+    return end - (end_angle - cage_angle) / scene.cage_speed
+
+
+def least_and_greatest(
+    values: NDArray[np.float64], parts: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """At most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
+
+    Of each of `parts` stretches the least and the greatest number are kept, in the order in which
+    they came, so that no peak is lost that a pixel would show. Returns the row numbers at which
+    the kept ones stand (the same for all columns) and the kept ones.
+    """
+    n = len(values)
+    if n <= 2 * parts:
+        return np.arange(n), values
+    size = math.ceil(n / parts)
+    count = math.ceil(n / size)
+    full = np.concatenate([values, np.repeat(values[-1:], count * size - n, axis=0)])
+    blocks = full.reshape(count, size, -1)
+    least, greatest = blocks.min(axis=1), blocks.max(axis=1)
+    rising = blocks.argmin(axis=1) <= blocks.argmax(axis=1)
+    kept = np.empty((count, 2, values.shape[1]))
+    kept[:, 0] = np.where(rising, least, greatest)
+    kept[:, 1] = np.where(rising, greatest, least)
+    starts = np.arange(count) * size
+    rows = np.stack([starts, np.minimum(starts + size, n) - 1], axis=1).ravel()
+    length = 2 * count - int(rows[-1] == rows[-2])  # a last stretch of one row
+    return rows[:length], kept.reshape(2 * count, -1)[:length]

@@ -1,0 +1,1 @@
+"""Lines of Python that make what a view shows."""

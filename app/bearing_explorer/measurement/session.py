@@ -1,0 +1,408 @@
+"""The measured signal of a session: a file that somebody brings, or a simulated measurement.
+
+Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and is
+asked about; whatever is wrong with it is said in a sentence, and the signal before it stays.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import logging
+import math
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bearing_explorer.compute.jobs import Change
+from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.measurement.form import (
+    Asked,
+    FormError,
+    columns_of,
+    guess,
+    speed_told,
+    understood,
+    usable,
+)
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.measurement.upload import Upload
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearingcore import Recording, Scene, Sizing, Table, read_table
+from bearingcore.diagnosis.variants import Tolerances, variant
+
+log = logging.getLogger(__name__)
+
+MOST_NUMBERS = 4_000_000
+"""Numbers of a table that a session keeps; later rows are left out."""
+
+NOISES: Mapping[str, float] = {"40": 40.0, "20": 20.0, "10": 10.0, "none": math.inf}
+"""Signal over noise [dB] of simulated measurements."""
+
+MACHINES = ("same", "different")
+"""Whether the measured machine has the numbers of the scene, or only about those."""
+
+RATE = 25_600.0
+"""[Hz] of simulated measurements."""
+
+PASSES = 60.0
+"""Ball passes in one, where that is neither very short nor very long."""
+
+SHORTEST, LONGEST = 1.0, 5.0  # [s]
+SETTLING = 0.3  # [s] before a simulated measurement begins
+
+FIRST_WORDS = (
+    "No signal yet: choose a file with the acceleration of the housing, or simulate one of the "
+    "scene beside."
+)
+
+_SPEED_OF_SCENE = "The shaft speed is that of the scene: type in the measured one."
+
+#: two files at a time are read, whoever brings them: reading takes memory, and the threads that
+#: draw must stay free
+_READERS = ThreadPoolExecutor(max_workers=2, thread_name_prefix="read")
+
+
+@dataclass(frozen=True)
+class MeasurementState:
+    """What the page shows of the measurement's panel."""
+
+    words: str = FIRST_WORDS
+    bad: bool = False
+    busy: bool = False
+    columns: list[list[str]] = field(default_factory=list)
+    values: dict[str, str] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    scaled: bool = False
+
+
+@dataclass(frozen=True)
+class Sized:
+    """What the size of a defect was found to be: of which signal, taken on which scene."""
+
+    measured: Measured
+    scene: Scene
+    sizing: Sizing
+
+
+class Measurement:
+    """The measurement of one session. Call its methods on the event loop of the session.
+
+    Parameters
+    ----------
+    editor
+        of the scene that is measured.
+    assign
+        runs a change of the page's models and sends it, as `live.one_message` does.
+    draw
+        asks for a drawing.
+    """
+
+    def __init__(
+        self,
+        editor: SceneEditor,
+        assign: Callable[[Change], Awaitable[None]],
+        draw: Callable[[], None],
+    ) -> None:
+        self.measured: Measured | None = None
+        self.sized: Sized | None = None
+        self.state = MeasurementState()
+        #: hear of news: the state, and where the next piece of a file should begin; `of` comes
+        #: back with it, so that pieces of a file that was given up are told from those of the next
+        self.show: Callable[[MeasurementState], None] = lambda _: None
+        self.want: Callable[[int, int], None] = lambda begin, of: None
+        self._editor = editor
+        self._assign = assign
+        self._draw = draw
+        self._table: Table | None = None
+        self._cut = ""
+        self._upload: Upload | None = None
+        self._latest = 0  # number of what was asked for last: what it overtook is dropped
+        self._uploads = 0
+        self._simulations = 0
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._ended = False
+
+    def stop(self) -> None:
+        """The session is over."""
+        self._ended = True
+        self._upload = self._table = None
+
+    def redraw(self) -> None:
+        """Draw again with what the views have been told."""
+        self._draw()
+
+    def asked(self, message: Any) -> None:
+        """A message of the browser, from strangers too."""
+        if not isinstance(message, dict) or self._ended:
+            return
+        if isinstance(file := message.get("file"), dict):
+            self._begin(file)
+        if "piece" in message and message.get("of") == self._uploads:
+            self._take_piece(message["piece"])
+        if isinstance(form := message.get("form"), dict):
+            self._take_form(form)
+        if isinstance(wish := message.get("simulate"), dict):
+            self._simulate(wish)
+
+    # Files
+
+    def _begin(self, file: Mapping[Any, Any]) -> None:
+        self._latest += 1
+        self._uploads += 1
+        try:
+            self._upload = Upload(file.get("name"), file.get("size"))
+        except ValueError as error:
+            self._upload = None
+            self._refuse(str(error))
+        else:
+            self._tell(words=f"{self._upload.name} is on its way.", bad=False, busy=True)
+            self.want(0, self._uploads)
+
+    def _take_piece(self, piece: Any) -> None:
+        upload = self._upload
+        if upload is None:
+            return
+        try:
+            upload.take(piece)
+        except ValueError as error:
+            self._upload = None
+            self._refuse(str(error))
+            return
+        if not upload.whole:
+            self.want(upload.length, self._uploads)
+            return
+        self._upload = None
+        self._tell(words=f"Reading {upload.name} …", bad=False, busy=True)
+        speed = self._editor.values["shaft_speed_hz"]
+
+        def read() -> _Read:
+            return read_file(upload.name, upload.content, speed)
+
+        self._in_background(read, self._take_read, upload.name)
+
+    def _take_read(self, found: _Read) -> None:
+        """The file is read and could be asked about: it takes the place of the one before."""
+        self._table, self._cut = found.table, found.cut
+        if found.asked is not None:
+            self.measured = _measured(found.asked)
+            told = "" if speed_told(found.table.scalars) else _SPEED_OF_SCENE
+            words, bad = self._summary(told), False
+        else:
+            words = f"{found.table.name} is read. " + " ".join(found.refused.values())
+            bad = True
+        self._tell(
+            words=words,
+            bad=bad,
+            busy=False,
+            columns=columns_of(found.table),
+            values=found.form,
+            refused=found.refused,
+            scaled=found.table.name.lower().endswith(".wav"),
+        )
+        self._draw()
+
+    def _take_form(self, form: Mapping[Any, Any]) -> None:
+        """The columns, the unit or the rates are others than before."""
+        table = self._table
+        if table is None:
+            return
+        texts = {name: str(form.get(name, ""))[:40] for name in self.state.values}
+        self._latest += 1
+        self._in_background(
+            lambda: _tried(table, texts), lambda found: self._take_tried(texts, found), table.name
+        )
+
+    def _take_tried(self, texts: dict[str, str], found: Asked | FormError) -> None:
+        if isinstance(found, FormError):
+            stays = " What is drawn is the signal as it was." if self.measured else ""
+            self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
+            return
+        self.measured = _measured(found)
+        self._tell(words=self._summary(), bad=False, busy=False, values=texts, refused={})
+        self._draw()
+
+    def _summary(self, *more: str) -> str:
+        words = (summary(self.measured, self._editor.scene), self._cut, *more)
+        return " ".join(filter(None, words))
+
+    # Simulated ones
+
+    def _simulate(self, wish: Mapping[Any, Any]) -> None:
+        noise, machine = str(wish.get("noise")), str(wish.get("machine"))
+        if noise not in NOISES or machine not in MACHINES:
+            return
+        self._upload = None
+        self._latest += 1
+        self._simulations += 1
+        seed, scene = self._simulations, self._editor.scene
+        self._tell(words="Simulating a measurement.", bad=False, busy=True)
+
+        def make() -> Measured:
+            return simulated(scene, NOISES[noise], machine == "different", seed)
+
+        self._in_background(make, self._take_simulated, "The scene")
+
+    def _take_simulated(self, found: Measured) -> None:
+        self._table, self._cut, self.measured = None, "", found
+        self._tell(words=self._summary(), bad=False, busy=False, columns=[], values={}, refused={})
+        self._draw()
+
+    # Saying and doing
+
+    def _refuse(self, sentence: str) -> None:
+        stays = " The signal before it stays." if self.measured is not None else ""
+        self._tell(words=f"{sentence}{stays}", bad=True, busy=False)
+
+    def _tell(self, **news: Any) -> None:
+        self.state = dataclasses.replace(self.state, **news)
+        self.show(self.state)
+
+    def _in_background(
+        self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
+    ) -> None:
+        """Compute in a thread and take what comes out of it, unless something newer was asked."""
+        number = self._latest
+
+        async def run() -> None:
+            try:
+                found = await asyncio.get_running_loop().run_in_executor(_READERS, compute)
+            except ValueError as error:
+                sentence = str(error)
+                change = lambda: self._refuse(sentence)  # noqa: E731
+            except Exception:
+                log.exception("a measurement could not be read")
+                change = lambda: self._refuse(f"{name} could not be read.")  # noqa: E731
+            else:
+                change = lambda: take(found)  # noqa: E731
+            if number == self._latest and not self._ended:
+                await self._assign(change)
+
+        self._keep(run())
+
+    def _keep(self, coroutine: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.get_running_loop().create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+
+@dataclass(frozen=True)
+class _Read:
+    """A file's table, what stands in its form, and the recording or why there is none yet."""
+
+    table: Table
+    form: dict[str, str]
+    cut: str
+    asked: Asked | None
+    refused: dict[str, str]
+
+
+def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
+    """A file with guesses at what it holds. For any thread; ValueError with a sentence."""
+    try:
+        table = read_table(name, content)
+    except ValueError as error:
+        why = str(error).replace(f"file is {name!r}; allowed: ", "needed is ")
+        raise ValueError(f"{name} cannot be used: {why}.") from None
+    except MemoryError:
+        raise ValueError(f"{name} is too large for this server.") from None
+    table, cut = _shortened(table)
+    form = guess(table, shaft_speed_hz)
+    found = _tried(table, form)
+    if isinstance(found, FormError):
+        if not usable(table):
+            raise ValueError(f"{name} cannot be used. {found}")
+        return _Read(table, form, cut, None, found.sentences)
+    return _Read(table, form, cut, found, {})
+
+
+def _measured(asked: Asked) -> Measured:
+    return Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
+
+
+def _tried(table: Table, form: Mapping[str, str]) -> Asked | FormError:
+    try:
+        return understood(table, form)
+    except FormError as refused:
+        return refused
+
+
+def _shortened(table: Table) -> tuple[Table, str]:
+    """The table with no more numbers than a session may keep, and a sentence if that is less."""
+    rows, columns = table.columns.shape
+    most = MOST_NUMBERS // columns
+    if rows <= most:
+        return table, ""
+    kept = dataclasses.replace(
+        table, columns=table.columns[:most].copy(), sample_rate=table.suggested_rate
+    )
+    return kept, f"Only the first {_thousands(most)} of {_thousands(rows)} rows are used."
+
+
+def summary(measured: Measured | None, scene: Scene) -> str:
+    """What the signal is, in a sentence."""
+    if measured is None:
+        return FIRST_WORDS
+    recording = measured.recording
+    along = " and ".join(recording.directions)
+    passes = recording.duration * scene.bearing.bpfo(measured.shaft_speed)
+    return (
+        f"{recording.name}: {recording.duration:.3g} s along {along} at "
+        f"{_thousands(round(recording.sample_rate))} Hz, {passes:.0f} balls pass a point of the "
+        "outer race."
+    )
+
+
+def _thousands(number: int) -> str:
+    return f"{number:,}".replace(",", "\u202f")
+
+
+def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
+    """A measurement of a scene as a sensor with noise would make it, its extent known.
+
+    Parameters
+    ----------
+    noise_db
+        signal over noise [dB], each direction against its own.
+    different
+        whether the machine's stiffnesses, load, damping and depth are off what the scene says, as
+        far as the sizing expects them to be.
+
+    Raises
+    ------
+    ValueError
+        with a sentence, where the scene does not move.
+    """
+    rng = np.random.default_rng(seed)
+    truth = scene
+    single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
+    if different and single:
+        (defect,) = scene.defects
+        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * Tolerances().spread
+        truth = variant(scene, defect.extent, defect.edge, exponents)
+    passing = scene.bearing.bpfo(scene.shaft_speed)
+    duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST
+    settings = Settings(duration=duration + SETTLING, sample_rate=RATE)
+    try:
+        motion = Results(truth, 0.0, settings).motion
+    except ValueError as error:
+        raise ValueError(refusal(error)) from None
+    columns = [index for index, dof in enumerate(motion.dofs) if dof in ("x", "y")]
+    # not a whole number of anything: the page must find where the ball passes begin
+    first = round((SETTLING - rng.uniform(0.0, 0.1)) * RATE)
+    signal = motion.outer_acceleration[first:, columns]
+    if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
+        raise ValueError("Not possible: the simulated housing does not move along x or y.")
+    level = np.sqrt(np.mean(signal**2, axis=0)) * 10.0 ** (-noise_db / 20.0)
+    noisy = signal + level * rng.standard_normal(signal.shape)
+    name = "Simulated" + (f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else "")
+    directions = tuple(motion.dofs[index] for index in columns)
+    try:
+        recording = Recording(noisy, motion.sample_rate, directions, name)
+    except ValueError:
+        raise ValueError("Not possible: the simulated housing does not move.") from None
+    return Measured(recording, scene.shaft_speed, scene.defects[0].extent if single else None)

@@ -1,0 +1,208 @@
+"""A measured signal beside a scene: spectra and envelopes of both, computed when first asked for.
+
+As with `compute.results`, everything that is drawn of a measurement passes through here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bearingcore as core
+from bearing_explorer.compute.results import ComputedOnce, Results, Settings
+from bearingcore.signals.envelope_band import PIECES
+
+if TYPE_CHECKING:
+    from bearingcore import Motion, Recording, Scene, Spectrum
+
+SETTLING = 0.2
+"""[s] of a simulated motion that are left out, when the start is forgotten."""
+
+ENVELOPE_LINES = 1600
+"""Frequencies of an envelope spectrum that are drawn, at most."""
+
+PASSES_IN_BAND = 5.0
+"""The lowest band for envelopes begins at so many times the ball-pass frequency: what is narrower
+cannot swell and fade with the balls."""
+
+HIGHEST_SHARE = 0.4
+"""Of the sample rate: above, the filter of a recorder may have worked."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit]."""
+
+    file: str
+    columns: tuple[int, ...]
+    unit: str
+    full_scale: float
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """A recording, and what it was measured on as far as the page knows.
+
+    Attributes
+    ----------
+    recording
+        the signal.
+    shaft_speed
+        [rad/s] at the measurement.
+    true_extent
+        [rad] of the defect where the signal is a simulated one, else None.
+    origin
+        the file, where it comes from one.
+    """
+
+    recording: Recording
+    shaft_speed: float
+    true_extent: float | None = None
+    origin: Origin | None = None
+    _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
+    _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
+        default_factory=dict, repr=False
+    )
+    _bands: dict[tuple[int, float], tuple[float, float]] = field(default_factory=dict, repr=False)
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """That were measured."""
+        return self.recording.directions
+
+    def finest(self, wanted: float) -> float:
+        """The resolution [Hz] that is had where `wanted` is asked for: two segments at least."""
+        coarsest = self.recording.sample_rate / 64.0
+        return max(min(wanted, coarsest), 2.0 / self.recording.duration)
+
+    def spectrum(self, direction: str, resolution: float) -> Spectrum:
+        """Spectrum along a direction."""
+        if resolution not in self._spectra:
+            recording = self.recording
+            signal = recording.acceleration - self._middle
+            found = core.spectrum(signal, recording.sample_rate, resolution)
+            _put(self._spectra, resolution, found)
+        frequency, density = self._spectra[resolution]
+        return core.Spectrum(frequency, density[:, self.directions.index(direction)])
+
+    def band(self, direction: str, passing: float) -> tuple[float, float]:
+        """The band [Hz] in which to listen for balls that pass `passing` [Hz] times a second."""
+        column = self.directions.index(direction)
+        if (column, passing) not in self._bands:
+            rate = self.recording.sample_rate
+            highest = HIGHEST_SHARE * rate
+            lowest = min(max(PASSES_IN_BAND * passing, 1e-3 * rate), 0.5 * highest)
+            signal = self.recording.acceleration[:, column]
+            long_enough = len(signal) >= 64 * PIECES
+            found = (
+                core.impulsive_band(signal, rate, lowest, highest)
+                if long_enough
+                else (lowest, highest)
+            )
+            _put(self._bands, (column, passing), found)
+        return self._bands[column, passing]
+
+    def envelope_resolution(self, top: float) -> float:
+        """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
+        return max(1.0 / self.recording.duration, top / ENVELOPE_LINES)
+
+    def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum:
+        """Envelope spectrum of a band [Hz] along a direction, to be drawn up to `top` [Hz]."""
+        column = self.directions.index(direction)
+        key = (column, *band, top)
+        if key not in self._envelopes:
+            recording = self.recording
+            resolution = self.envelope_resolution(top)
+            signal = recording.acceleration[:, column] - self._middle[column]
+            found = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
+            _put(self._envelopes, key, found)
+        return self._envelopes[key]
+
+    @cached_property
+    def _middle(self) -> NDArray[np.float64]:
+        return np.asarray(self.recording.acceleration.mean(axis=0))
+
+    def scene(self, scene: Scene) -> Scene:
+        """The scene at the shaft speed of the measurement."""
+        return scene.replace(shaft_speed=self.shaft_speed)
+
+
+def _put(known: dict, key: object, value: object, most: int = 6) -> None:
+    """Keep a result; the oldest leaves."""
+    while len(known) >= most:
+        known.pop(next(iter(known)))
+    known[key] = value
+
+
+class Simulated:
+    """What the model says to a measurement: the scene at its shaft speed.
+
+    Of the motion the start is left out, so that spectra do not hold the way to the steady state.
+    """
+
+    def __init__(self, results: Results, measured: Measured) -> None:
+        scene, self._moving = measured.scene(results.scene), results.moving
+        self.results = Results(scene, 0.0, results.settings, moving=self._moving)
+
+    @property
+    def scene(self) -> Scene:
+        """That is simulated."""
+        return self.results.scene
+
+    def spectrum(self, direction: str, resolution: float) -> Spectrum | None:
+        """Spectrum along a direction; None where the housing cannot move along it."""
+        return simulated_spectra(
+            self.scene, self.results.settings, self._moving, direction, resolution
+        )
+
+    def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum | None:
+        """Envelope spectrum of a band [Hz], up to `top` [Hz]."""
+        return simulated_envelopes(
+            self.scene, self.results.settings, self._moving, direction, *band, top
+        )
+
+
+def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
+    if direction not in motion.dofs:
+        return None
+    first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
+    signal = motion.outer_acceleration[first:, motion.dofs.index(direction)]
+    if not np.isfinite(signal).all():
+        raise ValueError("the simulated motion does not stay finite")
+    return signal
+
+
+def _spectrum(
+    scene: Scene, settings: Settings, moving: bool, direction: str, resolution: float
+) -> Spectrum | None:
+    motion = Results(scene, 0.0, settings, moving=moving).motion
+    signal = _steady(motion, direction)
+    if signal is None:
+        return None
+    finest = 1.0 / (len(signal) / motion.sample_rate)
+    return core.spectrum(signal, motion.sample_rate, max(resolution, 1.01 * finest))
+
+
+def _envelope(
+    scene: Scene,
+    settings: Settings,
+    moving: bool,
+    direction: str,
+    low: float,
+    high: float,
+    top: float,
+) -> Spectrum | None:
+    motion = Results(scene, 0.0, settings, moving=moving).motion
+    signal = _steady(motion, direction)
+    if signal is None or high >= 0.5 * motion.sample_rate or not signal.any():
+        return None
+    resolution = max(motion.sample_rate / len(signal), top / ENVELOPE_LINES)
+    return core.envelope_spectrum(signal, motion.sample_rate, (low, high), resolution)
+
+
+simulated_spectra = ComputedOnce(_spectrum, 64)
+simulated_envelopes = ComputedOnce(_envelope, 64)

@@ -1,0 +1,105 @@
+"""How the page is put together: which views stand on which tab, and the frame around them."""
+
+from __future__ import annotations
+
+import logging
+from functools import cache
+from pathlib import Path
+from urllib.parse import urlencode
+
+import panel as pn
+
+import bearingcore
+from bearing_explorer.assets import asset_text
+from bearing_explorer.compute import compiling
+from bearing_explorer.server.live import on_loop
+from bearing_explorer.server.template import PageTemplate
+from bearing_explorer.session import Explorer, Section
+from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder
+from bearing_explorer.views.accuracy import Accuracy
+from bearing_explorer.views.bearing import BearingDrawing
+from bearing_explorer.views.bearing_editor import BearingEditor
+from bearing_explorer.views.depth_profile import DepthProfile
+from bearing_explorer.views.dof_comparison import DofDifferences
+from bearing_explorer.views.explore import ExplorePlane
+from bearing_explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.views.maps import StiffnessMaps
+from bearing_explorer.views.measured_envelope import MeasuredEnvelope
+from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
+from bearing_explorer.views.measurement import MeasuredSignal
+from bearing_explorer.views.model_editor import ModelEditor
+from bearing_explorer.views.modes import NaturalFrequencies
+from bearing_explorer.views.orbit import SteadyOrbit
+from bearing_explorer.views.plan import PlanInFull
+from bearing_explorer.views.sizing import DefectSize
+from bearing_explorer.views.speed_run import SpeedRunSpectra
+from bearing_explorer.views.stability_map import OrbitStability
+from bearing_explorer.views.stiffness import Stiffness
+from bearing_explorer.views.theme import dark_properties, themes
+from bearing_explorer.views.vibration_spectrum import VibrationSpectra
+from bearing_explorer.views.vibration_time import VibrationInTime
+
+log = logging.getLogger(__name__)
+
+SECTIONS = (
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "At rest"),
+    Section("stiffness", "Stiffness", (Stiffness,)),
+    Section("maps", "Maps", (StiffnessMaps,)),
+    Section("modes", "Natural frequencies", (NaturalFrequencies,)),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra), "In motion"),
+    Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
+    Section("speed-run", "Speed run", (SpeedRunSpectra,)),
+    Section("explore", "Explore", (ExplorePlane,), "Tools"),
+    Section("sizing", "Sizing", (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize)),
+    Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
+    Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
+    Section("model", "Model", (ModelEditor, DofDifferences)),
+)
+"""The tabs; a group goes on until the next begins.
+
+What is not on the tab that is open is neither computed nor sent.
+"""
+
+
+@cache
+def warm_once() -> None:
+    """Compile the kernels, once a process, before anybody's first drag waits for them."""
+    bearingcore.warm(report=log.info)
+
+
+def address() -> str:
+    """What stands behind the question mark in the address of this session's page."""
+    given = pn.state.session_args or {}
+    return urlencode([(name, value) for name, values in given.items() for value in values])
+
+
+TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
+"""Names of the tabs and of their views, as lessons speak of them."""
+
+
+def page(lessons: Path | None = None) -> PageTemplate:
+    """The page of a new session; `lessons` is a folder with somebody's own."""
+    compiling.begin()
+    known = lessons_in(lessons or own_folder(), TABS)
+    explorer = Explorer(SECTIONS, address=address(), lessons=known)
+    template = PageTemplate(asset_text("page.html"))
+    template.add_variable("style", asset_text("page.css") + dark_properties())
+    template.add_variable("logo", asset_text("logo.svg"))
+    template.add_variable("themes", themes())
+    template.add_variable("theme_script", asset_text("theme.js"))
+    template.add_variable("page_script", asset_text("page.js"))
+    template.add_panel("lesson", explorer.lesson)
+    template.add_panel("tabs", explorer.tabs)
+    side = pn.Column(explorer.share, explorer.controls, sizing_mode="stretch_width", margin=0)
+    template.add_panel("controls", side)
+    template.add_panel("main", explorer.main)
+    template.add_panel("status", explorer.status)
+    template.add_panel("plan", explorer.plan)
+    template.add_panel("limits", explorer.limits)
+    template.add_panel("wire", pn.pane.Bokeh(explorer.wire.anchor, margin=0))
+    doc = pn.state.curdoc
+    pn.state.onload(lambda: on_loop(doc, explorer.start))
+    pn.state.on_session_destroyed(lambda _: explorer.stop())
+    if doc is not None:
+        doc.title = "Bearing explorer"
+    return template

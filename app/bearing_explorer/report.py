@@ -1,0 +1,240 @@
+"""A page about one scene that stands alone: numbers, warnings, figures, link, version, date.
+
+Made in two halves. The server writes the page, all words escaped, with a mark where each figure
+goes, and makes the figures anew with the numbers of the scene, whatever tab is open. The browser,
+which alone can paint them, draws each as SVG, puts it in its place and saves the file. The page
+that comes out holds no script, and its policy allows none; nothing is fetched.
+"""
+
+from __future__ import annotations
+
+import html
+import logging
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import Any
+from urllib.parse import urlsplit
+
+from bokeh.embed import json_item
+from bokeh.models import Column
+
+from bearing_explorer.assets import asset_text
+from bearing_explorer.compute.results import Results
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.quantities import defects_of, values_of
+from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.bearing_editor import facts_of
+from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.views.measured_view import MeasuredView
+from bearing_explorer.widgets.limits import rows_of
+from bearing_explorer.widgets.status import status_of
+from bearingcore import Scene, preset_notes
+from bearingcore.sweep.grid import program_version
+
+log = logging.getLogger(__name__)
+
+FILE = "bearing-report.html"
+_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+_DEFECT_GROUP = "Defect"
+
+
+@dataclass(frozen=True)
+class About:
+    """What a report says about itself: the preset, the link if it is one, the day."""
+
+    preset: str
+    link: str
+    date: datetime
+
+
+def report(
+    results: Results, views: Sequence[type[View]], found: Mapping[str, Any], about: About
+) -> dict[str, Any]:
+    """The report for the browser to finish. For any thread: it touches nobody's models.
+
+    `found` is what jobs have found, by view; views of jobs without are left out.
+    """
+    wire = Wire()
+    parts: list[str] = []
+    shown: list[View] = []
+    sources: Sources = {}
+    ranges: Ranges = {}
+    for kind in views:
+        if issubclass(kind, (ControlView, MeasuredView)) or not (kind.needs or kind.name in found):
+            continue
+        view = kind(wire)
+        if kind.name in found:
+            view.found = found[kind.name]  # type: ignore[attr-defined]
+        try:
+            data, sentence = view.data(results), view.sentence(results)
+        except ValueError as error:
+            parts.append(_figure(view, [], f"Not shown for this scene: {error}."))
+            continue
+        except Exception:
+            log.exception("the view %s failed in a report", view.name)
+            continue
+        if not view.figures:
+            continue
+        view.say(results, sentence)
+        sources |= data[0]
+        ranges |= data[1]
+        shown.append(view)
+        parts.append(_figure(view, [plot.id for plot in view.figures], sentence))
+    wire.send(sources, ranges)
+    plots = [plot for view in shown for plot in view.figures]
+    for plot in plots:
+        plot.frame_align = False  # or all would leave as much room as the one that needs most
+    layout = Column(children=[*plots, wire.anchor], sizing_mode="stretch_width")
+    return {
+        "name": FILE,
+        "html": page(results, about, parts),
+        "item": json_item(layout),
+        "packet": wire.anchor.tags[0].id,
+        "figures": [plot.id for plot in plots],
+    }
+
+
+def mark_of(figure_id: str) -> str:
+    """What stands in the page where a figure goes."""
+    return f"<!--figure {figure_id}-->"
+
+
+def page(results: Results, about: About, parts: Iterable[str]) -> str:
+    """The whole page with its `parts`, each a section of HTML."""
+    scene = results.scene
+    said = status_of(results, 0.0)
+    limits = rows_of(results.limits)
+    crossed = [row for row in limits if row["state"] == "crossed"]
+    when = about.date.strftime("%d %B %Y, %H:%M UTC")
+    link = _link(about.link)
+    body = [
+        f"<header><h1>Bearing report</h1><p>{_text(when)}, Bearing explorer "
+        f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
+        "<section><h2>Scene</h2>",
+        _changes(scene, about.preset),
+        f"<p>Grey in the figures: {_text(_grey(results))}. Cage angle: "
+        f"{_text(style.in_degrees(results.cage_angle))}.</p>",
+        f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
+        f"{_text('; '.join(said['details'][:-1]))}.</p></section>",
+        "<section><h2>Warnings</h2>",
+        _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is crossed.</p>",
+        _table(
+            ["Looked at", "Value", "Limit", "", "In words"],
+            [
+                [_text(row[key]) for key in ("name", "value", "limit", "state", "sentence")]
+                for row in limits
+            ],
+        ),
+        "</section>",
+        *parts,
+        "<section><h2>All numbers</h2>",
+        "<div class='numbers'>",
+        *(f"<div>{part}</div>" for part in _numbers(scene)),
+        "</div></section>",
+    ]
+    return (
+        "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
+        "<meta name='viewport' content='width=device-width, initial-scale=1'>"
+        f"<title>Bearing report, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
+        f"<style>{asset_text('report.css')}</style></head><body>\n"
+        + "\n".join(body)
+        + "\n</body></html>\n"
+    )
+
+
+def now() -> datetime:
+    """The day and the hour."""
+    return datetime.now(UTC)
+
+
+def _text(words: str) -> str:
+    return html.escape(words, quote=True)
+
+
+def _link(address: str) -> str:
+    """An address as a link; nothing where it is none of the web's."""
+    try:
+        parts = urlsplit(address)
+    except ValueError:
+        return ""
+    if parts.scheme not in ("http", "https") or not parts.netloc:
+        return ""
+    return f"<a href='{_text(address)}'>open this scene</a>"
+
+
+def _figure(view: View, ids: Sequence[str], sentence: str) -> str:
+    drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
+    return (
+        f"<section><h2>{_text(view.title)}</h2><p class='about'>{_text(view.about)}</p>"
+        f"<figure>{drawings}<figcaption>{_text(sentence)}</figcaption></figure></section>"
+    )
+
+
+def _grey(results: Results) -> str:
+    if results.pinned is not None:
+        return f"the pinned scene “{results.pinned.name}”"
+    return "the bearing without its defect"
+
+
+def _changes(scene: Scene, preset: str) -> str:
+    note = preset_notes.get(preset, "")
+    several = defects_of(scene)
+    told = [
+        f"{'Inner' if defect.race == 'inner' else 'Outer'} race at "
+        f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} long, "
+        f"{style.with_prefix(defect.depth, 'm')} deep, edge model “{defect.edge}”, "
+        f"{_floor(defect.floor)} floor."
+        for defect in several
+        if not defect.is_none
+    ]
+    return (
+        f"<p>Begun from “{_text(preset)}”. {_text(note)}</p>"
+        + (_list(told) if told else "<p>There is no defect.</p>")
+        + f"<p>Contact law: {_text(scene.contact_law)}. Directions that can move: "
+        f"{_text(', '.join(scene.active_dofs))}.</p>"
+    )
+
+
+def _floor(floor: object) -> str:
+    return "flat" if floor is None else type(floor).__name__.removesuffix("Floor").lower()
+
+
+def _numbers(scene: Scene) -> Iterable[str]:
+    """Tables of all numbers, a group each; those of defects once a defect."""
+    facts = [[_text(f["label"]), f["symbol"], _text(f["value"])] for f in facts_of(scene)]
+    yield "<h3>What follows from them</h3>" + _table(["Name", "Symbol", "Value"], facts)
+    groups = dict.fromkeys(q.group for q in QUANTITY_LIST if q.of == "scene")
+    for group in groups:
+        count = len(defects_of(scene)) if group == _DEFECT_GROUP else 1
+        for number in range(count):
+            values = values_of(scene, number)
+            rows = [
+                _row(q, values[q.name])
+                for q in QUANTITY_LIST
+                if q.group == group and q.of == "scene" and not math.isnan(values[q.name])
+            ]
+            name = f"{group} {number + 1}" if count > 1 else group
+            if rows:
+                head = ["Name", "Symbol", "Value", "Unit"]
+                yield f"<h3>{_text(name)}</h3>" + _table(head, rows)
+
+
+def _row(quantity: Quantity, value: float) -> list[str]:
+    shown = f"{value:.9g}".replace("-", "−")
+    return [_text(quantity.label), quantity.symbol, _text(shown), _text(quantity.unit)]
+
+
+def _list(sentences: Iterable[str]) -> str:
+    return "<ul>" + "".join(f"<li>{_text(sentence)}</li>" for sentence in sentences) + "</ul>"
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table of cells that are HTML already."""
+    head = "".join(f"<th scope='col'>{_text(word)}</th>" for word in heads)
+    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

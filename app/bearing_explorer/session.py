@@ -1,0 +1,625 @@
+"""The one state object of a session: controls -> Scene -> Results -> the views on screen."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import logging
+import math
+import time
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+import panel as pn
+
+from bearing_explorer.assets import asset_text
+from bearing_explorer.compute import compiling
+from bearing_explorer.compute.jobs import Jobs
+from bearing_explorer.compute.planning import Rest, with_choices
+from bearing_explorer.compute.results import Results
+from bearing_explorer.compute.scheduler import Turns
+from bearing_explorer.measurement.session import Measurement
+from bearing_explorer.report import About, now, report
+from bearing_explorer.server import log as write
+from bearing_explorer.server.live import (
+    LatestWins,
+    good_byes,
+    in_thread,
+    one_message,
+    send_at_once,
+)
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.bookmarks import Keeping, asked_for, read_asked
+from bearing_explorer.state.lessons import Fault, Lesson
+from bearing_explorer.state.quantities import Values
+from bearing_explorer.state.quantity_list import CAGE_ANGLE
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
+from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.accuracy import Accuracy
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.views.job_view import JobView
+from bearing_explorer.views.measured_view import MeasuredView
+from bearing_explorer.widgets.controls import Controls, Rows
+from bearing_explorer.widgets.lesson import LessonPanel
+from bearing_explorer.widgets.limits import LimitsStrip, rows_of
+from bearing_explorer.widgets.plan_choice import PlanChoice
+from bearing_explorer.widgets.share import ShareBar
+from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
+from bearingcore import Scene
+from bearingcore.plan import CURVES
+
+log = logging.getLogger(__name__)
+
+Found = TypeVar("Found")
+
+#: a slow view that cost more than this [s] may be skipped while newer inputs wait ...
+_HEAVY = 0.04
+#: ... but not for longer than this [s]
+_PATIENCE = 0.25
+
+#: the limits of the model are looked at when the hand rests, and while it moves this often [s]
+_LIMITS_EVERY = 1.0
+
+_BROKEN = "This could not be computed; what is shown belongs to an earlier position."
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page that is on screen as a whole: a tab; those of a group stand together."""
+
+    name: str
+    title: str
+    views: tuple[type[View], ...]
+    group: str = ""
+
+    @property
+    def plans(self) -> tuple[str, ...]:
+        """What is planned for its views when the hand rests."""
+        return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
+
+    @property
+    def has_orbit(self) -> bool:
+        """Whether it shows the orbit, which can take long to find."""
+        return any("orbit" in view.needs for view in self.views)
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What is to be drawn; `mark` is the number of the newest change it holds.
+
+    `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
+    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, and after a
+    long search where it `seeks_orbit`.
+    """
+
+    scene: Scene
+    cage_angle: float
+    mark: int
+    focus: int = 0
+    settings: Settings = field(default_factory=Settings)
+    rested: bool = False
+    planned: tuple[str, ...] = ()
+    pinned: Reference | None = None
+    seeks_orbit: bool = False
+
+    @property
+    def kind(self) -> Hashable:
+        """What inputs share that cost about the same: all but loads and sizes of defects."""
+        scene = self.scene
+        return (
+            scene.bearing,
+            scene.active_dofs,
+            scene.contact_law,
+            tuple((defect.race, defect.edge, defect.floor) for defect in scene.defects),
+            scene.shaft_speed > 0.0,
+            self.settings,
+            self.rested,
+            self.planned,
+            self.pinned is not None,
+        )
+
+    @property
+    def results(self) -> Results:
+        """What there is to be known about them."""
+        return Results(
+            self.scene,
+            self.cage_angle,
+            self.settings,
+            self.focus,
+            moving=not self.rested,
+            planned=self.planned,
+            pinned=self.pinned,
+        )
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a view has to say about some results; without `data` it could not say anything."""
+
+    view: View
+    data: tuple[Sources, Ranges] | None
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What some views have to say, and how the computation went."""
+
+    drawings: list[Drawing]
+    status: dict[str, Any]
+    limits: list[dict[str, Any]] | None
+
+
+class Explorer:
+    """A session. `page.py` puts its parts on a page; the browser's messages arrive here."""
+
+    def __init__(
+        self,
+        sections: Sequence[Section],
+        preset: str = "fan-rig",
+        address: str = "",
+        lessons: Sequence[Lesson | Fault] = (),
+    ) -> None:
+        """`address`: what stands behind the question mark, from strangers too."""
+        self.wire = Wire()
+        self._sections = {section.name: section for section in sections}
+        self._views: dict[str, list[View]] = {}
+        self._containers: dict[str, pn.Column] = {}
+        self._mark = 0
+        self._drawn_mark = 0
+        self._settings = Settings()
+        self._slow_cost = 0.0
+        self._slow_at = self._limits_at = -math.inf
+        self._doc = pn.state.curdoc
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._turns = Turns()
+        self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
+        self._rest: Rest[Inputs, tuple[str, ...]] = Rest(
+            _planned, self._draw_by_plan, self._worker.finished, self._turns, _kind_of_thought
+        )
+        self._rested: Inputs | None = None
+        self.jobs = Jobs(lambda change: one_message(self._doc, change))
+
+        self.editor = SceneEditor(preset)
+        self.keeping = Keeping(self.editor, address)
+        self._reporting = False
+        self.share = ShareBar(self._share_asked, state=self.keeping.state())
+        self.lesson = LessonPanel(self._lesson_asked, lessons)
+        self.measurement = Measurement(
+            self.editor, lambda change: one_message(self._doc, change), self.draw
+        )
+        self.controls = Controls(self._asked, state=self.editor.state())
+        self._panels: list[Rows] = [self.controls]
+        one_line = ["one-line"]
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
+        self.plan = PlanChoice(self._plan_asked)
+        self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
+        tab = self.keeping.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self._on_screen = ""
+        self.tabs = Tabs(
+            self._tab_asked,
+            names=[[section.name, section.title, section.group] for section in sections],
+            active=self._shown,
+        )
+        self.main = pn.Column(sizing_mode="stretch_width", margin=0)
+
+    @property
+    def inputs(self) -> Inputs:
+        """What is to be drawn now."""
+        angle = math.radians(self.values[CAGE_ANGLE])
+        return Inputs(
+            self.scene,
+            angle,
+            self._mark,
+            self.editor.focus,
+            self._settings,
+            pinned=self.keeping.pinned,
+        )
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as the controls have it."""
+        return self.editor.scene
+
+    @property
+    def values(self) -> Values:
+        """The numbers of the controls."""
+        return self.editor.values
+
+    def start(self) -> None:
+        """The page is up: draw."""
+        send_at_once(self._doc)
+        if self._doc is not None:
+            good_byes[self._doc] = self.say_good_bye
+        self.draw()
+
+    def stop(self) -> None:
+        """The session is over."""
+        good_byes.pop(self._doc, None)
+        self._worker.stop()
+        self._rest.end()
+        self.jobs.stop()
+        self.measurement.stop()
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date: at once, and by plan when the hand rests."""
+        inputs, section = self.inputs, self._sections[self._shown]
+        rested = dataclasses.replace(
+            inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit
+        )
+        self._rest.end()
+        if self._nothing_new(rested):
+            self._worker.submit(rested)
+            return
+        self._rested = None
+        self._worker.submit(inputs)
+        self._rest.begin(rested)
+
+    def _nothing_new(self, rested: Inputs) -> bool:
+        """Whether all that these inputs would have planned is planned already."""
+        last = self._rested
+        return (
+            last is not None
+            and (last.scene, last.settings) == (rested.scene, rested.settings)
+            and set(rested.planned) <= set(last.planned)
+            and rested.seeks_orbit <= last.seeks_orbit
+        )
+
+    def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
+        """Draw finer or cheaper, by what was planned while the hand rested."""
+        rested = dataclasses.replace(inputs, planned=planned)
+        if rested != self._rested:
+            self._rested = rested
+            self._worker.submit(rested)
+        if not compiling.ready():
+            self._rest.begin(inputs)  # there will be more to say
+
+    # What the browser asks for. Its messages are not to be trusted.
+
+    def _asked(self, message: Any) -> None:
+        if not isinstance(message, dict):
+            return
+        mark = message.get("mark")
+        if isinstance(mark, int) and 0 <= mark < 2**24:
+            self._mark = mark
+        try:
+            if message.get("reset") is True:
+                self.editor.take_preset(self.editor.preset)
+                self._tell(state=self.editor.state())
+            if isinstance(choose := message.get("choose"), dict):
+                refused = self.editor.choose(choose)
+                self._tell(state=self.editor.state(), **({"refused": refused} if refused else {}))
+            if isinstance(values := message.get("set"), dict):
+                self._set(values, confirm=False)
+            if isinstance(typed := message.get("typed"), dict):
+                self._set(typed, confirm=True)
+            if isinstance(file := message.get("floor"), dict):
+                self._read(file)
+        finally:
+            if self.keeping.follow(message):
+                self._tell_share()
+            self.draw()  # even a refusal is answered, or the browser would wait for its mark
+
+    def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
+        """Take numbers; what is refused stays as it was, with a sentence.
+
+        A slider knows where it is; what was typed is confirmed as it was understood.
+        """
+        was_changed = self.editor.changed
+        refused, changed = self.editor.set(given)
+        names = [name for name in changed if name not in given]
+        if confirm:
+            names += [name for name in given if name in self.values and name not in refused]
+        if names or was_changed != self.editor.changed:
+            self._tell(state=self.editor.state(names))
+        if refused:
+            self._tell(refused=refused)
+
+    def _read(self, file: Mapping[Any, Any]) -> None:
+        """Take a measured floor out of a file's text: parsed off the event loop, it may be long."""
+        name, text = file.get("name"), file.get("text")
+        if not (isinstance(name, str) and isinstance(text, str)):
+            return
+        text = text[: LARGEST_FILE + 1]
+
+        def take(found: Any) -> None:
+            self.editor.take_floor(name[:200], *found)
+            self.keeping.step()
+            self._tell(state=self.editor.state())
+            self._tell_share()
+            self.draw()
+
+        self._in_background(lambda: read_file(text), take)
+
+    def _in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
+        """Compute something off the event loop, then take it."""
+
+        async def work() -> None:
+            found = await in_thread(compute)
+            await one_message(self._doc, lambda: take(found))
+
+        task = asyncio.get_running_loop().create_task(work())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    # The bar above the controls
+
+    def _share_asked(self, message: Any) -> None:
+        if not isinstance(message, dict):
+            return
+        if isinstance(name := message.get("keep"), str):
+            self.share.answer(kept=self.keeping.kept(name))
+        if message.get("want") == "toml":
+            self.share.answer(file=self.keeping.toml())
+        if isinstance(base := message.get("report"), str) and not self._reporting:
+            self._report(base[:2000])
+        if "mark" not in message:
+            return
+        if self.keeping.go(message):
+            self._tell(state=self.editor.state())
+        if isinstance(name := message.get("pin_here"), str):
+            self.keeping.pin_here(name)
+        if message.get("unpin") is True:
+            self.keeping.unpin()
+        if (asked := asked_for(message)) is not None:
+
+            def take(found: Any) -> None:
+                if self.keeping.take(asked, found):
+                    self._tell(state=self.editor.state())
+                self._tell_share()
+                self.draw()
+
+            self._in_background(lambda: read_asked(asked), take)
+        self._asked(message)  # the mark, and a reset
+
+    def _report(self, base: str) -> None:
+        """Make a report; `base` is the address of the page without what is behind it."""
+        inputs = self.inputs
+        results = Results(
+            inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
+        )
+        kinds = [view for section in self._sections.values() for view in section.views]
+        jobs = [v for views in self._views.values() for v in views if isinstance(v, JobView)]
+        found = {view.name: view.found for view in jobs if view.found is not None}
+        link = f"{base}?{self.keeping.state()['address']}"
+        about = About(self.editor.preset, link, now())
+
+        def make() -> dict[str, Any] | None:
+            try:
+                return report(results, kinds, found, about)
+            except Exception:
+                log.exception("a report failed")
+                return None
+
+        def take(made: dict[str, Any] | None) -> None:
+            self._reporting = False
+            self.share.answer(report=made)
+
+        self._reporting = True
+        self._in_background(make, take)
+
+    def _tell_share(self) -> None:
+        """The bar follows: the address, and what can be undone."""
+        if self.share.state != (state := self.keeping.state()):
+            self.share.state = state
+
+    def _take_steps(self, step_rate: float | None) -> None:
+        """March motions with steps [Hz] set by hand, or None: with the program's own."""
+        self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
+        self.draw()
+
+    def _plan_asked(self, message: Any) -> None:
+        """The program's choices overruled by hand, or given back to it."""
+        if isinstance(message, dict):
+            self._settings = with_choices(self._settings, message)
+            self.draw()
+
+    def _tell(self, **news: Any) -> None:
+        """Tell all panels of controls; each shows what is its own.
+
+        The mark lets them pass over what a hand has moved on from meanwhile.
+        """
+        if "state" in news:
+            news["state"] = {**news["state"], "mark": self._mark}
+        for panel in self._panels:
+            panel.tell(**news)
+
+    def _lesson_asked(self, message: Any) -> None:
+        """A lesson begins, or a button among its words is pressed."""
+        if not isinstance(message, dict):
+            return
+        lesson = self.lesson.begin(message.get("lesson"))
+        if lesson is not None:
+            lesson.begin(self.editor)
+            self._tell(state=self.editor.state())
+        self._tab_asked(message if lesson is None else {"show": lesson.tab})
+        self._asked(message)  # the mark, and what a button changes
+
+    def _tab_asked(self, message: Any) -> None:
+        name = message.get("show") if isinstance(message, dict) else None
+        if isinstance(name, str) and name in self._sections:
+            self._shown = name
+            self.keeping.show(name)
+            self._tell_share()
+            self.draw()
+
+    def _make(self, name: str) -> list[View]:
+        """The views of a section. For any thread: they are in no document yet."""
+        return [view(self.wire) for view in self._sections[name].views]
+
+    def _bring(self, name: str) -> None:
+        """Put a section on screen; its figures are made when it is first asked for.
+
+        Done by the worker, in the same order of messages as what is drawn on them: the browser
+        must know a figure before it hears of its numbers.
+        """
+        if name not in self._containers:
+            views = self._views[name]
+            for view in views:
+                if isinstance(view, ControlView):
+                    view.listen(self._asked, self.editor.state())
+                    self._panels.append(view.rows)
+                if isinstance(view, MeasuredView):
+                    view.measure(self.measurement)
+                if isinstance(view, JobView):
+                    view.employ(self.jobs, self.editor, self.draw)
+                if isinstance(view, Accuracy):
+                    view.take_steps = self._take_steps
+            self._containers[name] = pn.Column(
+                *(view.panel for view in views),
+                stylesheets=[asset_text("section.css")],
+                sizing_mode="stretch_width",
+                margin=0,
+            )
+            self.main.append(self._containers[name])
+        for other, container in self._containers.items():
+            shown = "on-screen" if other == name else "off-screen"
+            container.css_classes = ["section", f"section-{other}", shown]
+        self.tabs.active = self._on_screen = name
+
+    # Drawing: off the event loop to compute, on it to assign.
+
+    async def _work(self, inputs: Inputs) -> None:
+        started = time.perf_counter()
+        self._turns.worked = 0.0
+        if self._on_screen != self._shown:
+            shown = self._shown
+            if shown not in self._views:
+                self._views[shown] = await in_thread(self._make, shown, slow=True)
+            await one_message(self._doc, lambda: self._bring(shown), new_models=True)
+        views = self._views[self._on_screen]
+        slow = [view for view in views if view.needs & Results.slow]
+        quick = [view for view in views if view not in slow]
+        # where nothing else follows the hand there is nothing to hold up
+        held_up = any(view.needs for view in quick)
+        if held_up and self._worker.waiting and self._slow_cost > _HEAVY:
+            slow = slow if started - self._slow_at > _PATIENCE else []
+
+        if quick or not slow:
+            inputs, results, picture = await self._turns.run(
+                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick, started
+            )
+            await self._assign(results, picture, None if slow else inputs.mark)
+        else:
+            results = inputs.results
+        if slow:
+            before = time.perf_counter()
+            limits = not quick and self._limits_due(inputs)
+            picture = await self._turns.run_slow(_picture, results, slow, started, limits)
+            self._slow_at = time.perf_counter()
+            self._slow_cost = self._slow_at - before
+            await self._assign(results, picture, inputs.mark)
+        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+
+    def _quick_picture(
+        self, inputs: Inputs, views: Sequence[View], started: float
+    ) -> tuple[Inputs, Results, Picture]:
+        """A picture of the newest inputs: others may have waited for their turn too."""
+        inputs = self._worker.newest(inputs)
+        results = inputs.results
+        return inputs, results, _picture(results, views, started, self._limits_due(inputs))
+
+    def _limits_due(self, inputs: Inputs) -> bool:
+        now = time.perf_counter()
+        due = inputs.rested or now - self._limits_at > _LIMITS_EVERY
+        if due:
+            self._limits_at = now
+        return due
+
+    async def _assign(self, results: Results, picture: Picture, mark: int | None) -> None:
+        """Send a picture; `mark` where with it all of these inputs is drawn."""
+        sources: Sources = {}
+        ranges: Ranges = {}
+        for drawing in picture.drawings:
+            if drawing.data is not None:
+                sources |= drawing.data[0]
+                ranges |= drawing.data[1]
+        self._drawn_mark = self._drawn_mark if mark is None else mark
+
+        def change() -> None:
+            self.wire.send(sources, ranges, self._drawn_mark, self._turns.worked)
+            for drawing in picture.drawings:
+                drawing.view.say(results if drawing.data else None, drawing.sentence)
+            self.status.put(line=picture.status)
+            self.plan.show(results, self.tabs.active)
+            if picture.limits is not None:
+                self.limits.put(rows=picture.limits)
+
+        await one_message(self._doc, change)
+
+    async def say_good_bye(self, words: str) -> None:
+        """The last words of a session, on its page."""
+        line = {"mood": "bad", "words": words, "details": []}
+        await one_message(self._doc, lambda: self.status.put(line=line))
+
+    async def _failed(self, error: Exception) -> None:
+        """Something no view expected: say so, answer the mark, keep the last good picture."""
+        write.trouble("failed", self._doc, scene=write.scene_name(self.scene), view=self._shown)
+        self._drawn_mark = self._mark
+
+        def change() -> None:
+            self.wire.send({}, {}, self._drawn_mark)
+            self.status.put(line={"mood": "bad", "words": _BROKEN, "details": []})
+
+        await one_message(self._doc, change)
+
+
+def _picture(
+    results: Results, views: Sequence[View], started: float, limits: bool = False
+) -> Picture:
+    """Compute what the views need and have them say it, and what `limits` of the model say."""
+    shown = frozenset[str]().union(*(view.needs for view in views))
+    results.begin(shown)
+    drawings = [_drawing(results, view) for view in views]
+    status = status_of(results, time.perf_counter() - started, shown)
+    return Picture(drawings, status, rows_of(results.limits) if limits else None)
+
+
+def _kind_of_thought(inputs: Inputs) -> Hashable | None:
+    """What plans share that cost about the same. Those of motions may take seconds: no kind."""
+    curves = all(view in CURVES for view in inputs.planned)
+    return inputs.kind if curves and not inputs.seeks_orbit else None
+
+
+def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
+    """Those of `inputs.planned` that could be planned; in a thread, or in turn where that is light.
+
+    The plans stay known, and so does an orbit that is looked for.
+    """
+    results = inputs.results
+    made = []
+    for view in inputs.planned:
+        if overtaken():
+            break
+        if view not in CURVES and not compiling.ready():
+            continue
+        try:
+            results.plan_of(view)
+        except ValueError:
+            continue  # the view itself says why there is nothing to plan
+        except Exception:
+            log.exception("planning %s failed", view)
+            continue
+        made.append(view)
+    if inputs.seeks_orbit and compiling.ready() and not overtaken():
+        try:
+            results.seek_orbit(overtaken)
+        except ValueError:
+            pass  # again the view says why
+        except Exception:
+            log.exception("looking for an orbit failed")
+    return tuple(made)
+
+
+def _drawing(results: Results, view: View) -> Drawing:
+    try:
+        return Drawing(view, view.data(results), view.sentence(results))
+    except ValueError as error:
+        return Drawing(view, None, f"Not shown for this scene: {error}.")
+    except Exception:
+        log.exception("the view %s failed", view.name)
+        return Drawing(view, None, _BROKEN)

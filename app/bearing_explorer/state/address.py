@@ -1,0 +1,438 @@
+"""A scene as the text behind the question mark of the page's address, and back.
+
+    v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&tab=stiffness&cage_angle_deg=12.5
+
+The text says what differs from a preset, under the names and in the units of the page: so a person
+can read it, change a number by hand and see in a mail what a link is about. One packed word would
+be hardly shorter, as most scenes differ from a preset in two or three numbers, and nobody could
+mend it. Only what no person reads is packed: the points of a measured floor.
+
+The rules of version 1, which later versions go on reading:
+
+- `v` is 1, `preset` a name of `bearingcore.presets`. What follows is left out where it is as in the
+  preset; so the numbers of a preset must not change (a test holds them).
+- A number is in the unit of its name, or in SI with ``SI`` behind it where no number in that unit
+  stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
+  read back to the last bit.
+- Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
+  on; each is told against the first defect of the preset. `selected` is the one the sliders move.
+- `race`, `edge`, `law`, `dofs` (``auto`` or names with dots between) are words. `floor` is
+  ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
+  too long for an address.
+- `tab` and `cage_angle_deg` are where and when one looks.
+- `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
+  whose first bytes all come first, then all second ones: neighbours have their first bytes alike.
+
+An address comes from anybody: it is never evaluated, its length and what unpacks from it are
+bounded, and what cannot be understood is answered with a sentence.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import dataclasses
+import math
+import re
+import struct
+import zlib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from bearing_explorer.state.quantities import (
+    DEFECT_FIELDS,
+    QUANTITIES,
+    Limits,
+    defects_of,
+    in_si,
+    in_unit,
+    limits_of,
+    refusal,
+)
+from bearing_explorer.state.quantities import read as read_number
+from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
+from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor
+from bearingcore import (
+    CONTACT_LAWS,
+    DOF_NAMES,
+    EDGES,
+    RACES,
+    Defect,
+    MeasuredFloor,
+    RoughFloor,
+    Scene,
+    presets,
+)
+from bearingcore.model.drawing import OPTIONAL_FIELDS
+from bearingcore.model.floor import MOST_ROWS
+
+TOO_LONG = "too-long"
+"""Version of an address that the server put in place of one that was far too long."""
+
+VERSION = "1"
+LONGEST_LINK = 7_000
+"""Characters of a link: servers in front of ours take lines of 8 kB as they come."""
+LONGEST_TEXT = 2_500_000
+"""Characters that are read at the most, of what a browser has kept: a floor of any length fits."""
+_MOST_FIELDS = 400
+_LONGEST_NUMBER = 40
+
+_OWN_WORDS = ("v", "preset", "defects", "selected", "law", "dofs", "tab", CAGE_ANGLE)
+_DEFECT_WORDS = ("race", "edge", "floor", "points")
+_OF_DEFECT = [q for q in QUANTITY_LIST if q.field in DEFECT_FIELDS]
+_OF_FLOOR = [q for q in QUANTITY_LIST if q.of == "floor"]
+_OF_SCENE = [q for q in QUANTITY_LIST if q.of == "scene" and q.field not in DEFECT_FIELDS]
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(SI)?", re.IGNORECASE | re.ASCII)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A scene and how one looks at it: what a link stands for.
+
+    `selected` is the defect that the sliders move, `cage_angle` in degrees, `tab` a section of the
+    page. `note` is a sentence for whoever opened the link.
+    """
+
+    scene: Scene
+    preset: str
+    selected: int = 0
+    cage_angle: float = 0.0
+    tab: str = ""
+    note: str = ""
+
+
+def write(place: Place, longest: int | None = None) -> str:
+    """The text of a place; floors that make it longer than `longest` are left out of it."""
+    text = _written(place, False)
+    return text if longest is None or len(text) <= longest else _written(place, True)
+
+
+def leaves_out(text: str) -> bool:
+    """Whether `write` left a floor out."""
+    return "floor=left-out" in text
+
+
+def read(text: str) -> Place | None:
+    """The place of a text; None where the text says nothing about a scene.
+
+    Raises
+    ------
+    ValueError
+        with a sentence for the page.
+    """
+    if len(text) > LONGEST_TEXT:
+        raise ValueError("It is far too long.")
+    try:
+        pairs = parse_qsl(
+            text.removeprefix("?"), True, encoding="ascii", max_num_fields=_MOST_FIELDS
+        )
+    except ValueError:
+        raise ValueError("It has far too many parts, or signs that do not belong there.") from None
+    strange = [name for name, _ in pairs if not _is_known(name)]
+    given: dict[str, str] = {}
+    for name, value in pairs:
+        if name in given:
+            raise ValueError(f"“{_shown(name)}” stands there twice.")
+        if _is_known(name):
+            given[name] = value
+    if not given:
+        return None
+    place = _read(given)
+    if strange:
+        note = f"“{_shown(strange[0])}” in the address means nothing here and was passed over."
+        place = dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
+    return place
+
+
+def opened(text: str, editor: SceneEditor) -> Place:
+    """Show the place of a text on an editor. Never fails: `note` says where it could not be."""
+    tab, note = "", ""
+    try:
+        place = read(text)
+        if place is not None:
+            tab, note = place.tab, place.note
+            editor.take_scene(place.scene, place.preset, place.selected, place.cage_angle)
+    except ValueError as error:
+        what = str(error) if str(error).endswith(".") else refusal(error)
+        note = f"The address could not be opened. {what} Shown is a bearing to begin with."
+    return dataclasses.replace(place_of(editor, tab), note=note)
+
+
+def place_of(editor: SceneEditor, tab: str = "") -> Place:
+    """Where the editor stands."""
+    return Place(editor.scene, editor.preset, editor.selected, editor.values[CAGE_ANGLE], tab)
+
+
+# Writing
+
+
+def _written(place: Place, without_floors: bool) -> str:
+    scene, base = place.scene, presets[place.preset]
+    pairs: list[tuple[str, str]] = [("v", VERSION), ("preset", place.preset)]
+    defects, usual = defects_of(scene), defects_of(base)[0]
+    if len(defects) != 1:
+        pairs.append(("defects", str(len(defects))))
+    for number, defect in enumerate(defects):
+        pairs += [
+            (_behind(number) + name, value)
+            for name, value in _defect_pairs(defect, usual, without_floors)
+        ]
+    if place.selected:
+        pairs.append(("selected", str(place.selected + 1)))
+    for quantity in _OF_SCENE:
+        value, was = _value(scene, quantity), _value(base, quantity)
+        if value != was:
+            pairs.append((quantity.name, number_text(quantity, value)))
+    if scene.contact_law != base.contact_law:
+        pairs.append(("law", scene.contact_law.replace(" ", "-")))
+    if scene.dofs != base.dofs:
+        pairs.append(("dofs", "auto" if scene.dofs is None else ".".join(scene.dofs)))
+    if place.cage_angle:
+        pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
+    if place.tab:
+        pairs.append(("tab", place.tab))
+    return urlencode(pairs)
+
+
+def _behind(number: int) -> str:
+    return f"defect{number + 1}." if number else ""
+
+
+def _defect_pairs(defect: Defect, usual: Defect, without_floors: bool) -> Iterable[tuple[str, str]]:
+    for quantity in _OF_DEFECT:
+        value = getattr(defect, quantity.field)
+        if value != getattr(usual, quantity.field):
+            yield quantity.name, number_text(quantity, value)
+    for name in ("race", "edge"):
+        if getattr(defect, name) != getattr(usual, name):
+            yield name, getattr(defect, name)
+    floor = defect.floor
+    if isinstance(floor, RoughFloor):
+        yield "floor", "rough"
+        for quantity in _OF_FLOOR:
+            yield quantity.name, number_text(quantity, getattr(floor, quantity.last_name))
+    elif isinstance(floor, MeasuredFloor) and without_floors:
+        yield "floor", "left-out"
+    elif isinstance(floor, MeasuredFloor):
+        yield "floor", "measured"
+        yield "points", packed(floor)
+
+
+def _value(scene: Scene, quantity: Quantity) -> float | None:
+    """A number of a scene that is not one of its defects', in SI."""
+    parts = (scene, scene.bearing, scene.load, scene.support)
+    owner = next(part for part in parts if hasattr(part, quantity.field))
+    value: float | None = getattr(owner, quantity.field)
+    return value
+
+
+def number_text(quantity: Quantity, value: float | None) -> str:
+    """A number in SI as the address has it; `_number` makes the very same of it."""
+    if value is None:
+        return "none"
+    shown = in_unit(quantity, value)
+    if in_si(quantity, shown) == value:
+        return _short(shown)
+    return _short(value) + "SI"
+
+
+def _short(value: float) -> str:
+    """The shortest text of a float, whole numbers without a point."""
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
+
+
+@lru_cache(maxsize=32)
+def packed(floor: MeasuredFloor) -> str:
+    """The points of a floor as a word."""
+    numbers = floor.places + floor.depths
+    raw = struct.pack(f"<{len(numbers)}d", *numbers)
+    sorted_bytes = b"".join(raw[place::8] for place in range(8))
+    return base64.urlsafe_b64encode(zlib.compress(sorted_bytes, 9)).rstrip(b"=").decode()
+
+
+# Reading
+
+
+def _is_known(name: str) -> bool:
+    if name in _OWN_WORDS or name in _SCENE_NAMES:
+        return True
+    head, dot, tail = name.rpartition(".")
+    behind = not dot or (re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None)
+    return behind and tail in _DEFECT_NAMES
+
+
+_SCENE_NAMES = frozenset(q.name for q in _OF_SCENE)
+_DEFECT_NAMES = frozenset(
+    [*_DEFECT_WORDS, *(q.name for q in _OF_DEFECT), *(q.name for q in _OF_FLOOR)]
+)
+
+
+def _read(given: dict[str, str]) -> Place:
+    version = given.pop("v", None)
+    if version is None:
+        raise ValueError("It does not say its version (v=1).")
+    if version == TOO_LONG:
+        raise ValueError("It is far too long.")
+    if version != VERSION:
+        raise ValueError(
+            f"It is of version “{_shown(version)}”, and this program knows version {VERSION} only."
+        )
+    preset = given.pop("preset", "fan-rig")
+    if preset not in presets:
+        raise ValueError(f"There is no bearing “{_shown(preset)}”.")
+    base = presets[preset]
+    count = _count(given.pop("defects", "1"), "defects")
+    selected = _count(given.pop("selected", "1"), "selected") - 1
+    law = _word(given.pop("law", None), CONTACT_LAWS, base.contact_law)
+    dofs = _dofs(given.pop("dofs", None), base)
+    cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
+    tab = given.pop("tab", "")
+    defects, notes = [], []
+    for number in range(count):
+        own = {
+            name: given.pop(_behind(number) + name)
+            for name in _DEFECT_NAMES
+            if _behind(number) + name in given
+        }
+        if own.get("floor") == "left-out":
+            notes.append("A measured floor was too long for the address; here it is flat.")
+        defects.append(_defect(own, defects_of(base)[0]))
+    fields = {
+        name: _number(given.pop(name), QUANTITIES[name]) for name in list(given)
+        if name in _SCENE_NAMES
+    }  # fmt: skip
+    if given:
+        raise ValueError(f"“{_shown(next(iter(given)))}” is about a defect that is not there.")
+    scene = Scene(
+        bearing=_part(base.bearing, fields),
+        defect=defects[0] if count == 1 else tuple(defects),
+        load=_part(base.load, fields),
+        support=_part(base.support, fields),
+        contact_law=law,
+        dofs=dofs,
+        **{
+            name: _si(fields, name, getattr(base, name))
+            for name in ("shaft_speed", "contact_damping")
+        },
+    )
+    return Place(scene, preset, selected, cage_angle, tab[:40], " ".join(notes))
+
+
+def _si(fields: Mapping[str, float | None], field: str, usual: Any) -> Any:
+    """The number given for a field of the core, or the usual one."""
+    name = next(q.name for q in _OF_SCENE if q.field == field)
+    return fields.get(name, usual)
+
+
+def _part(part: Any, fields: Mapping[str, float | None]) -> Any:
+    own: dict[str, Any] = {
+        q.field: fields[q.name] for q in _OF_SCENE if q.name in fields and hasattr(part, q.field)
+    }
+    for name, value in own.items():
+        if value is not None and name == "n_balls":
+            own[name] = int(value) if value == int(value) else value
+    return dataclasses.replace(part, **own)
+
+
+def _defect(given: dict[str, str], usual: Defect) -> Defect:
+    fields: dict[str, Any] = {
+        quantity.field: _number(given[quantity.name], quantity)
+        for quantity in _OF_DEFECT
+        if quantity.name in given
+    }
+    fields["race"] = _word(given.get("race"), RACES, usual.race)
+    fields["edge"] = _word(given.get("edge"), EDGES, usual.edge)
+    kind = given.get("floor", "flat")
+    if kind == "rough":
+        numbers = {q.last_name: _number(given.get(q.name, ""), q) for q in _OF_FLOOR}
+        seed = numbers.pop("seed")
+        fields["floor"] = RoughFloor(**numbers, seed=int(seed or 0))  # type: ignore[arg-type]
+    elif kind == "measured":
+        fields["floor"] = unpacked(given.get("points", ""))
+    elif kind in ("flat", "left-out"):
+        fields["floor"] = None
+    else:
+        raise ValueError(f"There is no floor “{_shown(kind)}”.")
+    return dataclasses.replace(usual, **fields)
+
+
+def _number(text: str, quantity: Quantity) -> float | None:
+    """A number in SI; ValueError with a sentence where it is none."""
+    if text == "none" and (quantity.optional or quantity.field in OPTIONAL_FIELDS):
+        return None
+    value, is_si = _parsed(text, quantity.name)
+    if is_si:
+        return value
+    # as it would be typed on the page: out of range it is refused in the words of the page
+    read_number(quantity.name, text, _usual_limits())
+    return in_si(quantity, value)
+
+
+@cache
+def _usual_limits() -> Mapping[str, Limits]:
+    """Limits of what can be typed: the same with every preset."""
+    return limits_of(presets["fan-rig"])
+
+
+def _parsed(text: str, name: str) -> tuple[float, bool]:
+    """A number and whether it is said to be in SI."""
+    found = _NUMBER.fullmatch(text) if len(text) <= _LONGEST_NUMBER else None
+    value = float(found[1]) if found else math.nan
+    if found is None or not math.isfinite(value):
+        raise ValueError(f"“{_shown(text)}” is not a number that {name} could have.")
+    return value, found[2] is not None
+
+
+def _count(text: str, name: str) -> int:
+    if not (text.isascii() and text.isdecimal() and 1 <= int(text[:3]) <= MOST_DEFECTS):
+        raise ValueError(f"“{_shown(text)}” is out of range: {name} goes from 1 to {MOST_DEFECTS}.")
+    return int(text[:3])
+
+
+def _word(text: str | None, options: Iterable[str], usual: str) -> str:
+    if text is None:
+        return usual
+    known = {option.replace(" ", "-"): option for option in options}
+    if text not in known:
+        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(known)}.")
+    return known[text]
+
+
+def _dofs(text: str | None, base: Scene) -> tuple[str, ...] | None:
+    if text is None:
+        return base.dofs
+    if text == "auto":
+        return None
+    names = tuple(text.split("."))
+    if not set(names) <= set(DOF_NAMES) or len(set(names)) != len(names):
+        raise ValueError(f"“{_shown(text)}” are not directions that can move.")
+    return names
+
+
+def unpacked(word: str) -> MeasuredFloor:
+    """The floor of `packed`; ValueError with a sentence for anything else."""
+    most = 16 * MOST_ROWS
+    try:
+        squeezed = base64.b64decode(word + "=" * (-len(word) % 4), b"-_", validate=True)
+        opener = zlib.decompressobj()
+        raw = opener.decompress(squeezed, most + 1)  # no more, whatever it would swell to
+    except (binascii.Error, ValueError, zlib.error):
+        raise ValueError("The points of a measured floor cannot be read.") from None
+    if len(raw) > most or len(raw) % 16 or not opener.eof:
+        raise ValueError("The points of a measured floor cannot be read.")
+    count = len(raw) // 8
+    numbers = struct.unpack(f"<{count}d", b"".join(bytes(raw[k::count]) for k in range(count)))
+    half = count // 2
+    try:
+        return MeasuredFloor(numbers[:half], numbers[half:])
+    except ValueError as error:
+        raise ValueError(refusal(error)) from None
+
+
+def _shown(text: str) -> str:
+    """A stranger's text for a sentence: short, on one line."""
+    clean = "".join(sign if sign.isprintable() else " " for sign in text[:60])
+    return clean if len(clean) <= 30 else clean[:29] + "…"

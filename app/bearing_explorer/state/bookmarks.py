@@ -1,0 +1,182 @@
+"""What a session remembers of its scenes: steps to undo, a pinned scene, the address of now.
+
+Holds no Panel. What is asked for comes from the browser, from strangers too: it is judged here,
+and answered with a sentence where it cannot be. Scenes that a person keeps lie in the browser, as
+the text of `bearing_explorer.state.address` with a name; nothing of them stays on the server.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from bearing_explorer.state.address import (
+    LONGEST_LINK,
+    LONGEST_TEXT,
+    Place,
+    leaves_out,
+    opened,
+    place_of,
+    read,
+    write,
+)
+from bearing_explorer.state.history import History
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.quantity_list import CAGE_ANGLE
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
+from bearingcore import Scene
+from bearingcore.model.scene_file import LARGEST_TEXT
+
+LONGEST_NAME = 60
+_STEPS = ("set", "typed", "choose", "reset", "floor")
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Something to open or pin that may take a while to read: `read_asked` does, in any thread."""
+
+    what: str
+    name: str
+    text: str
+
+
+def asked_for(message: Mapping[Any, Any]) -> Asked | None:
+    """What a message wants opened ("open", "file") or pinned ("pin"), if it says so properly."""
+    for what in ("open", "file", "pin"):
+        given = message.get(what)
+        if isinstance(given, dict):
+            name, text = given.get("name"), given.get("text")
+            if isinstance(name, str) and isinstance(text, str):
+                return Asked(what, name_of(name), text[: LONGEST_TEXT + 1])
+    return None
+
+
+def read_asked(asked: Asked) -> Place | str:
+    """The place that was asked for, or a sentence."""
+    try:
+        if asked.what == "file":
+            if len(asked.text) > LARGEST_TEXT:
+                return f"{asked.name} is longer than a scene can be."
+            return Place(Scene.from_toml(asked.text), "")
+        place = read(asked.text)
+    except ValueError as error:
+        text = str(error)
+        return f"{asked.name}: {text if text.endswith('.') else refusal(error)}"
+    return f"{asked.name} holds no scene." if place is None else place
+
+
+def name_of(text: str) -> str:
+    """A name for a scene out of what a stranger wrote: short, on one line, not empty."""
+    clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
+    return " ".join(clean.split())[:LONGEST_NAME].rstrip() or "Unnamed"
+
+
+class Keeping:
+    """The memory of one session, beside its editor."""
+
+    def __init__(self, editor: SceneEditor, address: str = "") -> None:
+        """`address`: what stood behind the question mark as the page was opened."""
+        self._editor = editor
+        place = opened(address, editor)
+        self._tab = place.tab
+        self._said = (0, place.note)
+        self._history: History[Snapshot] = History(editor.snapshot())
+        self.pinned: Reference | None = None
+
+    @property
+    def tab(self) -> str:
+        """The section that the address names."""
+        return self._tab
+
+    def say(self, sentence: str) -> None:
+        """What happened, for the person; said again it is news again."""
+        self._said = (self._said[0] + 1, sentence)
+
+    def show(self, tab: str) -> None:
+        """Another section is on screen."""
+        self._tab = tab
+
+    def follow(self, message: Mapping[Any, Any]) -> bool:
+        """Note what a message did to the editor; whether a step has ended.
+
+        Play turns the bearing while a hand moves something else: that belongs to the hand's step.
+        """
+        now = self._editor.snapshot()
+        given = message.get("set")
+        if not isinstance(given, dict) or any(name in message for name in _STEPS[1:]):
+            self._history.step(now)
+            return True
+        if given:
+            names = sorted(str(name)[:40] for name in list(given)[:9] if name != CAGE_ANGLE)
+            self._history.moved(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
+        if message.get("released") is True:
+            self._history.settle()
+        return not self._history.moving
+
+    def step(self) -> None:
+        """Note that the editor was changed at once."""
+        self._history.step(self._editor.snapshot())
+
+    def go(self, message: Mapping[Any, Any]) -> bool:
+        """Undo or redo where a message asks for it; whether there was something to."""
+        if message.get("undo") is True:
+            kept = self._history.undo()
+        elif message.get("redo") is True:
+            kept = self._history.redo()
+        else:
+            return False
+        if kept is not None:
+            self._editor.restore(kept)
+        return kept is not None
+
+    def take(self, asked: Asked, found: Place | str) -> bool:
+        """Do what was asked for with what `read_asked` found; whether anything changed."""
+        if isinstance(found, str):
+            self.say(found)
+            return False
+        if asked.what == "pin":
+            self.pinned = Reference(found.scene, asked.name)
+            self.say(f"“{asked.name}” is pinned: grey shows it beside every scene.")
+            return True
+        try:
+            self._editor.take_scene(found.scene, found.preset, found.selected, found.cage_angle)
+        except ValueError as error:
+            text = str(error)
+            self.say(f"{asked.name}: {text if text.endswith('.') else refusal(error)}")
+            return False
+        self.say(found.note or f"{asked.name} is open.")
+        self.step()
+        return True
+
+    def pin_here(self, name: str) -> None:
+        """Pin the scene of now."""
+        self.pinned = Reference(self._editor.scene, name_of(name))
+        self.say(f"“{self.pinned.name}” is pinned: grey shows it beside every scene.")
+
+    def unpin(self) -> None:
+        """Grey shows the sound bearing again."""
+        self.pinned = None
+        self.say("Grey shows the bearing without its defect again.")
+
+    def kept(self, name: str) -> dict[str, str]:
+        """The scene of now for the browser to keep."""
+        return {"name": name_of(name), "text": write(place_of(self._editor))}
+
+    def toml(self) -> dict[str, str]:
+        """The scene of now as a file."""
+        name = f"bearing-{self._editor.preset}.toml"
+        return {"name": name, "type": "application/toml", "text": self._editor.scene.to_toml()}
+
+    def state(self) -> dict[str, Any]:
+        """What the browser needs to know."""
+        address = write(place_of(self._editor, self._tab), LONGEST_LINK)
+        return {
+            "address": address,
+            "whole": not leaves_out(address),
+            "undo": self._history.can_undo,
+            "redo": self._history.can_redo,
+            "pinned": "" if self.pinned is None else self.pinned.name,
+            "said": {"number": self._said[0], "words": self._said[1]},
+        }

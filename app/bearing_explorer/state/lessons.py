@@ -1,0 +1,444 @@
+"""Lessons: text files that ask, set a scene, say what to drag and what to look at, and answer.
+
+A lesson is a text file in Markdown with a head in TOML::
+
+    +++
+    title = "What a ball carries"
+    tab = "load"                       # what is on screen: a tab of the page
+    preset = "fan-rig"                 # the scene to begin with ...
+    drag = ["fy_n", "cage_angle_deg"]  # the controls that stand beside the words
+    watch = ["load-distribution"]      # the figures to look at; they are marked
+
+    [scene]                            # ... and what is changed in it
+    extent_deg = 0
+    edge = "chord"
+    +++
+    ## Question
+    Which ball carries most?
+    ## Answer
+    The last part is hidden until it is asked for.
+
+Parts begin with ``##``. Formulas stand between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
+``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
+that opens a tab. Files are read in the order of their names.
+
+Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
+loaded, and formulas become MathML of known elements. What is wrong with a file is said with its
+name and line.
+"""
+
+from __future__ import annotations
+
+import difflib
+import html
+import json
+import re
+import tomllib
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qsl, unquote
+
+from latex2mathml.converter import convert_to_element
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+from bearing_explorer.assets import asset_path
+from bearing_explorer.state.quantities import QUANTITIES
+from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
+from bearing_explorer.state.scene_editor import FLOORS, SceneEditor
+from bearingcore import CONTACT_LAWS, EDGES, RACES, presets
+
+Tabs = tuple[tuple[str, tuple[str, ...]], ...]
+"""Names of the tabs, each with the names of its views."""
+
+LONGEST_FILE = 60_000  # bytes
+LONGEST_FORMULA = 400  # characters
+MOST_LESSONS = 60
+_LONGEST_TITLE = 90  # characters
+_MOST_LISTED = 16
+
+CHOICES: Mapping[str, Sequence[str]] = {
+    "race": RACES,
+    "edge": EDGES,
+    "floor": tuple(floor for floor in FLOORS if floor != "measured"),
+    "law": CONTACT_LAWS,
+}
+"""What a lesson may choose besides numbers."""
+
+DRAGGED = (
+    *(quantity.name for quantity in QUANTITY_LIST if quantity.group in SCENE_GROUPS),
+    *("race", "edge", "floor"),
+)
+"""The controls that can stand beside the words."""
+
+_FENCE = "+++"
+_HEAD = {"title": str, "tab": str, "preset": str, "drag": list, "watch": list, "scene": dict}
+_NEEDED = ("title", "tab", "preset")
+_KINDS = {str: "a text in quotes", list: "a list of texts", dict: "a table"}
+_MATHML_ELEMENTS = (
+    "math mrow mi mn mo mtext mspace msub msup msubsup mfrac msqrt mroot mover munder munderover "
+    "mtable mtr mtd mstyle mpadded mphantom"
+)
+_MATHML_ATTRIBUTES = (
+    "xmlns display mathvariant stretchy fence separator form lspace rspace width height depth "
+    "minsize maxsize linethickness columnalign rowspacing columnspacing displaystyle scriptlevel "
+    "accent accentunder movablelimits largeop symmetric"
+)
+
+
+class LessonError(ValueError):
+    """What is wrong with a lesson, in a sentence; `line` counts from 1."""
+
+    def __init__(self, line: int, words: str) -> None:
+        super().__init__(words)
+        self.line = line
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a lesson: its heading, and its words as safe HTML."""
+
+    heading: str
+    html: str
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One lesson. `values` and `choices` change the scene of `preset`, by names of the page."""
+
+    title: str
+    tab: str
+    preset: str
+    values: Mapping[str, float]
+    choices: Mapping[str, str]
+    drag: tuple[str, ...]
+    watch: tuple[str, ...]
+    parts: tuple[Part, ...]
+
+    def begin(self, editor: SceneEditor) -> None:
+        """Set the scene that it begins with."""
+        editor.take_preset(self.preset)
+        editor.choose(self.choices)
+        editor.set(self.values)
+
+    def for_browser(self, number: int) -> dict[str, Any]:
+        """What the page shows of it; `number` counts from 0."""
+        return {
+            "number": number,
+            "title": self.title,
+            "drag": list(self.drag),
+            "watch": list(self.watch),
+            "parts": [asdict(part) for part in self.parts],
+        }
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A file that is no lesson, and why: a sentence with its name and line."""
+
+    title: str
+    sentence: str
+
+
+def own_folder() -> Path:
+    """Where the lessons lie that come with the program."""
+    return asset_path("lessons")
+
+
+def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
+    """All lessons of a folder, in the order of their files' names; files that changed are reread.
+
+    A folder that cannot be read, or holds none, is one fault.
+    """
+    try:
+        files = sorted(path for path in folder.iterdir() if path.suffix == ".md")
+    except OSError as error:
+        return [_no_lessons(folder, f"cannot be read ({error.strerror or error})")]
+    if not files:
+        return [_no_lessons(folder, "holds no file that ends in .md")]
+    found: list[Lesson | Fault] = []
+    for path in files[:MOST_LESSONS]:
+        try:
+            about = path.stat()
+            found.append(_from_file(path, about.st_mtime_ns, about.st_size, tabs))
+        except OSError as error:
+            found.append(_fault(path.name, f"cannot be read ({error.strerror or error})"))
+    if len(files) > MOST_LESSONS:
+        found.append(_fault(folder.name, f"holds {len(files)} lessons; read are {MOST_LESSONS}"))
+    return found
+
+
+def faults_in(folder: Path, tabs: Tabs) -> list[str]:
+    """What is wrong with the lessons of a folder, a sentence for each file."""
+    return [found.sentence for found in lessons_in(folder, tabs) if isinstance(found, Fault)]
+
+
+def _no_lessons(folder: Path, why: str) -> Fault:
+    return _fault(str(folder), f"the folder {why}")
+
+
+def _fault(name: str, why: str) -> Fault:
+    return Fault(name, f"{name}: {why}.")
+
+
+@lru_cache(maxsize=4 * MOST_LESSONS)
+def _from_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
+    """The lesson in a file; the time and size of its last change are part of the cache's key."""
+    try:
+        return read_lesson(_decoded(path.read_bytes() if size <= LONGEST_FILE else None), tabs)
+    except LessonError as error:
+        return Fault(path.name, f"{path.name}, line {error.line}: {error}.")
+
+
+def _decoded(content: bytes | None) -> str:
+    if content is None or len(content) > LONGEST_FILE:
+        raise LessonError(1, f"the file is longer than {LONGEST_FILE} bytes")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise LessonError(line, "this is not text in UTF-8") from None
+
+
+def read_lesson(text: str, tabs: Tabs) -> Lesson:
+    """The lesson that `text` is; LessonError where it is none."""
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if lines[0].strip() != _FENCE:
+        raise LessonError(1, f"a lesson begins with a line {_FENCE}")
+    ends = [i for i, line in enumerate(lines) if i and line.strip() == _FENCE]
+    if not ends:
+        raise LessonError(len(lines), f"the head has no end: a second line {_FENCE} is missing")
+    head = _Head(lines[1 : ends[0]], tabs)
+    scene = head.scene()
+    parts = _parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, head, tabs)
+    return Lesson(
+        title=head.text["title"],
+        tab=head.text["tab"],
+        preset=head.text["preset"],
+        values=scene[0],
+        choices=scene[1],
+        drag=head.names("drag", DRAGGED, "a control beside the figures"),
+        watch=head.names("watch", dict(tabs)[head.text["tab"]], "a figure of this tab"),
+        parts=parts,
+    )
+
+
+class _Head:
+    """The head of a lesson, judged."""
+
+    def __init__(self, lines: list[str], tabs: Tabs) -> None:
+        self._lines = lines
+        try:
+            self._table = tomllib.loads("\n".join(lines))
+        except tomllib.TOMLDecodeError as error:
+            raise _of_toml(error, len(lines)) from None
+        for name, value in self._table.items():
+            if name not in _HEAD:
+                known = ", ".join(_HEAD)
+                raise self.error(name, f"“{name}” is not known; a head holds {known}")
+            if not isinstance(value, _HEAD[name]):
+                raise self.error(name, f"{name} should be {_KINDS[_HEAD[name]]}")
+        missing = [name for name in _NEEDED if not str(self._table.get(name, "")).strip()]
+        if missing:
+            raise LessonError(1, f"the head has no {missing[0]}")
+        self.text = {name: " ".join(str(self._table[name]).split()) for name in _NEEDED}
+        if len(self.text["title"]) > _LONGEST_TITLE:
+            raise self.error("title", f"the title is longer than {_LONGEST_TITLE} characters")
+        self._on_list("tab", self.text["tab"], list(dict(tabs)), "a tab")
+        self._on_list("preset", self.text["preset"], list(presets), "a preset")
+
+    def error(self, name: str, words: str) -> LessonError:
+        """What is wrong with the entry `name`, with the line it stands in."""
+        begins = re.compile(rf"\s*[\[\"']*\s*{re.escape(name)}\b")
+        at = next((i for i, line in enumerate(self._lines) if begins.match(line)), 0)
+        return LessonError(at + 2, words)
+
+    def _on_list(self, entry: str, name: str, known: Sequence[str], what: str) -> None:
+        if name not in known:
+            raise self.error(entry, f"“{name[:40]}” is not {what}; {_near(name, known)}")
+
+    def names(self, entry: str, known: Sequence[str], what: str) -> tuple[str, ...]:
+        """A list of names that are all known."""
+        given = [str(name) for name in self._table.get(entry, [])]
+        for name in given:
+            self._on_list(entry, name, known, what)
+        return tuple(given)
+
+    def scene(self) -> tuple[dict[str, float], dict[str, str]]:
+        """The numbers and the choices that the scene is changed by."""
+        changes = {name: str(value) for name, value in self._table.get("scene", {}).items()}
+        try:
+            return _changes(SceneEditor(self.text["preset"]), changes)
+        except _RefusedError as refused:
+            raise self.error(refused.name, str(refused)) from None
+
+    def editor(self) -> SceneEditor:
+        """The scene that the lesson begins with."""
+        editor = SceneEditor(self.text["preset"])
+        values, choices = self.scene()
+        editor.choose(choices)
+        editor.set(values)
+        return editor
+
+
+def _of_toml(error: tomllib.TOMLDecodeError, n_lines: int) -> LessonError:
+    words, _, place = str(error).partition(" (at ")
+    line = re.search(r"line (\d+)", place)
+    at = int(line[1]) if line else n_lines
+    return LessonError(at + 1, f"the head is not TOML: {words[:1].lower()}{words[1:]}")
+
+
+def _near(name: str, known: Sequence[str]) -> str:
+    """What might have been meant: all that is known where that is little."""
+    if len(known) <= _MOST_LISTED:
+        return f"there are {', '.join(known)}"
+    close = difflib.get_close_matches(name, known, 1, 0.3)
+    return f"was {close[0]} meant?" if close else f"there are {len(known)}, as {known[0]}"
+
+
+class _RefusedError(ValueError):
+    def __init__(self, name: str, words: str) -> None:
+        super().__init__(words.rstrip("."))
+        self.name = name
+
+
+def _changes(
+    editor: SceneEditor, changes: Mapping[str, str]
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Changes of a scene as numbers and choices, tried on `editor`; raises where one fails."""
+    choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
+    for name, value in choices.items():
+        options = CHOICES.get(name, list(presets))
+        if value not in options:
+            raise _RefusedError(name, f"{name} is “{value[:40]}”; {_near(value, options)}")
+    for name, sentence in editor.choose(choices).items():
+        raise _RefusedError(name, sentence)
+    numbers = {name: value for name, value in changes.items() if name not in choices}
+    for name in numbers:
+        if name not in QUANTITIES:
+            known = _near(name, [*QUANTITIES, *CHOICES])
+            raise _RefusedError(name, f"“{name[:40]}” is no number or choice of the page; {known}")
+    refused, _ = editor.set(numbers)
+    for name, sentence in refused.items():
+        raise _RefusedError(name, sentence)
+    return {name: editor.values[name] for name in numbers}, choices
+
+
+# Words: Markdown to HTML that is safe whoever wrote it.
+
+
+@cache
+def _markdown() -> MarkdownIt:
+    parser = MarkdownIt("commonmark", {"html": False, "maxNesting": 20})
+    parser.enable(["table"]).disable(["image", "html_block", "html_inline", "lheading"])
+    return parser.use(dollarmath_plugin, allow_space=False, double_inline=True)
+
+
+def _parts(text: str, offset: int, head: _Head, tabs: Tabs) -> tuple[Part, ...]:
+    """The parts of a body whose first line is line `offset` + 1 of the file."""
+    parser = _markdown()
+    tokens = parser.parse(text)
+    begins = [i for i, t in enumerate(tokens) if t.type == "heading_open" and t.tag == "h2"]
+    if not begins or begins[0] > 0:
+        raise LessonError(offset + 1, "words before the first part: parts begin with “## ”")
+    if len(begins) < 2:
+        raise LessonError(offset + 1, "a lesson has two parts at least, the last is the answer")
+    line = offset + 1
+    for token in tokens:
+        line = offset + 1 + token.map[0] if token.map else line
+        if token.type == "heading_open":
+            _lower(token)
+        if token.type == "heading_close":
+            _lower(token)
+        if token.type in ("math_block", "math_block_label"):
+            token.type, token.content = "html_block", _formula(token.content, True, line)
+        if token.children:
+            _mend(token.children, line, head, tabs)
+    found = []
+    for begin, end in zip(begins, [*begins[1:], len(tokens)], strict=True):
+        words = tokens[begin + 1]
+        rendered = parser.renderer.render(tokens[begin + 3 : end], parser.options, {})
+        if not rendered.strip():
+            raise LessonError(offset + 1 + (words.map or [0])[0], "this part is empty")
+        found.append(Part(words.content.strip(), rendered))
+    return tuple(found)
+
+
+def _lower(token: Token) -> None:
+    """A heading of a part stands below the lesson's own title."""
+    token.tag = f"h{min(int(token.tag[1]) + 1, 6)}"
+
+
+def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
+    """Formulas to MathML, and links to buttons or to what may be linked to."""
+    closing = ""
+    for token in tokens:
+        if token.type == "softbreak":
+            line += 1
+        if token.type in ("math_inline", "math_inline_double"):
+            double = token.type == "math_inline_double"
+            token.content = _formula(token.content, double, line)
+            token.type = "html_inline"
+        elif token.type == "link_open":
+            address = str(token.attrGet("href") or "")
+            scheme, _, rest = address.partition(":")
+            if scheme in ("set", "show"):
+                told = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
+                token.type, closing = "html_inline", "</button>"
+                token.content = f'<button type="button" class="do" {told}>'
+            elif scheme in ("http", "https"):
+                token.attrSet("target", "_blank")
+                token.attrSet("rel", "noopener noreferrer")
+            else:
+                raise LessonError(
+                    line, f"a link goes to “{address[:60]}”; links go to set:, show: or https:"
+                )
+        elif token.type == "link_close" and closing:
+            token.type, token.content, closing = "html_inline", closing, ""
+
+
+def _set(rest: str, line: int, head: _Head) -> str:
+    changes = dict(parse_qsl(rest, keep_blank_values=True))
+    if not changes:
+        raise LessonError(line, "set: is followed by changes, as in set:extent_deg=64")
+    try:
+        values, choices = _changes(head.editor(), changes)
+    except _RefusedError as refused:
+        raise LessonError(line, str(refused)) from None
+    return f'data-ask="{html.escape(json.dumps({"choose": choices, "typed": values}))}"'
+
+
+def _show(rest: str, line: int, tabs: Tabs) -> str:
+    name = unquote(rest)
+    if name not in dict(tabs):
+        raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(dict(tabs)))}")
+    return f'data-ask="{html.escape(json.dumps({"show": name}))}"'
+
+
+def _formula(latex: str, display: bool, line: int) -> str:
+    """A formula in LaTeX as MathML, which browsers set themselves, of known elements only."""
+    latex = latex.strip()
+    if len(latex) > LONGEST_FORMULA:
+        raise LessonError(line, f"a formula is longer than {LONGEST_FORMULA} characters")
+    wrong = f"“{latex[:60]}” is not a formula that can be set"
+    braces = re.findall(r"(?<!\\)[{}]", latex)
+    if braces.count("{") != braces.count("}"):  # the converter would fill in what is missing
+        raise LessonError(line, f"{wrong}: its braces do not match")
+    try:
+        root = convert_to_element(latex, display="block" if display else "inline")
+    except (Exception, RecursionError):
+        raise LessonError(line, wrong) from None
+    for element in root.iter():
+        odd = [key for key in element.attrib if key not in _MATHML_ATTRIBUTES.split()]
+        if element.tag not in _MATHML_ELEMENTS.split() or odd:
+            raise LessonError(line, f"“{latex[:60]}” holds what a formula may not: {element.tag}")
+        if element.text:  # the converter writes letters as references, the tree holds letters
+            element.text = re.sub(
+                r"&#x([0-9A-Fa-f]{1,6});", lambda code: chr(int(code[1], 16)), element.text
+            )
+    return ElementTree.tostring(root, encoding="unicode")

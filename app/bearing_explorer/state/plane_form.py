@@ -1,0 +1,51 @@
+"""Two quantities to choose as the sides of a map, as a form and as the sweeps that it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from bearing_explorer.state.quantities import Limits
+from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep, usual_range
+
+SIDES = {"x": "To the right", "y": "Upwards"}
+
+
+def plane_fields(headings: bool = False) -> list[dict[str, Any]]:
+    """The fields of the form; with `headings` the quantities stand under those of their groups."""
+    quantities = [
+        [q.name, f"{q.label} ({q.unit})" if q.unit else q.label, *([q.group] if headings else [])]
+        for q in SWEEPABLE.values()
+    ]
+    fields: list[dict[str, Any]] = []
+    for side, words in SIDES.items():
+        fields += [
+            {"name": side, "label": words, "options": quantities},
+            {"name": f"{side}_from", "label": "from"},
+            {"name": f"{side}_to", "label": "to"},
+        ]
+    return fields
+
+
+def plane_fills(limits: Mapping[str, Limits]) -> dict[str, dict[str, dict[str, str]]]:
+    """What a side's fields show once a quantity is chosen there: side -> quantity -> fields."""
+    usual = {name: [f"{v:g}" for v in usual_range(name, limits)] for name in SWEEPABLE}
+    return {
+        side: {
+            name: {f"{side}_from": low, f"{side}_to": high} for name, (low, high) in usual.items()
+        }
+        for side in SIDES
+    }
+
+
+def plane_sweeps(
+    given: Mapping[str, str], counts: Sequence[int], limits: Mapping[str, Limits]
+) -> tuple[Sweep, Sweep]:
+    """The sweeps to the right and upwards; ValueError with a sentence where there are none."""
+    if given["x"] == given["y"]:
+        raise ValueError("Choose two different quantities.")
+    x, y = (
+        sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], count, limits)
+        for side, count in zip(SIDES, counts, strict=True)
+    )
+    return x, y

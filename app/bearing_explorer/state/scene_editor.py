@@ -1,0 +1,509 @@
+"""What a person builds on the page: the scene, the numbers as they were typed, the defect in hand.
+
+Holds no Panel and draws nothing. What is asked for comes from the browser, from strangers too:
+everything is judged here, and what is refused leaves all as it was, with a sentence.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from bearing_explorer.state.quantities import (
+    FIRST_ROUGHNESS,
+    GROOVES,
+    QUANTITIES,
+    Limits,
+    Values,
+    check_values,
+    defects_of,
+    groove_limits,
+    in_si,
+    in_unit,
+    limits_of,
+    read,
+    refusal,
+    scene_with_fields,
+    values_of,
+)
+from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST
+from bearingcore import (
+    CONTACT_LAWS,
+    DOF_NAMES,
+    EDGES,
+    RACES,
+    Bearing,
+    Defect,
+    MeasuredFloor,
+    RoughFloor,
+    Scene,
+    presets,
+    read_floor,
+)
+from bearingcore.model.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
+
+MOST_DEFECTS = 6
+FLOORS = ("flat", "rough", "measured")
+NUMBERS = ("direct", "drawing")
+"""How the numbers of a bearing are given."""
+LARGEST_FILE = 1_000_000
+"""Characters of a file with a measured floor."""
+
+_FIRST_DEFECT = (math.radians(10.0), 50e-6)
+_NO_FILE = "No file yet: the floor is flat."
+_OF_FLOOR = [quantity for quantity in QUANTITY_LIST if quantity.of == "floor"]
+_DRAWN_ONLY = (*GROOVES, "youngs_modulus_gpa", "poisson")
+_DERIVED = (
+    "groove_center_distance_um",
+    "groove_center_radius_mm",
+    "load_deflection_factor",
+    "outer_raceway_radius_mm",
+    "inner_raceway_radius_mm",
+)
+
+Refused = dict[str, str]
+"""Sentences by the names of the controls that they belong to."""
+
+
+@dataclass
+class FloorChoice:
+    """The floor of one defect, and what it goes back to when another kind was looked at."""
+
+    kind: str = "flat"
+    rough: RoughFloor = FIRST_ROUGHNESS
+    measured: MeasuredFloor | None = None
+    words: str = _NO_FILE
+    bad: bool = False
+
+    @property
+    def floor(self) -> RoughFloor | MeasuredFloor | None:
+        """What the defect's floor is."""
+        return {"rough": self.rough, "measured": self.measured}.get(self.kind)
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """All that a `SceneEditor` holds at one time. Two are equal where a person sees no change."""
+
+    scene: Scene
+    preset: str
+    cage_angle: float
+    kinds: tuple[str, ...]
+    selected: int = field(compare=False)
+    values: Values = field(compare=False)
+    limits: dict[str, Limits] = field(compare=False)
+    floors: tuple[FloorChoice, ...] = field(compare=False)
+
+
+@dataclass
+class SceneEditor:
+    """The state of the controls, and the scene that they stand for."""
+
+    preset: str
+    scene: Scene = field(init=False)
+    values: Values = field(init=False)
+    limits: dict[str, Limits] = field(init=False)
+    selected: int = field(init=False)
+    floors: list[FloorChoice] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.take_preset(self.preset)
+
+    def take_preset(self, name: str) -> None:
+        """Back to the numbers of a preset."""
+        self.preset = name
+        self.scene = presets[name]
+        self.selected = 0
+        self.floors = [_choice_of(defect) for defect in self.defects]
+        self.limits = limits_of(self.scene)
+        self.values = {}
+        self._write_values(cage_angle=0.0)
+
+    def take_scene(
+        self, scene: Scene, preset: str = "", selected: int = 0, cage_angle: float = 0.0
+    ) -> None:
+        """Show a scene that comes from a link or a file, at a cage angle in degrees.
+
+        Without a `preset` it counts as a change of the one that has its bearing, or of the one
+        chosen now. ValueError, and nothing changed, where the page could not hold the scene.
+        """
+        if preset not in presets:
+            alike = [name for name in presets if presets[name].bearing == scene.bearing]
+            preset = self.preset if self.preset in alike or not alike else alike[0]
+        defects = [_turned(defect) for defect in defects_of(scene)]
+        if len(defects) > MOST_DEFECTS:
+            raise ValueError(f"defects are {len(defects)}; allowed here: at most {MOST_DEFECTS}")
+        if not 0 <= selected < len(defects):
+            raise ValueError(f"selected is defect {selected + 1} of {len(defects)}")
+        scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
+        limits = limits_of(presets[preset]) | groove_limits(scene)
+        for number in range(len(defects)):
+            check_values({**values_of(scene, number), CAGE_ANGLE: cage_angle}, limits)
+        self.preset, self.scene, self.selected = preset, scene, selected
+        self.floors = [_choice_of(defect) for defect in defects]
+        self.limits = limits
+        self.values = {}
+        self._write_values(cage_angle)
+
+    def snapshot(self) -> Snapshot:
+        """What `restore` brings back."""
+        return Snapshot(
+            scene=self.scene,
+            preset=self.preset,
+            cage_angle=self.values[CAGE_ANGLE],
+            kinds=tuple(floor.kind for floor in self.floors),
+            selected=self.selected,
+            values=dict(self.values),
+            limits=dict(self.limits),
+            floors=tuple(dataclasses.replace(floor) for floor in self.floors),
+        )
+
+    def restore(self, kept: Snapshot) -> None:
+        """All as it was when the snapshot was taken."""
+        self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
+        self.values, self.limits = dict(kept.values), dict(kept.limits)
+        self.floors = [dataclasses.replace(floor) for floor in kept.floors]
+
+    @property
+    def defects(self) -> tuple[Defect, ...]:
+        """All defects on the list, also those without extent or depth."""
+        return defects_of(self.scene)
+
+    @property
+    def changed(self) -> bool:
+        """Whether the bearing is no longer that of the preset."""
+        return self.scene.bearing != presets[self.preset].bearing
+
+    @property
+    def focus(self) -> int:
+        """Which of `scene.defects` the sliders move; the first where that one is none."""
+        defect = self.defects[self.selected]
+        before = [d for d in self.defects[: self.selected] if not d.is_none]
+        return 0 if defect.is_none else len(before)
+
+    # Numbers
+
+    def set(self, given: Mapping[Any, Any]) -> tuple[Refused, Values]:
+        """Take numbers, dragged or typed; returns what was refused and all that changed."""
+        refused: Refused = {}
+        taken: Values = {}
+        for name, value in list(given.items())[: len(QUANTITIES)]:
+            try:
+                taken[str(name)] = read(str(name), value, self.limits)
+            except ValueError as error:
+                refused[str(name)[:60]] = str(error)
+        try:
+            scene = self._scene_with(taken)
+        except ValueError as error:
+            return refused | {name: refusal(error) for name in taken}, {}
+        before = self.values
+        self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
+        self.values |= taken
+        for name, value in taken.items():
+            self.limits[name] = self.limits[name].around(value)
+        changed = {
+            name: value for name, value in self.values.items() if _differ(before[name], value)
+        }
+        return refused, changed
+
+    def _scene_with(self, taken: Values) -> Scene:
+        fields: dict[str, Any] = {}
+        rough: dict[str, Any] = {}
+        for name, value in taken.items():
+            quantity = QUANTITIES[name]
+            if quantity.of == "scene":
+                fields[quantity.field] = in_si(quantity, value)
+            elif quantity.of == "floor":
+                rough[quantity.last_name] = in_si(quantity, value)
+        bearing = self.scene.bearing
+        if "ball_diameter" in fields and bearing.is_drawn:
+            # grooves are made for their ball: they keep what they are to it
+            ratio = fields["ball_diameter"] / bearing.ball_diameter
+            for name in ("inner_groove_radius", "outer_groove_radius"):
+                fields.setdefault(name, getattr(bearing, name) * ratio)
+        if rough:
+            choice = self.floors[self.selected]
+            floor = dataclasses.replace(choice.rough, **rough)
+            if choice.kind == "rough":
+                fields["floor"] = floor
+        scene = scene_with_fields(self.scene, fields, self.selected)
+        if rough:
+            choice.rough = floor
+        return scene
+
+    def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
+        """Make `scene` the one that is shown."""
+        if scene.bearing != self.scene.bearing:
+            self.limits |= groove_limits(scene)
+        self.scene = scene
+        self._write_values(cage_angle)
+
+    def _write_values(self, cage_angle: float | None = None) -> None:
+        turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
+        rough = self.floors[self.selected].rough
+        fresh = {
+            **values_of(self.scene, self.selected),
+            **{q.name: in_unit(q, getattr(rough, q.last_name)) for q in _OF_FLOOR},
+            CAGE_ANGLE: turned,
+        }
+        # what a person typed stands as it was typed, whatever its last digit is in SI
+        self.values = {
+            name: self.values[name]
+            if name in self.values and _close(self.values[name], fresh[name])
+            else fresh[name]
+            for name in QUANTITIES
+        }
+        for name, value in self.values.items():
+            self.limits[name] = self.limits[name].around(value)
+
+    # Choices
+
+    def choose(self, choice: Mapping[Any, Any]) -> Refused:
+        """Take choices out of lists; what is not on a list is passed over."""
+        refused: Refused = {}
+        if (preset := _one_of(choice.get("preset"), presets)) is not None:
+            self.take_preset(preset)
+        for name, options, act in (
+            ("race", RACES, lambda value: self._change_defect(race=value)),
+            ("edge", EDGES, self._take_edge),
+            ("floor", FLOORS, self._take_floor_kind),
+            ("law", CONTACT_LAWS, lambda value: self._change(contact_law=value)),
+            ("numbers", NUMBERS, self._take_numbers),
+        ):
+            value = _one_of(choice.get(name), options)
+            if value is not None:
+                refused |= self._tried(name, act, value)
+        if isinstance(defect := choice.get("defect"), str):
+            refused |= self._tried("defect", self._take_defect, defect)
+        if isinstance(dofs := choice.get("dofs"), str):
+            refused |= self._tried("dofs", self._take_dofs, dofs[:40])
+        return refused
+
+    def _tried(self, name: str, act: Callable[[str], None], value: str) -> Refused:
+        try:
+            act(value)
+        except ValueError as error:
+            return {name: refusal(error)}
+        return {}
+
+    def _change(self, **fields: Any) -> None:
+        self._take(scene_with_fields(self.scene, fields, self.selected))
+
+    def _change_defect(self, **fields: Any) -> None:
+        self._change(**fields)
+
+    def _take_edge(self, edge: str) -> None:
+        """Defects that run into one another need one edge model: all follow it."""
+        self._with_defects(
+            [dataclasses.replace(defect, edge=edge) for defect in self.defects], self.selected
+        )
+
+    def _take_floor_kind(self, kind: str) -> None:
+        floors = self.floors[self.selected]
+        new = dataclasses.replace(floors, kind=kind)
+        self._change_defect(floor=new.floor)
+        self.floors[self.selected] = new
+
+    def _take_dofs(self, dofs: str) -> None:
+        free = None if dofs == "auto" else tuple(name for name in DOF_NAMES if name in dofs.split())
+        if free == ():
+            raise ValueError("dofs is empty; allowed: at least one direction that can move")
+        self._change(dofs=free)
+
+    def _take_defect(self, which: str) -> None:
+        if which == "add":
+            self._add_defect()
+        elif which == "remove":
+            self._remove_defect()
+        elif which.isdecimal() and int(which[:3]) < len(self.defects):
+            self.selected = int(which[:3])
+            self._write_values()
+
+    def _add_defect(self) -> None:
+        if len(self.defects) >= MOST_DEFECTS:
+            raise ValueError(f"defects are {MOST_DEFECTS} already; allowed: at most {MOST_DEFECTS}")
+        last = self.defects[-1]
+        extent, depth = _FIRST_DEFECT if last.is_none else (last.extent, last.depth)
+        center = _freest(self.defects)
+        new = dataclasses.replace(last, center=center, floor=None, extent=extent, depth=depth)
+        gap = _room(self.defects, new.center)
+        new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
+        if new.is_none:
+            raise ValueError("defects leave no room on the race; allowed: a shorter one first")
+        self._with_defects([*self.defects, new], len(self.defects))
+
+    def _remove_defect(self) -> None:
+        if len(self.defects) > 1:
+            rest = [d for i, d in enumerate(self.defects) if i != self.selected]
+            self._with_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
+
+    def _with_defects(
+        self, defects: list[Defect], selected: int, removed: int | None = None
+    ) -> None:
+        scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
+        floors = [floor for i, floor in enumerate(self.floors) if i != removed]
+        floors += [FloorChoice() for _ in range(len(defects) - len(floors))]
+        self.floors, self.selected = floors, selected
+        self._take(scene)
+
+    def _take_numbers(self, how: str) -> None:
+        bearing = self.scene.bearing
+        if how == "drawing" and not bearing.is_drawn:
+            self._take(self.scene.replace(bearing=drawn(bearing)))
+        elif how == "direct" and bearing.is_drawn:
+            fields: dict[str, Any] = dict.fromkeys(OPTIONAL_FIELDS)
+            self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
+
+    # A floor from a file
+
+    def take_file(self, name: str, text: str) -> None:
+        """Make a measured floor that of the defect in hand. What is wrong stands in its words."""
+        self.take_floor(name, *read_file(text))
+
+    def take_floor(
+        self, name: str, found: tuple[MeasuredFloor, float, float, float] | None, wrong: str
+    ) -> None:
+        """The same with what `read_file` made of the text."""
+        choice = self.floors[self.selected]
+        shown = " ".join(name.split())[:40] or "The file"
+        if found is None:
+            self.floors[self.selected] = dataclasses.replace(
+                choice, kind="measured", words=f"{shown}: {wrong}", bad=True
+            )
+            return
+        floor, extent, depth, center = found
+        turned = center % (2.0 * math.pi)
+        words = f"{shown}: {len(floor.places)} points"
+        try:
+            self._change_defect(floor=floor, extent=extent, depth=depth, center=turned)
+        except ValueError as error:
+            self.floors[self.selected] = dataclasses.replace(
+                choice, kind="measured", words=f"{shown}: {refusal(error)}", bad=True
+            )
+        else:
+            self.floors[self.selected] = dataclasses.replace(
+                choice, kind="measured", measured=floor, words=words, bad=False
+            )
+
+    # What the browser needs to know
+
+    def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
+        """All that can be told to the browser as one value; `values` asks for those alone."""
+        wanted = self.values if values is None else {name: self.values[name] for name in values}
+        told: dict[str, Any] = {
+            "values": {name: None if math.isnan(v) else v for name, v in wanted.items()},
+            "limits": {
+                name: {"least": limit.least, "most": limit.most, "step": limit.step}
+                for name, limit in self.limits.items()
+                if name in wanted
+            },
+            "changed": self.changed,
+        }
+        return told if values is not None else told | self._choices_state()
+
+    def _choices_state(self) -> dict[str, Any]:
+        scene, floor = self.scene, self.floors[self.selected]
+        defect = self.defects[self.selected]
+        drawn_bearing = scene.bearing.is_drawn
+        hidden = [] if floor.kind == "rough" else [quantity.name for quantity in _OF_FLOOR]
+        hidden += _DERIVED if drawn_bearing else _DRAWN_ONLY
+        return {
+            "choices": {
+                "preset": self.preset,
+                "race": defect.race,
+                "edge": defect.edge,
+                "floor": floor.kind,
+                "law": scene.contact_law,
+                "numbers": "drawing" if drawn_bearing else "direct",
+                "dofs": "auto" if scene.dofs is None else " ".join(scene.dofs),
+            },
+            "defects": {
+                "names": [
+                    f"{d.race} race at {math.degrees(d.center) % 360.0:.0f}°" for d in self.defects
+                ],
+                "selected": self.selected,
+                "most": MOST_DEFECTS,
+            },
+            "floor": {
+                "shown": floor.kind == "measured",
+                "words": floor.words,
+                "bad": floor.bad,
+            },
+            "hidden": hidden,
+        }
+
+
+def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | None, str]:
+    """What `read_floor` makes of a file, and a sentence where it cannot. For any thread."""
+    if len(text) > LARGEST_FILE:
+        return None, f"it is longer than {LARGEST_FILE:,} characters.".replace(",", " ")
+    try:
+        return read_floor(text), ""
+    except ValueError as error:
+        return None, f"{error}."
+
+
+def drawn(bearing: Bearing) -> Bearing:
+    """A bearing of steel with a drawing that is nearest to its numbers, grooves alike."""
+    groove = 0.5 * (bearing.groove_center_distance + bearing.ball_diameter)
+    groove = min(groove, WIDEST_CONFORMITY * bearing.ball_diameter)
+    return Bearing.from_drawing(
+        n_balls=bearing.n_balls,
+        ball_diameter=bearing.ball_diameter,
+        pitch_diameter=bearing.pitch_diameter,
+        inner_groove_radius=groove,
+        outer_groove_radius=groove,
+        contact_angle=bearing.contact_angle,
+        diametral_clearance=2.0 * bearing.radial_clearance,
+    )
+
+
+def _choice_of(defect: Defect) -> FloorChoice:
+    if isinstance(defect.floor, RoughFloor):
+        return FloorChoice("rough", defect.floor)
+    if isinstance(defect.floor, MeasuredFloor):
+        points = f"{len(defect.floor.places)} points"
+        return FloorChoice("measured", measured=defect.floor, words=points)
+    return FloorChoice()
+
+
+def _turned(defect: Defect) -> Defect:
+    """The same defect with its centre within one turn, as the page shows it."""
+    if 0.0 <= defect.center <= 2.0 * math.pi:
+        return defect
+    return dataclasses.replace(defect, center=defect.center % (2.0 * math.pi))
+
+
+def _gap_to(defects: Iterable[Defect], angle: float) -> float:
+    """Angle [rad] from `angle` to the nearest defect; negative inside one."""
+    return min(
+        abs(math.remainder(angle - defect.center, 2.0 * math.pi)) - 0.5 * defect.extent
+        for defect in defects
+    )
+
+
+def _room(defects: Iterable[Defect], angle: float) -> float:
+    """How long [rad] a defect around `angle` may be without touching another."""
+    return max(2.0 * _gap_to(defects, angle), 0.0)
+
+
+def _freest(defects: Iterable[Defect]) -> float:
+    """The whole number of degrees farthest from all defects [rad]."""
+    known = tuple(defects)
+    return max((math.radians(d) for d in range(360)), key=lambda angle: _gap_to(known, angle))
+
+
+def _one_of(value: Any, options: Iterable[str]) -> str | None:
+    return value if isinstance(value, str) and value in options else None
+
+
+def _close(a: float, b: float) -> bool:
+    """Whether two numbers are the same up to the rounding of units."""
+    return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-10, abs_tol=1e-12)
+
+
+def _differ(a: float, b: float) -> bool:
+    return not (a == b or (math.isnan(a) and math.isnan(b)))

@@ -1,0 +1,558 @@
+"""Speed against accuracy on the scene at hand: measured, drawn, its steps taken over by a click."""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.events import Tap
+from bokeh.models import (
+    CustomJS,
+    CustomJSHover,
+    CustomJSTickFormatter,
+    FixedTicker,
+    HoverTool,
+    RadioButtonGroup,
+    Range1d,
+)
+from bokeh.plotting import figure
+
+from bearing_explorer.compute.accuracy import TRIALS, Found, compute
+from bearing_explorer.compute.jobs import Work
+from bearing_explorer.compute.planning import steps_by_hand
+from bearing_explorer.compute.results import Settings
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.job_view import JobView
+from bearing_explorer.widgets.status import scientific
+from bearing_explorer.widgets.step_choice import StepChoice
+from bearingcore.experiments import Experiment, Point, StabilityChart
+from bearingcore.experiments.integrators import METHODS
+from bearingcore.experiments.models import MODELS
+from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
+from bearingcore.experiments.statics import PLACINGS, SOLVERS
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+HEIGHT = 430
+COSTS = ("seconds", "evaluations")
+NAMES = tuple(dict.fromkeys((*METHODS, *SOLVERS, *PLACINGS, *MODELS)))
+"""Every name that a point can have: the wire carries their numbers."""
+MOST_METHODS = max(len(METHODS), len(SOLVERS), len(PLACINGS), len(MODELS))
+
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#20262D")
+"""Okabe and Ito's, which colour-blind people tell apart."""
+MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆", "inverted_triangle": "▼",
+           "plus": "✚", "star": "★"}  # fmt: skip
+VERDICT_LOOKS = dict(
+    zip(
+        VERDICTS,
+        (("#0072B2", "square"), ("#56B4E9", "inverted_triangle"), ("#E69F00", "diamond"),
+         ("#D55E00", "x")),
+        strict=True,
+    )
+)  # fmt: skip
+
+AXES = {
+    "spectrum": "Error of the spectrum (dB)",
+    "stiffness": "Error of the stiffness, over the term",
+    "trace": "Error of the curves, over their swing",
+}
+"""The error that each experiment draws."""
+UNITS = {"spectrum": "_db", "level": "_db"}
+
+NEAR = 0.04
+"""Part of the figure within which a click means a point."""
+
+
+class Accuracy(JobView[Found]):
+    """Error against cost, and where steps are too long."""
+
+    name = "accuracy"
+    title = "Speed against accuracy"
+    about = (
+        "Each method on this scene, held against a reference that two families of methods agree "
+        "on: low is exact, left is cheap. Crosses on the upper edge failed. Click a point of "
+        "“RK4” to march the scene's motion with its steps."
+    )
+    needs = frozenset()
+    start = "Measure"
+    bounds = (
+        "A short motion or few cage angles, usually done within half a minute. scipy's DOP853, "
+        "Radau and BDF are left out here, as they take longer than all others together."
+    )
+
+    take_steps: Callable[[float | None], None] | None = None
+    """Marches the scene's motions with a step rate [Hz], or None: with the program's own."""
+    _note = ""
+
+    def build(self, wire: Wire) -> Any:
+        self._ranges: Ranges = {}
+        error = wire.range("accuracy_error", 1e-6, 10.0)
+        self._sources = [
+            wire.source(f"accuracy_{slot}", *COSTS, "error", "method")
+            for slot in range(MOST_METHODS)
+        ]
+        self._failed = wire.source("accuracy_failed", *COSTS, "error", "method", "named")
+        self._plots = [self._chart(wire, cost, error) for cost in COSTS]
+        switch = RadioButtonGroup(
+            labels=["Cost as time", "Cost as evaluations"],
+            active=0,
+            syncable=False,
+            margin=(2, 5, 6, 5),
+            stylesheets=[style.BUTTONS],
+        )
+        switch.js_on_change(
+            "active",
+            CustomJS(
+                args={"plots": self._plots},
+                code="plots.forEach((plot, i) => { plot.visible = i == cb_obj.active })",
+            ),
+        )
+        whole = {"sizing_mode": "stretch_width", "margin": 0}
+        self._work = pn.Column(switch, *self._plots, **whole)
+        self._stability = pn.Column(self._verdicts(wire), visible=False, **whole)
+        self._legend = pn.pane.HTML("", **whole)
+        self._steps = StepChoice(self._steps_asked)
+        return pn.Column(
+            self.job, self._work, self._stability, self._legend, self._steps, **whole
+        )  # fmt: skip
+
+    def _chart(self, wire: Wire, cost: str, error: Range1d) -> figure:
+        """Error over one kind of cost."""
+        timed = cost == "seconds"
+        plot = style.house_figure(
+            style.AxisQuantity("Time" if timed else "Evaluations", "", ""),
+            style.AxisQuantity("Error", "", ""),
+            wire.range(f"accuracy_{cost}", *((1e-4, 1.0) if timed else (1e2, 1e6))),
+            error,
+            height=HEIGHT,
+            name=f"accuracy_drawing_{cost}",
+            x_axis_type="log",
+            y_axis_type="log",
+        )
+        plot.stylesheets = [
+            ":host { cursor: crosshair; }"
+            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+        ]
+        plot.visible = timed
+        plot.xaxis.axis_label = "Time" if timed else "Evaluations"
+        plot.yaxis.axis_label = "Error"
+        plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "")
+        plot.yaxis.formatter = style.logarithmic_ticks()
+        plot.xaxis.ticker = FixedTicker(
+            ticks=[m * 10.0**e for e in range(-9, 13) for m in (1, 3)], minor_ticks=[]
+        )
+        points = []
+        for slot, source in enumerate(self._sources):
+            color, marker = look(slot)
+            plot.line(cost, "error", source=source, line_color=color, line_width=1.2)
+            points.append(
+                plot.scatter(
+                    cost, "error", source=source, marker=marker, size=8, fill_color=color,
+                    line_color="white", line_width=0.6,
+                )
+            )  # fmt: skip
+        failed = self._failed
+        points.append(
+            plot.scatter(
+                cost, "error", source=failed, marker="x", size=10, line_color=style.INK,
+                line_width=1.8,
+            )
+        )  # fmt: skip
+        known = json.dumps(NAMES, ensure_ascii=False)
+        plot.text(
+            cost, "error", source=failed, angle=-0.5 * math.pi, x_offset=3, y_offset=9,
+            text=style.words_of(
+                failed,
+                f"return row.named ? {known}[row.method] + "
+                "(row.named == 1 ? ' failed' : ' is off the scale') : ''",
+            ),
+            text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
+            text_color=style.INK, text_baseline="middle",
+        )  # fmt: skip
+        readers = {
+            "@method": CustomJSHover(code=f"return {known}[value]"),
+            "@error": CustomJSHover(code="return Number(value).toPrecision(2).replace('-', '−')"),
+            "@seconds": CustomJSHover(code="return `${Number((1e3*value).toPrecision(3))} ms`"),
+        }
+        plot.add_tools(
+            HoverTool(
+                renderers=points,
+                visible=False,  # no button: it is always on
+                tooltips=[
+                    ("method", "@method{custom}"),
+                    ("error", "@error{custom}"),
+                    ("time", "@seconds{custom}"),
+                    ("evaluations", "@evaluations{0}"),
+                ],
+                formatters=readers,
+            )
+        )
+        plot.on_event(Tap, lambda event: self._tapped(cost, event.x, event.y))
+        return plot
+
+    def _verdicts(self, wire: Wire) -> figure:
+        """Methods down, steps across."""
+        plot = style.house_figure(
+            style.AxisQuantity("Steps in a period of the highest natural frequency", "", ""),
+            style.AxisQuantity("", "", ""),
+            wire.range("accuracy_steps", 0.8, 80.0),
+            Range1d(-0.6, len(FIXED_STEP) - 0.4),
+            height=300,
+            name="accuracy_drawing_stability",
+            x_axis_type="log",
+        )
+        plot.xaxis.axis_label = "Steps in a period of the highest natural frequency"
+        plot.yaxis.axis_label = None
+        plot.xaxis.formatter = style.logarithmic_ticks()
+        plot.xaxis.ticker = FixedTicker(ticks=[1, 2, 5, 10, 20, 50], minor_ticks=[])
+        plot.yaxis.ticker = FixedTicker(ticks=list(range(len(FIXED_STEP))), minor_ticks=[])
+        names = json.dumps(FIXED_STEP, ensure_ascii=False)
+        plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
+        for number, (color, marker) in enumerate(VERDICT_LOOKS.values()):
+            plot.scatter(
+                "steps", "row", source=wire.source(f"accuracy_verdict_{number}", "steps", "row"),
+                marker=marker, size=14, fill_color=color, line_color=color, line_width=2.0,
+            )  # fmt: skip
+        plot.segment(
+            "steps", "below", "steps", "above",
+            source=wire.source("accuracy_limits", "steps", "below", "above"),
+            line_color=style.INK, line_width=2.5,
+        )  # fmt: skip
+        return plot
+
+    # The job
+
+    def fields(self) -> list[dict[str, Any]]:
+        options = [[name, trial.label] for name, trial in TRIALS.items()]
+        return [{"name": "experiment", "label": "What to measure", "options": options}]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        return {"experiment": next(iter(TRIALS))}, {}
+
+    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+        name, scene = given["experiment"], editor.scene
+        if name not in TRIALS:
+            raise ValueError("There is no such experiment.")
+        return lambda job: compute(job, scene, name)
+
+    def _take(self, found: Found) -> None:
+        self._note = ""
+        super()._take(found)
+
+    # Steps taken over. What comes from the browser is not to be trusted.
+
+    def offered(self) -> dict[str, float]:
+        """Step rates [Hz] that were measured and can be used, by their text."""
+        if self.found is None or not isinstance(self.found.result, Experiment):
+            return {}
+        usable = [p for p in self.found.result.points if _usable(p)]
+        return {f"{p.value:.0f}": p.value for p in sorted(usable, key=lambda p: p.value)}
+
+    def _steps_asked(self, message: Any) -> None:
+        text = message.get("use") if isinstance(message, dict) else None
+        if text == "":
+            self._use(None)
+        elif isinstance(text, str) and text in (offered := self.offered()):
+            self._use(offered[text])
+
+    def _tapped(self, cost: str, x: Any, y: Any) -> None:
+        point = self.nearest(cost, x, y)
+        if point is None:
+            return
+        if _usable(point):
+            self._use(point.value)
+        else:
+            self._note = (
+                f"{point.method}, {point.setting}, is for comparison only: the scene's motion is "
+                "marched with RK4, so click one of its points."
+            )
+            self._steps.words = self._note
+
+    def nearest(self, cost: str, x: Any, y: Any) -> Point | None:
+        """The drawn point that a click at x, y means, if there is one near."""
+        place = [x, y]
+        if not all(isinstance(v, int | float) and math.isfinite(v) and v > 0.0 for v in place):
+            return None
+        if self.found is None or not isinstance(self.found.result, Experiment):
+            return None
+        ranges = [self._ranges.get(f"accuracy_{side}") for side in (cost, "error")]
+        best, least = None, NEAR
+        for point in self.found.result.points:
+            at = [getattr(point, cost), drawn_error(self.found.result, point)]
+            if not all(v > 0.0 and math.isfinite(v) for v in at):
+                continue
+            apart = math.hypot(
+                *(
+                    math.log(a / b) / math.log(r[1] / r[0])
+                    for a, b, r in zip(at, place, ranges, strict=True)
+                    if r is not None
+                )
+            )
+            if apart < least:
+                best, least = point, apart
+        return best
+
+    def _use(self, step_rate: float | None) -> None:
+        self._note = ""
+        if self.take_steps is not None:
+            self.take_steps(step_rate)
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        sources = _nothing()
+        if self.found is None:
+            return sources, {}
+        result = self.found.result
+        if isinstance(result, StabilityChart):
+            return sources | _stability_sources(result), {
+                "accuracy_steps": _around([t.step_rate / result.highest_frequency
+                                           for t in result.trials], 1.25)
+            }  # fmt: skip
+        ranges = chart_ranges(result)
+        self._ranges = ranges
+        bottom, top = ranges["accuracy_error"]
+        good = [p for p in result.points if math.isfinite(drawn_error(result, p))]
+        for slot, method in enumerate(result.methods):
+            own = [p for p in good if p.method == method]
+            errors = [max(drawn_error(result, p), bottom) for p in own]
+            sources[f"accuracy_{slot}"] = _columns(own, errors)
+        lost = [p for p in result.points if p not in good]
+        at_right = {cost: ranges[f"accuracy_{cost}"][1] / 1.2 for cost in COSTS}
+        columns = _columns(lost, [top / 1.5] * len(lost))
+        for cost in COSTS:
+            known = np.isfinite(columns[cost]) & (columns[cost] > 0.0)
+            columns[cost] = np.where(known, columns[cost], at_right[cost])
+        _, first = np.unique(columns["method"], return_index=True)
+        columns["named"] = np.zeros(len(lost))
+        columns["named"][first] = [1.0 if lost[k].failed else 2.0 for k in first]
+        sources["accuracy_failed"] = columns
+        return sources, ranges
+
+    def sentence(self, results: Results) -> str:
+        if self.found is None:
+            return "Nothing is measured yet."
+        result = self.found.result
+        words = _chart_words(result) if isinstance(result, StabilityChart) else _work_words(result)
+        if not result.completed:
+            words += " Cancelled before its end."
+        if results.scene != self.found.scene:
+            words = f"The scene has changed since this was measured. Then: {words}"
+        return words
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        if self.found is None:
+            return {}
+        result = self.found.result
+        if isinstance(result, StabilityChart):
+            trials = result.trials
+            return {
+                "method": np.array([t.method for t in trials]),
+                "step_rate_hz": np.array([t.step_rate for t in trials]),
+                "verdict": np.array([t.verdict for t in trials]),
+                "spectrum_error_db": np.array([t.spectrum_error for t in trials]),
+                "amplitude_ratio": np.array([t.amplitude for t in trials]),
+                "linear_limit_hz": np.array([result.linear_limit[t.method] for t in trials]),
+            }
+        points = result.points
+        return {
+            "method": np.array([p.method for p in points]),
+            "setting": np.array([p.setting for p in points]),
+            **{
+                f"{name}_error{UNITS.get(name, '')}": np.array(
+                    [p.errors.get(name, math.nan) for p in points]
+                )
+                for name in result.errors
+            },
+            "time_s": np.array([p.seconds for p in points]),
+            "evaluations": np.array([p.evaluations for p in points]),
+            "status": np.array([p.status for p in points]),
+            "reference": np.array([p.against for p in points]),
+        }
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        result = None if self.found is None else self.found.result
+        charted = isinstance(result, StabilityChart)
+        if self._stability.visible != charted:
+            self._stability.visible, self._work.visible = charted, not charted
+        if isinstance(result, Experiment):
+            label = AXES[_drawn(result)]
+            for plot in self._plots:
+                plot.yaxis.axis_label = label
+            self._plots[1].xaxis.axis_label = result.evaluations.capitalize()
+        self._legend.object = legend(result)
+        settings = Settings() if results is None else results.settings
+        self._show_steps(settings.step_rate)
+
+    def _show_steps(self, step_rate: float | None) -> None:
+        offered = list(self.offered())
+        chosen = "" if step_rate is None else f"{step_rate:.0f}"
+        if chosen and chosen not in offered:
+            offered.append(chosen)
+        told = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
+            "The program chooses the steps of the scene's motion."
+        )  # fmt: skip
+        self._steps.param.update(
+            options=[[text, f"RK4, {text} Hz"] for text in offered],
+            chosen=chosen,
+            words=self._note or told,
+        )
+
+
+def look(slot: int) -> tuple[str, str]:
+    """Colour and marker; after all colours the markers change, so that no two are alike."""
+    markers = list(MARKERS)
+    return COLORS[slot % len(COLORS)], markers[(slot + slot // len(COLORS)) % len(markers)]
+
+
+def _usable(point: Point) -> bool:
+    """Whether the scene's motion can be marched with a point's steps."""
+    return point.method == "RK4" and "step_rate" in point.settings and not point.failed
+
+
+def _drawn(result: Experiment) -> str:
+    """The name of the error that is drawn."""
+    return next(iter(result.errors))
+
+
+def drawn_error(result: Experiment, point: Point) -> float:
+    """The error at which a point stands; NaN where it stands on the edge."""
+    error = point.errors.get(_drawn(result), math.nan)
+    return error if not point.failed and math.isfinite(error) else math.nan
+
+
+def _around(values: list[float], room: float) -> tuple[float, float]:
+    known = [v for v in values if v > 0.0 and math.isfinite(v)] or [1.0]
+    return min(known) / room, max(known) * room
+
+
+def chart_ranges(result: Experiment) -> Ranges:
+    """Ranges that hold every point, with an edge above for those that failed."""
+    low, high = _around([drawn_error(result, p) for p in result.points], 2.0)
+    ranges: Ranges = {"accuracy_error": (low, high * 8.0)}
+    for cost in COSTS:
+        ranges[f"accuracy_{cost}"] = _around([getattr(p, cost) for p in result.points], 1.6)
+    return ranges
+
+
+def _columns(points: list[Point], errors: list[float]) -> dict[str, np.ndarray]:
+    return {
+        "seconds": np.array([p.seconds for p in points], dtype=float),
+        "evaluations": np.array([p.evaluations for p in points], dtype=float),
+        "error": np.array(errors, dtype=float),
+        "method": np.array([NAMES.index(p.method) for p in points], dtype=float),
+    }
+
+
+def _nothing() -> Sources:
+    empty = _columns([], [])
+    sources: Sources = {f"accuracy_{slot}": empty for slot in range(MOST_METHODS)}
+    sources["accuracy_failed"] = empty | {"named": np.zeros(0)}
+    for number in range(len(VERDICTS)):
+        sources[f"accuracy_verdict_{number}"] = {"steps": np.zeros(0), "row": np.zeros(0)}
+    limits = dict.fromkeys(("steps", "below", "above"), np.zeros(0))
+    return sources | {"accuracy_limits": limits}
+
+
+def _stability_sources(chart: StabilityChart) -> Sources:
+    sources: Sources = {}
+    for number, verdict in enumerate(VERDICTS):
+        found = [t for t in chart.trials if t.verdict == verdict]
+        sources[f"accuracy_verdict_{number}"] = {
+            "steps": np.array([t.step_rate / chart.highest_frequency for t in found], dtype=float),
+            "row": np.array([FIXED_STEP.index(t.method) for t in found], dtype=float),
+        }
+    limits = {row: chart.linear_limit[name] for row, name in enumerate(FIXED_STEP)}
+    rows = np.array([r for r, limit in limits.items() if 0.0 < limit < math.inf], dtype=float)
+    steps = np.array([limits[int(r)] / chart.highest_frequency for r in rows], dtype=float)
+    sources["accuracy_limits"] = {"steps": steps, "below": rows - 0.42, "above": rows + 0.42}
+    return sources
+
+
+def _agreement(result: Experiment | StabilityChart) -> str:
+    """Who the reference is and how well it agrees, the worst where there are several."""
+    name = _drawn(result) if isinstance(result, Experiment) else "spectrum"
+    references = (
+        list(result.references.values()) if isinstance(result, Experiment) else [result.reference]
+    )
+    worst = max(references, key=lambda r: (not r.trusted, r.agreement[name]))
+    unit = " dB" if name in UNITS else ""
+    verdict = "agree" if worst.trusted else "do not agree, so small errors mean little"
+    words = f"Reference: {worst.families[0]} and {worst.families[1]} {verdict}"
+    words += f"; their {name} is apart by {scientific(worst.agreement[name])}{unit}."
+    return f"{words} {worst.note}." if worst.note else words
+
+
+def _short(error: float) -> str:
+    """An error for a sentence: in powers of ten where it is small."""
+    return style.number(error, 2) if 0.01 <= error < 1000.0 else scientific(error)
+
+
+def _work_words(result: Experiment) -> str:
+    words = f"{result.title}. "
+    if frontier := result.frontier():
+        first, last = frontier[0], frontier[-1]
+        unit = " dB" if _drawn(result) in UNITS else ""
+        words += ", ".join(
+            f"{kind}: {p.method} with {p.setting} "
+            f"({style.with_prefix(p.seconds, 's')}, error {_short(drawn_error(result, p))}"
+            f"{unit})"
+            for kind, p in (("Cheapest", first), ("most exact of the best", last))
+        )
+        words += ". "
+    failed = {p.method: p.status for p in result.points if p.failed}
+    if failed:
+        words += "; ".join(f"{name} {status}" for name, status in failed.items()) + ". "
+    return words + _agreement(result)
+
+
+def _chart_words(chart: StabilityChart) -> str:
+    words = []
+    for name in dict.fromkeys(t.method for t in chart.trials):
+        found, limit = (v / chart.highest_frequency
+                        for v in (chart.found_limit(name), chart.linear_limit[name]))  # fmt: skip
+        told = "never" if limit == 0.0 else f"below {style.number(limit, 2)}"
+        first = min(t.step_rate for t in chart.trials if t.method == name)
+        met = "at any tried" if not math.isfinite(found) else (
+            "never" if found * chart.highest_frequency <= first * 1.000001
+            else f"below {style.number(found, 2)}"
+        )  # fmt: skip
+        words.append(f"{name} {met} (foretold: {told})")
+    frequency = style.with_prefix(chart.highest_frequency, "Hz")
+    return (
+        f"In steps a period of {frequency}, the motion diverges with {', '.join(words)}. "
+        + _agreement(chart)
+    )
+
+
+def legend(result: Experiment | StabilityChart | None) -> str:
+    """What colours and markers mean, as HTML; methods that failed say why."""
+    items: list[tuple[str, str, str]] = []
+    if isinstance(result, StabilityChart):
+        signs = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}
+        items = [(c, signs[marker], verdict) for verdict, (c, marker) in VERDICT_LOOKS.items()]
+        items.append((style.INK, "┃", "linear limit: stable to the right"))
+    elif result is not None:
+        for slot, method in enumerate(result.methods):
+            color, marker = look(slot)
+            why = next((p.status for p in result.of(method) if p.failed), "")
+            items.append((color, MARKERS[marker], f"{method}: {why}" if why else method))
+    font = f"font:12.5px/1.45 {style.FONT}".replace('"', "'")
+    spans = "".join(
+        f'<span><span style="color:{style.css_color(color)}" aria-hidden="true">{sign}</span>'
+        f" {html.escape(words)}</span>"
+        for color, sign, words in items
+    )
+    box = f"{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"
+    return f'<div style="{box}">{spans}</div>'

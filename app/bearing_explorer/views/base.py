@@ -1,0 +1,177 @@
+"""What a view is: figures made once, numbers pushed through the wire, one live sentence.
+
+A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
+reads; only those are computed, and only while the view is on screen.
+
+To write one, subclass `View`, set the class attributes, and give it
+
+- `build(wire)`: make figures, sources and ranges, once, and return what goes on the page;
+- `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
+- `sentence(results)`: one sentence that says what is to be seen, for everyone;
+- `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
+
+`data`, `sentence` and `table` may run in a worker thread: they touch no model.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import panel as pn
+import param
+from bokeh.models import Plot, SaveTool
+
+from bearing_explorer.assets import asset_path, asset_text, scripts
+from bearing_explorer.export.python_lines import lines_of
+from bearing_explorer.server.live import LiveComponent
+from bearing_explorer.server.packed_source import Wire
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+#: {source: {column: array}}
+Sources = dict[str, dict[str, np.ndarray]]
+#: {range: (start, end)}
+Ranges = dict[str, tuple[float, float]]
+
+
+class Caption(LiveComponent):
+    """Head of a view: its title, what it shows, and buttons that save it."""
+
+    title = param.String()
+    about = param.String()
+    #: files are called bearing- and this
+    name_of_files = param.String()
+    #: what is drawn in grey, where that is a pinned scene
+    pinned = param.String()
+    #: whether the view draws an SVG of the class "picture" by itself
+    picture = param.Boolean(default=False)
+    #: ids of the models of Bokeh's figures in the view, for pictures
+    figures = param.List(default=[])
+
+    _esm = scripts("element.js", "figure_export.js", "caption.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
+
+
+class Sentence(LiveComponent):
+    """One live sentence: text that screen readers announce, set without a layout pass."""
+
+    text = param.String()
+
+    _esm = asset_path("sentence.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("sentence.css")]
+
+
+class View:
+    """One picture of the scene. See the head of this module for what a subclass provides."""
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    about: ClassVar[str] = ""
+    needs: ClassVar[frozenset[str]]
+    #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
+    picture: ClassVar[bool] = False
+    #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
+    plans: ClassVar[tuple[str, ...]] = ()
+
+    def __init__(self, wire: Wire) -> None:
+        self._results: Results | None = None
+        self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
+        body = pn.panel(self.build(wire), margin=0)
+        #: Bokeh's figures, in the order of the page
+        self.figures = [
+            plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
+        ]
+        self._caption = Caption(
+            title=self.title,
+            about=self.about,
+            name_of_files=self.name,
+            figures=[plot.id for plot in self.figures],
+            picture=self.picture,
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+        self._caption.on_msg(self._answer)
+        for plot in self.figures:
+            for tool in plot.toolbar.tools:
+                if isinstance(tool, SaveTool):
+                    tool.filename = f"bearing-{self.name}"
+        self.panel: pn.viewable.Viewable = pn.Column(
+            self._caption,
+            body,
+            self._sentence,
+            css_classes=["view", f"view-{self.name}"],
+            stylesheets=[asset_text("view.css")],
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+    def build(self, wire: Wire) -> Any:
+        """Make the figures, once; return a Panel object or a Bokeh layout."""
+        raise NotImplementedError
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """What to send for these results."""
+        raise NotImplementedError
+
+    def sentence(self, results: Results) -> str:
+        """One sentence that says what the figure shows now, numbers with units."""
+        raise NotImplementedError
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
+        raise NotImplementedError
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        """Show the sentence and keep the results for the table. On the event loop only.
+
+        Without results the last ones stay, as the last picture does.
+        """
+        self._results = results or self._results
+        self._sentence.put(text=sentence)
+        if results is not None and self.compares:
+            self._caption.put(pinned=results.pinned.name if results.pinned else "")
+
+    @property
+    def compares(self) -> bool:
+        """Whether it draws something in grey beside the scene."""
+        return any(name.startswith("sound_") for name in self.needs)
+
+    def csv(self) -> str:
+        """The table of what is drawn now as comma-separated values; empty before the first."""
+        return "" if self._results is None else as_csv(self.table(self._results))
+
+    def python(self) -> str:
+        """Lines of Python that make what is drawn now; empty before the first."""
+        return "" if self._results is None else lines_of(self, self._results)
+
+    def _answer(self, event: Any) -> None:
+        if event.data == "csv":
+            self._caption._send_msg({"csv": self.csv()})
+        if event.data == "python":
+            self._caption._send_msg({"python": self.python()})
+
+
+def figures_in(layout: Any) -> list[Plot]:
+    """Bokeh's figures in one of its layouts. Looked for here: `select` looks at all models."""
+    if isinstance(layout, Plot):
+        return [layout]
+    return [plot for child in getattr(layout, "children", ()) for plot in figures_in(child)]
+
+
+def as_csv(table: dict[str, np.ndarray]) -> str:
+    """Columns as comma-separated text; shorter columns end in empty cells."""
+    columns = [np.asarray(column).ravel() for column in table.values()]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(table)
+    for row in range(max((column.size for column in columns), default=0)):
+        writer.writerow([_cell(column[row]) if row < column.size else "" for column in columns])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.9g}" if isinstance(value, float | np.floating) else str(value)

@@ -1,0 +1,477 @@
+"""Drawing of the bearing: rings, balls coloured by what they carry, defect, load."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.models import ColorBar, CustomJS, LinearColorMapper, Range1d
+from bokeh.palettes import magma
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.compute.defect_shape import race_angles, race_depth, spans
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearingcore import Load, Scene
+
+# The drawing measures lengths in outer raceway radii: its ranges never move.
+HALF_WIDTH = 1.56
+BAR_START = 0.05  # beyond the outer ring
+BAR_LENGTH = 0.32  # of a ball that carries the greatest load of the colour bar
+TOP_LINE, LINE_HEIGHT = 1.47, 0.1
+KEYWAY = 0.09  # [rad] half its width
+DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
+
+# pale to dark, even steps to the eye, told apart by colour-blind eyes and in grey print
+LOAD_PALETTE = list(magma(256))[40:246][::-1]
+DARK_LOAD_PALETTE = list(magma(256))[62:]
+INKS = [style.INK, style.PAPER]
+IDLE_BALL = style.PAPER
+NO_VALUE = "#C9CED4"
+
+_LOAD_WORDS = """
+const {kind, value, angle} = row
+if (kind == 0) return value > 0 ? `Radial load ${si(value, 'N')} at ${rounded(angle, 3)}°`
+                                : 'No radial load'
+if (kind == 1) return `Axial load ${si(Math.abs(value), 'N')} ` +
+                      (value > 0 ? '⊙ towards you' : '⊗ away from you')
+return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
+"""
+_SCALE_WORDS = """
+return row.scale > 0 ? `Defect drawn ${row.scale >= 1 ? row.scale : rounded(row.scale, 2)}× as deep`
+                     : 'No defect'
+"""
+_EQUAL_ASPECT = """
+const w = plot.inner_width, h = plot.inner_height
+if (!(w > 0 && h > 0)) return
+const x = half*Math.max(1, w/h), y = half*Math.max(1, h/w)
+plot.x_range.setv({start: -x, end: x})
+plot.y_range.setv({start: -y, end: y})
+"""
+
+
+class BearingDrawing(View):
+    """The bearing seen along the shaft, turning with the cage angle."""
+
+    name = "bearing"
+    title = "The bearing"
+    about = (
+        "Seen along the shaft, z towards you. Bars and colours: what the balls carry. Grey rim: "
+        "the same without the defect. Arrow: the load. The keyway turns with the shaft."
+    )
+    needs = frozenset({"equilibrium", "sound_equilibrium", "now", "drop"})
+
+    def build(self, wire: Wire) -> Any:
+        self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        load = wire.range("bearing_load", 0.0, 100.0)
+        half = HALF_WIDTH
+        plot = style.bare_figure(
+            Range1d(-half, half, syncable=False),
+            Range1d(-half, half, syncable=False),
+            height=520,
+        )
+        aspect = CustomJS(args={"plot": plot, "half": half}, code=_EQUAL_ASPECT)
+        plot.js_on_change("inner_width", aspect)
+        plot.js_on_change("inner_height", aspect)
+        colors = LinearColorMapper(
+            palette=LOAD_PALETTE,
+            low=1e-9,
+            high=load.end,
+            low_color=IDLE_BALL,
+            nan_color=NO_VALUE,
+            syncable=False,
+        )
+        inks = LinearColorMapper(
+            palette=INKS,
+            low=0.0,
+            high=load.end,
+            nan_color=style.INK,
+            syncable=False,
+        )
+        load.js_on_change(
+            "end",
+            CustomJS(
+                args={"load": load, "mappers": [colors, inks]},
+                code="for (const mapper of mappers) mapper.high = load.end",
+            ),
+        )
+        self._draw_rings(plot, wire)
+        self._draw_loads(plot, wire, colors, inks)
+        self._write_words(plot, wire)
+        bar = ColorBar(
+            color_mapper=colors,
+            orientation="horizontal",
+            width=210,
+            height=9,
+            location="bottom_center",
+            padding=2,
+            title_standoff=4,
+            bar_line_color=style.STEEL_EDGE,
+            major_tick_line_color=None,
+            major_label_text_font=style.FONT,
+            major_label_text_font_size=style.SMALL_TEXT_SIZE,
+            major_label_text_color=style.FAINT_INK,
+            title_text_font=style.FONT,
+            title_text_font_style="normal",
+            title_text_font_size=style.SMALL_TEXT_SIZE,
+            title_text_color=style.INK,
+            background_fill_color=None,
+        )
+        style.write_units(bar, style.BALL_LOAD, load)
+        plot.add_layout(bar, "below")
+        return plot
+
+    def _draw_rings(self, plot: figure, wire: Wire) -> None:
+        plot.patch(
+            "x",
+            "y",
+            source=wire.source("bearing_sound_loads", "x", "y"),
+            fill_color=style.SOUND,
+            fill_alpha=0.25,
+            line_color=None,
+        )
+        plot.patch(
+            "x",
+            "y",
+            source=wire.source("bearing_rings", "x", "y"),
+            fill_color=style.STEEL,
+            line_color=style.STEEL_EDGE,
+            line_width=1.2,
+        )
+        plot.patch(
+            "x",
+            "y",
+            source=wire.source("bearing_defect", "x", "y"),
+            fill_color=style.DEFECT,
+            fill_alpha=0.55,
+            line_color="#B87A00",
+            line_width=1.2,
+        )
+        marks = wire.source("bearing_marks", "x", "y", "angle", "turn")
+        plot.text(
+            "x",
+            "y",
+            text=style.words_of(marks, "return row.angle + '°'"),
+            source=marks,
+            text_font={"value": style.FONT},
+            text_font_size="10px",
+            text_color=style.FAINT_INK,
+            angle="turn",
+            text_align="center",
+            text_baseline="middle",
+        )
+
+    def _draw_loads(
+        self, plot: figure, wire: Wire, colors: LinearColorMapper, inks: LinearColorMapper
+    ) -> None:
+        balls = wire.source("bearing_balls", "x", "y", "radius", "load", "number")
+        plot.segment(
+            "x0",
+            "y0",
+            "x1",
+            "y1",
+            source=wire.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
+            line_color={"field": "load", "transform": colors},
+            line_width=8,
+        )
+        plot.circle(
+            "x",
+            "y",
+            radius="radius",
+            source=balls,
+            fill_color={"field": "load", "transform": colors},
+            line_color="#6B7480",
+            line_width=1.2,
+        )
+        plot.text(
+            "x",
+            "y",
+            text=style.words_of(balls, "return row.number"),
+            source=balls,
+            text_font={"value": style.FONT},
+            text_font_size="10px",
+            text_color={"field": "load", "transform": inks},
+            text_align="center",
+            text_baseline="middle",
+        )
+        plot.patch(
+            "x",
+            "y",
+            source=wire.source("bearing_arrow", "x", "y"),
+            fill_color=style.INK,
+            line_color=None,
+        )
+
+    def _write_words(self, plot: figure, wire: Wire) -> None:
+        look = {
+            "text_font": {"value": style.FONT},
+            "text_font_size": style.TEXT_SIZE,
+            "text_color": style.FAINT_INK,
+        }
+        loads = wire.source("bearing_load_words", "x", "y", "kind", "value", "angle")
+        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
+        scale = wire.source("bearing_scale_words", "x", "y", "scale")
+        plot.text(
+            "x",
+            "y",
+            text=style.words_of(scale, _SCALE_WORDS),
+            source=scale,
+            text_align="right",
+            **look,
+        )
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        scene, load = results.scene, results.now.ball_load[0]
+        load_range = self._load_range.fit(
+            results.equilibrium.ball_load, results.sound_equilibrium.ball_load
+        )
+        top = load_range[1]
+        drawn = Shapes(scene, results.cage_angle)
+        sources = {
+            "bearing_rings": drawn.rings(),
+            "bearing_defect": drawn.defects(),
+            "bearing_marks": drawn.angle_marks(),
+            "bearing_balls": drawn.balls(results.drop, load),
+            "bearing_bars": drawn.bars(load, top),
+            "bearing_sound_loads": drawn.load_rim(*results.sound_load_curve, top),
+            "bearing_arrow": drawn.load_arrow(),
+            "bearing_load_words": load_words(scene.load),
+            "bearing_scale_words": {
+                "x": np.array([HALF_WIDTH]),
+                "y": np.array([TOP_LINE]),
+                "scale": np.array([drawn.depth_scale]),
+            },
+        }
+        return sources, {"bearing_load": load_range}
+
+    def sentence(self, results: Results) -> str:
+        now = results.now
+        where = f"With the cage at {style.in_degrees(results.cage_angle)}"
+        n_balls = results.scene.bearing.n_balls
+        load = now.ball_load[0]
+        if not np.all(np.isfinite(load)):
+            return f"{where} there is no equilibrium to draw: {now.reason(0)}."
+        inside = np.flatnonzero(results.drop["outer"] + results.drop["inner"] > 0.0) + 1
+        loaded = int(now.loaded_balls[0])
+        if loaded == 0:
+            return f"{where} none of the {n_balls} balls carries load{_inside_words(inside)}."
+        most = int(np.argmax(load))
+        return (
+            f"{where}, {loaded} of {n_balls} balls {'carry' if loaded > 1 else 'carries'} load; "
+            f"ball {most + 1} carries the most, {style.with_prefix(load[most], 'N')} at "
+            f"{style.in_degrees(now.ball_angle[0, most])}{_inside_words(inside)}."
+        )
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        now = results.now
+        return {
+            "ball": np.arange(1, results.scene.bearing.n_balls + 1),
+            "ball_angle_deg": np.degrees(now.ball_angle[0]),
+            "ball_load_n": now.ball_load[0],
+            "contact_angle_deg": np.degrees(now.contact_angle[0]),
+            "drop_into_outer_race_um": 1e6 * results.drop["outer"],
+            "drop_into_inner_race_um": 1e6 * results.drop["inner"],
+        }
+
+
+def _inside_words(balls: NDArray[np.int64]) -> str:
+    if balls.size == 0:
+        return ""
+    names = style.list_words([str(ball) for ball in balls])
+    return f"; {'ball' if balls.size == 1 else 'balls'} {names} {_in_defect(balls.size)}"
+
+
+def _in_defect(count: int) -> str:
+    return "is in the defect" if count == 1 else "are in the defect"
+
+
+def load_words(load: Load) -> dict[str, np.ndarray]:
+    """Rows of text in the corner: the radial load always, the others where there are any."""
+    radial = (math.hypot(load.fx, load.fy), math.degrees(math.atan2(load.fy, load.fx)) % 360.0)
+    rows = [(0, *radial)]
+    rows += [
+        (kind, value, 0.0)
+        for kind, value in ((1, load.fz), (2, load.mx), (3, load.my))
+        if value != 0.0
+    ]
+    kind, value, angle = np.array(rows, dtype=float).T
+    return {
+        "x": np.full(kind.size, -HALF_WIDTH),
+        "y": TOP_LINE - LINE_HEIGHT * np.arange(kind.size),
+        "kind": kind,
+        "value": value,
+        "angle": angle,
+    }
+
+
+class Shapes:
+    """Shapes of one scene at one cage angle [rad], lengths in outer raceway radii.
+
+    Shapes of several parts are one polygon with NaN between the parts; a part inside another is a
+    hole in it.
+    """
+
+    def __init__(self, scene: Scene, cage_angle: float) -> None:
+        bearing = scene.bearing
+        self.scene, self.cage_angle = scene, cage_angle
+        self.unit = bearing.outer_raceway_radius
+        self.ball = bearing.ball_radius / self.unit
+        self.inner_race = bearing.inner_raceway_radius / self.unit
+        # between the races, whatever radii the bearing says: the balls are to be seen between them
+        self.pitch = 0.5 * (1.0 + self.inner_race)
+        self.rim = 1.0 + 1.1 * min(self.ball, 0.18)
+        self.bore = max(self.inner_race - 1.1 * self.ball, 0.35 * self.inner_race)
+        self.spans = spans(scene, cage_angle)
+        deepest = max((span.depth for span in self.spans), default=0.0)
+        self.depth_scale = (
+            round_down(DRAWN_DEPTH * self.ball * self.unit / deepest) if deepest > 0.0 else 0.0
+        )
+
+    def _drawn(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self.depth_scale * depth / self.unit
+
+    def _race(self, race: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angle and radius along a race with its defects, exaggerated."""
+        angle = race_angles(self.spans, race)
+        depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle))
+        return angle, 1.0 + depth if race == "outer" else self.inner_race - depth
+
+    def rings(self) -> dict[str, np.ndarray]:
+        """Both rings."""
+        turn = np.linspace(0.0, 2.0 * math.pi, 181)
+        return polar(
+            (turn, np.full_like(turn, self.rim)),
+            self._race("outer"),
+            self._race("inner"),
+            self._bore(),
+        )
+
+    def _bore(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The bore with a keyway, which turns with the shaft."""
+        keyway = self.cage_angle / self.scene.bearing.cage_ratio + 0.5 * math.pi
+        angle = keyway + np.linspace(KEYWAY, 2.0 * math.pi - KEYWAY, 181)
+        radius = np.full_like(angle, self.bore)
+        radius[[0, -1]] += 0.35 * (self.inner_race - self.bore)
+        angle[[0, -1]] = angle[[1, -2]]  # upright walls
+        return angle, radius
+
+    def defects(self) -> dict[str, np.ndarray]:
+        """What is missing from the races."""
+        parts = []
+        for span in self.spans:
+            angle = np.linspace(span.start, span.start + span.extent, 121)
+            race, outwards = (1.0, 1.0) if span.race == "outer" else (self.inner_race, -1.0)
+            inside = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
+            depth = race_depth(self.scene, self.cage_angle, span.race, inside)
+            floor = race + outwards * self._drawn(depth)
+            parts.append(
+                (
+                    np.concatenate([angle, angle[::-1]]),
+                    np.concatenate([np.full_like(angle, race), floor[::-1]]),
+                )
+            )
+        return polar(*parts)
+
+    def angle_marks(self) -> dict[str, np.ndarray]:
+        """0°, 90°, 180° and 270° on the outer ring."""
+        degrees = np.array([0.0, 90.0, 180.0, 270.0])
+        deepest = self._drawn(race_depth(self.scene, self.cage_angle, "outer", np.radians(degrees)))
+        radius = 0.5 * (1.0 + deepest + self.rim)
+        return {
+            "x": radius * np.cos(np.radians(degrees)),
+            "y": radius * np.sin(np.radians(degrees)),
+            "angle": degrees,
+            "turn": np.radians([0.0, 0.0, 90.0, 0.0]),  # the longest stands along the ring
+        }
+
+    def ball_angles(self) -> NDArray[np.float64]:
+        """Angle of each ball [rad]."""
+        bearing = self.scene.bearing
+        offsets = bearing.ball_spacing * np.arange(bearing.n_balls, dtype=np.float64)
+        return self.cage_angle + offsets
+
+    def balls(
+        self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]
+    ) -> dict[str, np.ndarray]:
+        """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
+        angle = self.ball_angles()
+        radius = self.pitch + self._drawn(drop["outer"]) - self._drawn(drop["inner"])
+        return {
+            "x": radius * np.cos(angle),
+            "y": radius * np.sin(angle),
+            "radius": np.full(angle.size, self.ball),
+            "load": load,
+            "number": np.arange(1.0, angle.size + 1.0),
+        }
+
+    def bars(self, load: NDArray[np.float64], top: float) -> dict[str, np.ndarray]:
+        """A bar outside the ring for each ball, as long as its load; `top` has full length."""
+        angle = self.ball_angles()
+        start = self.rim + BAR_START
+        end = start + BAR_LENGTH * load / top
+        end[~(load > 0.0)] = np.nan  # a bar without length would still show its line's ends
+        return {
+            "x0": start * np.cos(angle),
+            "y0": start * np.sin(angle),
+            "x1": end * np.cos(angle),
+            "y1": end * np.sin(angle),
+            "load": load,
+        }
+
+    def load_rim(
+        self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
+    ) -> dict[str, np.ndarray]:
+        """The area that the bars of a ball sweep as it goes round."""
+        start = self.rim + BAR_START
+        end = start + BAR_LENGTH * np.nan_to_num(load) / top
+        return polar(
+            (
+                np.concatenate([angle, angle[::-1]]),
+                np.concatenate([np.full_like(angle, start), end[::-1]]),
+            )
+        )
+
+    def load_arrow(self) -> dict[str, np.ndarray]:
+        """The radial load on the inner ring, from the shaft's middle; no arrow without one."""
+        load = self.scene.load
+        size = math.hypot(load.fx, load.fy)
+        if size == 0.0:
+            return polar()
+        along = np.array([load.fx, load.fy]) / size
+        across = np.array([-along[1], along[0]])
+        length, half, head = 0.82 * self.bore, 0.016, 0.11
+        shape = [
+            (0.0, -half),
+            (length - head, -half),
+            (length - head, -3.2 * half),
+            (length, 0.0),
+            (length - head, 3.2 * half),
+            (length - head, half),
+            (0.0, half),
+        ]
+        x, y = np.array([forth * along + aside * across for forth, aside in shape]).T
+        return {"x": x, "y": y}
+
+
+def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
+    """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
+    gap = np.array([np.nan])
+    none = np.empty(0)
+    angles = [piece for angle, _ in parts for piece in (angle, gap)]
+    radii = [piece for _, radius in parts for piece in (radius, gap)]
+    angle = np.concatenate([none, *angles[:-1]])
+    radius = np.concatenate([none, *radii[:-1]])
+    return {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
+
+
+def round_down(value: float) -> float:
+    """The greatest of 1, 2, 5 times a power of ten that is at most `value`."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-12)
+    return max(factor for factor in (1.0, 2.0, 5.0) if factor * power <= value * (1 + 1e-9)) * power

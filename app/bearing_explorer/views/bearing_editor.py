@@ -1,0 +1,195 @@
+"""Every dimension of the bearing, a picture of what each one is, and what follows from them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import param
+
+from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.quantities import in_unit
+from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.widgets.controls import Rows, choice_spec, spec_of
+from bearingcore import preset_notes
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearingcore import Bearing, Scene
+
+_NUMBERS = {
+    "direct": (
+        "Numbers of the contact model",
+        "As the paper prints them: groove centres, clearance and load-deflection factor are given.",
+    ),
+    "drawing": (
+        "A drawing",
+        "Groove radii and material are given; groove centres, raceway radii and the "
+        "load-deflection factor follow from them (Hertz). Contact angle and clearance describe "
+        "the same freedom: give one and leave the other 0, or give both, as the paper does.",
+    ),
+}
+
+
+class BearingRows(Rows):
+    """The fields and the picture in the browser."""
+
+    #: {"shape": {field: number in SI}, "facts": [{label, symbol, value, about}]}
+    shown = param.Dict(default={})
+
+    _esm = scripts("element.js", "rows.js", "bearing_picture.js", "bearing_editor.js")
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("controls.css"),
+        asset_text("bearing_editor.css"),
+    ]
+
+
+class BearingEditor(ControlView):
+    """The bearing that the sliders load, dimension by dimension."""
+
+    name = "bearing-editor"
+    title = "Dimensions of the bearing"
+    about = (
+        "Point at a field to see in the picture what it is, or click in the picture to change it. "
+        "All views follow."
+    )
+    needs = frozenset[str]()
+    picture = True
+
+    def build(self, wire: Wire) -> Any:
+        numbers = choice_spec("Given as", "", True, _NUMBERS)
+        spec = spec_of(BEARING_GROUPS, {"numbers": numbers}.items())
+        self.rows = BearingRows(self.forward, spec={**spec, "notes": dict(preset_notes)})
+        return self.rows
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        return {}, {}
+
+    def sentence(self, results: Results) -> str:
+        bearing = results.scene.bearing
+        ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
+        angle = math.degrees(bearing.contact_angle)
+        return (
+            f"{bearing.n_balls} balls of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
+            f"{'no contact angle' if angle == 0.0 else f'{angle:.4g}° contact angle'}."
+        )
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None:
+            self.rows.shown = {
+                "shape": shape_of(results.scene.bearing),
+                "facts": facts_of(results.scene),
+            }
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        bearing = results.scene.bearing
+        rows = [q for q in QUANTITY_LIST if q.group in BEARING_GROUPS]
+        values = [in_unit(q, getattr(bearing, q.field)) for q in rows]
+        facts = facts_of(results.scene)
+        return {
+            "quantity": np.array([q.label for q in rows] + [fact["label"] for fact in facts]),
+            "value": np.array(
+                ["" if math.isnan(v) else f"{v:.9g}" for v in values]
+                + [fact["value"] for fact in facts]
+            ),
+            "unit": np.array([q.unit for q in rows] + [""] * len(facts)),
+        }
+
+
+def shape_of(bearing: Bearing) -> dict[str, float | None]:
+    """What the picture is drawn from: the fields of the bearing, in SI."""
+    return {q.field: getattr(bearing, q.field) for q in QUANTITY_LIST if q.group in BEARING_GROUPS}
+
+
+def facts_of(scene: Scene) -> list[dict[str, str]]:
+    """Numbers that follow from the dimensions and the speed of the shaft, with their words."""
+    bearing, speed = scene.bearing, scene.shaft_speed
+
+    def hertz(value: float) -> str:
+        return f"{style.number(value, 4)} Hz"
+
+    facts = [
+        (
+            "Balls pass the outer race",
+            "BPFO",
+            hertz(bearing.bpfo(speed)),
+            "How often a point of the outer race is passed.",
+        ),
+        (
+            "Balls pass the inner race",
+            "BPFI",
+            hertz(bearing.bpfi(speed)),
+            "How often a point of the inner race meets a ball.",
+        ),
+        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
+        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Turns of a ball about itself."),
+        (
+            "Free contact angle",
+            "α<sub>f</sub>",
+            _free_angle(bearing),
+            "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
+        ),
+        (
+            "Diametral play",
+            "s",
+            style.with_prefix(bearing.diametral_play, "m"),
+            "From contact to contact across the shaft: what contact angle and clearance stand for.",
+        ),
+        (
+            "Load-deflection factor",
+            "K",
+            f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹·⁵",
+            "Stiffness of both contacts of a ball in series.",
+        ),
+        (
+            "Groove centre distance",
+            "A<sub>0</sub>",
+            style.with_prefix(bearing.groove_center_distance, "m", 4),
+            "Both groove radii together less a ball diameter.",
+        ),
+    ]
+    if bearing.is_drawn:
+        facts += [
+            (
+                "Groove centre radius",
+                "r<sub>d</sub>",
+                style.with_prefix(bearing.groove_center_radius, "m", 5),
+                "The lever with which a tilt moves a contact.",
+            ),
+            (
+                "Raceway radii",
+                "R<sub>o</sub>, R<sub>i</sub>",
+                f"{1e3 * bearing.outer_raceway_radius:.5g} mm, "
+                f"{1e3 * bearing.inner_raceway_radius:.5g} mm",
+                "At the bottom of the grooves, where defects are cut.",
+            ),
+        ]
+        facts += [
+            (
+                f"{race.capitalize()} groove over ball",
+                "f<sub>" + race[0] + "</sub>",
+                style.number(radius / bearing.ball_diameter, 4),
+                "Groove radius in ball diameters; makers use 0.505 to 0.54.",
+            )
+            for race, radius in (
+                ("outer", bearing.outer_groove_radius),
+                ("inner", bearing.inner_groove_radius),
+            )
+            if radius is not None
+        ]
+    keys = ("label", "symbol", "value", "about")
+    return [dict(zip(keys, fact, strict=True)) for fact in facts]
+
+
+def _free_angle(bearing: Bearing) -> str:
+    try:
+        return f"{style.number(math.degrees(bearing.free_contact_angle), 4)}°"
+    except ValueError:
+        return "none: the ring slips through"

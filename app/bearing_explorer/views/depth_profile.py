@@ -1,0 +1,128 @@
+"""Depth profile of the defect: the race itself and the path of a ball's centre (Figs. 2, 8f)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
+EDGE_WORDS = {
+    "published": "the published edge model",
+    "chord": "the chord edge model",
+    "exact": "the exact edge model",
+}
+
+
+class DepthProfile(View):
+    """The race around the defect and the way a ball's centre takes over it."""
+
+    name = "depth-profile"
+    title = "Depth profile"
+    about = (
+        "Solid: the race, down is into the ring. Dashed: how far a ball's centre sinks. Dots: "
+        "balls at this cage angle."
+    )
+    needs = frozenset({"profile", "drop", "now"})
+
+    def build(self, wire: Wire) -> Any:
+        self._range = StickyRange(0.0, 60e-6, anchor="zero", least_span=1e-6)
+        plot = style.house_figure(
+            style.BALL_ANGLE,
+            DEPTH,
+            wire.range("depth_profile_angle", 240.0, 300.0),
+            wire.range("depth_profile_depth", 60e-6, -4e-6),
+            height=215,
+        )
+        surface = wire.source("depth_profile_surface", "angle", "depth", "bottom")
+        plot.varea(
+            "angle", "depth", "bottom", source=surface, fill_color=style.STEEL, fill_alpha=1.0
+        )
+        plot.line("angle", "depth", source=surface, line_color=style.FAINT_INK, line_width=1.6)
+        plot.line(
+            "angle",
+            "drop",
+            source=wire.source("depth_profile_path", "angle", "drop"),
+            line_color=style.DEFECTIVE,
+            line_width=2.0,
+            line_dash=[6, 4],
+        )
+        plot.scatter(
+            "angle",
+            "drop",
+            source=wire.source("depth_profile_balls", "angle", "drop"),
+            size=8,
+            fill_color="white",
+            line_color=style.INK,
+            line_width=1.6,
+            level="annotation",  # whole, also on the edge of the frame
+        )
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        profile = results.profile
+        angle = np.degrees(profile.angle)
+        deepest = self._range.fit(1.15 * profile.depth)[1]
+        start, end = float(angle[0]), float(angle[-1])
+        balls = np.degrees(results.now.ball_angle[0])
+        # the picture may run past 360°: a ball is drawn in whichever turn it is seen
+        balls = start + (balls - start) % 360.0
+        balls[balls > end] = np.nan
+        sources = {
+            "depth_profile_surface": {
+                "angle": angle,
+                "depth": profile.depth,
+                "bottom": np.full(angle.size, deepest),
+            },
+            "depth_profile_path": {"angle": angle, "drop": profile.path},
+            "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race]},
+        }
+        return sources, {
+            "depth_profile_angle": (start, end),
+            "depth_profile_depth": (deepest, -0.07 * deepest),  # depth grows downwards
+        }
+
+    def sentence(self, results: Results) -> str:
+        scene, profile = results.scene, results.profile
+        if not scene.defects:
+            return "The race has no defect: the profile is flat."
+        defect = scene.defects[results.focus]
+        turning = (
+            "; it turns with the shaft, and is shown where it is now"
+            if defect.race == "inner"
+            else ""
+        )
+        deepest = float(np.max(profile.path))
+        if defect.floor is not None:
+            return (
+                f"The {defect.race}-race defect is {style.number(np.degrees(defect.extent))}° "
+                f"long and up to {style.with_prefix(float(np.max(profile.depth)), 'm')} deep; "
+                f"a ball's centre sinks by at most {style.with_prefix(deepest, 'm')}{turning}."
+            )
+        floor = style.with_prefix(defect.depth, "m")
+        reaches = (
+            f"a ball reaches its floor of {floor}"
+            if deepest >= defect.depth * (1.0 - 1e-9)
+            else f"a ball sinks {style.with_prefix(deepest, 'm')} and does not reach the floor "
+            f"of {floor}"
+        )
+        return (
+            f"The {defect.race}-race defect is {style.number(np.degrees(defect.extent))}° long; "
+            f"with {EDGE_WORDS[defect.edge]} {reaches}{turning}."
+        )
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        profile = results.profile
+        return {
+            "angle_deg": np.degrees(profile.angle),
+            "race_depth_um": 1e6 * profile.depth,
+            "ball_center_drop_um": 1e6 * profile.path,
+        }

@@ -1,0 +1,395 @@
+"""Any output over the plane of any two quantities: coarse at once, refined while one waits.
+
+The first, coarse level follows the sliders like any other view. When the hand rests, a job refines
+it level by level. The figures are HoloViews, and made when there is something to draw in them: the
+library is imported then, too, off the event loop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.events import Tap
+from bokeh.models import CustomJS, Plot, Spacer
+
+from bearing_explorer.assets import asset_text
+from bearing_explorer.compute.explore import (
+    BUDGET,
+    CHOICES,
+    SIZES,
+    Choice,
+    Job,
+    Plane,
+    Question,
+    planes,
+    refine,
+)
+from bearing_explorer.compute.jobs import JobState, Work
+from bearing_explorer.figures import style
+from bearing_explorer.figures.heat_map import Side
+from bearing_explorer.figures.style import AxisQuantity
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.value_range import Sweep, focused, value_of
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.job_view import JobView
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearing_explorer.plotting.plane import Field
+
+REST = 0.2
+"""[s] that sliders must rest before a map is refined."""
+PAUSE = 2.0
+"""Between two drawings while sliders move, in drawing times: the event loop is everybody's."""
+
+_FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
+_GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
+_FADED = 0.65
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the form asks for."""
+
+    x: Sweep
+    y: Sweep
+    choice: Choice
+    stride: int
+
+    def of(self, results: Results) -> Question:
+        """The question for the scene shown."""
+        return Question(focused(results.scene, results.focus), self.x, self.y, self.choice)
+
+
+class _While:
+    """A job that ends, too, when what it computes is no longer asked for."""
+
+    def __init__(self, job: Work, wanted: Callable[[], bool]) -> None:
+        self._job, self._wanted = job, wanted
+        self.progress = job.progress
+        self.show = job.show
+
+    def cancelled(self) -> bool:
+        return self._job.cancelled() or not self._wanted()
+
+
+class ExplorePlane(JobView[Plane]):
+    """A map of one output over two quantities, with lines across it and a histogram."""
+
+    name = "explore"
+    title = "Explore a plane"
+    about = (
+        "Any output over two quantities, all else as the sliders have it. Point at the map to move "
+        "the curves, click to go there; select values in the histogram to find them on it. "
+        "Hatched: no answer. Ring: this scene."
+    )
+    needs = frozenset()
+    start = "Compute the map"
+    at_once = True
+    bounds = f"Coarse at once, finer while you wait: at most {BUDGET / 60.0:.0f} minutes a map."
+
+    _asking: Asked | None = None
+    _question: Question | None = None
+    _refining: tuple[Question, int] | None = None
+    _timer: asyncio.TimerHandle | None = None
+    _at: tuple[float, float] = (0.0, 0.0)
+    _news: Any = None
+    _next_show = 0.0
+
+    def build(self, wire: Wire) -> Any:
+        self._mark = wire.source("explore_mark", "x", "y")
+        self._old = wire.source("explore_old", "left", "right", "bottom", "top", "alpha")
+        # the browser must know the sources before there is a figure that draws them
+        anchor = Spacer(width=0, height=0, visible=False, tags=[self._mark, self._old])
+        self._figures = pn.Column(min_height=460, sizing_mode="stretch_width", margin=0)
+        return pn.Column(
+            self.job,
+            self._figures,
+            pn.pane.Bokeh(anchor, margin=0),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+    # The form
+
+    def fields(self) -> list[dict[str, Any]]:
+        outputs = [[choice.name, choice.label, choice.group] for choice in CHOICES.values()]
+        return [
+            {"name": "output", "label": "Map of", "options": outputs},
+            *plane_fields(headings=True),
+            {"name": "grid", "label": "Points", "options": _GRIDS},
+        ]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        fills = plane_fills(editor.limits)
+        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
+        # loads that point down, as weights do: without a load there is nothing to map
+        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}"
+        if self._asking is None:
+            self._asking = self.asked(values, editor)
+        return values, fills
+
+    def asked(self, given: Mapping[str, str], editor: SceneEditor) -> Asked:
+        """What the form asks for; ValueError with a sentence where it cannot be."""
+        if given["output"] not in CHOICES:
+            raise ValueError("There is no such output.")
+        if given["grid"] not in [value for value, _ in _GRIDS]:
+            raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
+        x, y = plane_sweeps(given, SIZES[1], editor.limits)
+        return Asked(x, y, CHOICES[given["output"]], int(given["grid"]))
+
+    def _asked(self, message: Any) -> None:
+        if not isinstance(message, dict) or self._jobs is None:
+            return
+        if message.get("cancel") is True:
+            self._wait_no_more()
+            self._jobs.cancel()
+        if isinstance(given := message.get("start"), dict):
+            try:
+                self._asking = self.asked(self.texts(given), self._editor)
+            except ValueError as error:
+                self.job.show(JobState("failed", 0.0, str(error)))
+            else:
+                self._refining = None
+                self._draw()
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        import bearing_explorer.plotting  # noqa: F401 - takes a second, once, and this is not the event loop
+
+        none = np.zeros(0)
+        sources: Sources = {
+            "explore_mark": {"x": none, "y": none},
+            "explore_old": dict.fromkeys(("left", "right", "bottom", "top", "alpha"), none),
+        }
+        if self._asking is None:
+            return sources, {}
+        question = self._asking.of(results)
+        scene = focused(results.scene, results.focus)
+        x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
+        sources["explore_mark"] = {"x": np.array([x]), "y": np.array([y])}
+        if self.found is not None and self._plane(question)[0] is None:
+            ends = [float(v) for s in (self.found.question.x, self.found.question.y)
+                    for v in (s.values[0], s.values[-1])]  # fmt: skip
+            names = ("left", "right", "bottom", "top", "alpha")
+            sources["explore_old"] = {
+                name: np.array([value]) for name, value in zip(names, [*ends, _FADED], strict=True)
+            }
+        return sources, {}
+
+    def sentence(self, results: Results) -> str:
+        if self._asking is None:
+            return "There is no map yet."
+        question = self._asking.of(results)
+        plane, why = self._plane(question)
+        if plane is None:
+            faint = "What is drawn, faint, is another map. " if self.found is not None else ""
+            return faint + (why or "This output takes a while: the map is being computed.")
+        return summary(plane)
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None or self._asking is None:
+            return
+        self._question = question = self._asking.of(results)
+        scene = focused(results.scene, results.focus)
+        x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
+        self._at = x, y
+        plane, why = self._plane(question)
+        if plane is not None and time.perf_counter() > self._next_show:
+            self._show(plane)
+        if self._refining == (question, self._asking.stride):
+            return
+        self._wait_no_more()
+        self._refining = None
+        if why:
+            self.job.show(JobState("failed", 0.0, why))
+        elif self._jobs is not None:
+            loop = asyncio.get_running_loop()
+            self._timer = loop.call_later(REST, self._refine, question, plane)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        if self.found is None:
+            return {}
+        found = self.found
+        y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
+        question = found.question
+        return {
+            question.x.quantity.name: x,
+            question.y.quantity.name: y,
+            question.choice.column: found.values,
+            "no_answer_because": found.reasons,
+        }
+
+    def _plane(self, question: Question) -> tuple[Plane | None, str]:
+        """What is known of the map by now, or why there can be none."""
+        if self.found is not None and self.found.question == question:
+            return self.found, ""
+        if not question.at_once:
+            return None, ""
+        try:
+            return planes(question), ""
+        except ValueError as error:
+            return None, refusal(error)
+
+    def _show(self, plane: Plane) -> None:
+        """Draw a map; its figures are made anew where it is one of something else."""
+        if plane is self.found:
+            return
+        from bearing_explorer.plotting.plane import plane as linked_figures
+
+        started = time.perf_counter()
+        field = field_of(plane, self._at)
+        before, self.found = self.found, plane
+        if before is not None and before.question.figure == plane.question.figure:
+            self._news.send(field)
+            now = time.perf_counter()
+            self._next_show = now + PAUSE * (now - started)
+            return
+        import holoviews as hv
+
+        self._mark.js_property_callbacks = {}  # those of figures that are gone
+        self._news = hv.streams.Pipe(data=field)
+        names = [plane.question.x.quantity.name, plane.question.y.quantity.name]
+        plots: list[Plot] = []
+        layout = linked_figures(
+            field,
+            news=self._news,
+            mark=self._mark,
+            hooks=[_Marks(names, self._mark, self._old)],
+            each=lambda plot, _: plots.append(plot.handles["plot"]),
+            responsive=True,
+        )
+        pane = pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
+        self._figures[:] = [pane]
+        self._caption.figures = [plot.id for plot in plots]
+
+    # Refining
+
+    def _refine(self, question: Question, start: Plane | None) -> None:
+        """Start the job, if this is still what is asked for."""
+        self._timer = None
+        if self._jobs is None or self._asking is None or question != self._question:
+            return
+        stride = self._asking.stride
+        self._refining = asked = (question, stride)
+
+        def work(job: Work) -> str:
+            going: Job = _While(job, lambda: self._refining == asked)
+            if start is not None:
+                job.show(start)  # it may have been passed over while the slider moved
+            try:
+                return refine(going, question, stride, start)
+            except ValueError as error:
+                text = str(error)
+                raise ValueError(text if text.endswith(".") else refusal(error)) from error
+
+        self._jobs.start(work, self._take, self.job.show)
+
+    def _take(self, found: Plane) -> None:
+        if found.question == self._question:
+            self._show(found)
+            self._draw()
+
+    def _wait_no_more(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+
+class _Marks:
+    """A hook: the ring at this scene, the veil over a map of another, and the click to go there."""
+
+    def __init__(self, names: list[str], mark: Any, old: Any) -> None:
+        self._names, self._mark, self._old = names, mark, old
+
+    def __call__(self, plot: Any, _: Any) -> None:
+        if "marks" in plot.handles:
+            return
+        plot.handles["marks"] = True
+        figure = plot.handles["plot"]
+        figure.name = "explore_map"
+        figure.stylesheets = [*figure.stylesheets, ":host { cursor: crosshair; }"]
+        figure.quad(
+            "left", "right", "top", "bottom", source=self._old, fill_color=style.PAPER,
+            fill_alpha="alpha", line_color=None, level="overlay",
+        )  # fmt: skip
+        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
+            figure.scatter(
+                "x", "y", source=self._mark, size=15, fill_color=None, line_color=color,
+                line_width=width, level="overlay",
+            )  # fmt: skip
+        go = CustomJS(
+            args={"image": plot.handles["source"], "names": self._names},
+            code=asset_text("explore_click.js"),
+        )
+        figure.js_on_event(Tap, go)
+
+
+def field_of(plane: Plane, at: tuple[float, float]) -> Field:
+    """A map as the figures take it, with lines drawn across it at a place."""
+    from bearing_explorer.plotting.plane import Field
+
+    question = plane.question
+    sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
+    axes = [AxisQuantity(side.words, side.symbol, side.unit) for side in sides]
+    choice = question.choice
+    words = choice.label[0].upper() + choice.label[1:] if choice.label[0] != "k" else choice.label
+    value = AxisQuantity(words, "", choice.unit, prefixed=choice.unit not in ("", "°"))
+    return Field(
+        (sides[0].name, axes[0], plane.x.values),
+        (sides[1].name, axes[1], plane.y.values),
+        (choice.name.replace(":", "_"), value),
+        plane.values,
+        plane.reasons,
+        at,
+    )
+
+
+def summary(plane: Plane) -> str:
+    """What a map shows, in a sentence: least and greatest, where, and how much is not known."""
+    question, values = plane.question, plane.values
+    what = question.choice.label
+    missing = ""
+    if plane.missing:
+        reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
+        common = max(set(reasons), key=reasons.count)
+        points = "1 point has" if plane.missing == 1 else f"{plane.missing} points have"
+        missing = f" {points} no answer, most often: {common.rstrip('.')}."
+    if plane.missing == values.size:
+        return (
+            f"{what[0].upper()}{what[1:]}: no point of {plane.shape_words} has an answer." + missing
+        )
+    least, most = (
+        np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
+    )
+    ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
+    return f"{plane.shape_words}. {what}: {ends}.{missing}"
+
+
+def _place(plane: Plane, at: tuple[Any, ...]) -> str:
+    choice = plane.question.choice
+    value = float(plane.values[at])
+    shown = (
+        style.with_prefix(value, choice.unit)
+        if choice.unit not in ("", "°")
+        else f"{style.number(value)}{choice.unit}"
+    )
+    where = [
+        f"{sweep.quantity.label.lower()} {style.number(float(sweep.values[k]))}"
+        + (
+            sweep.quantity.unit if sweep.quantity.unit == "°" else f" {sweep.quantity.unit}"
+        ).rstrip()
+        for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
+    ]
+    return f"{shown} at {' and '.join(where)}"

@@ -1,0 +1,153 @@
+"""The frequencies of a bearing drawn into a spectrum: lines with names that do not overlap.
+
+Each family of lines has a row for its names at the top of the frame, and names only so many of its
+lines as have room.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.measured_view import write_over
+from bearingcore import Scene
+
+NAME_WIDTH = 0.13
+"""Of a family's first name, with its frequency, as a share of the frame's width."""
+ORDER_WIDTH = 0.042
+"""Of the names of its harmonics."""
+ROW_PIXELS = 17.0
+
+
+@dataclass(frozen=True)
+class Family:
+    """Lines at multiples of one frequency; `most` of them are drawn."""
+
+    name: str
+    title: str
+    about: str
+    color: str
+    ink: str
+    most: float = math.inf
+    dash: str = "solid"
+
+
+FAMILIES = (
+    Family("bpfo", "BPFO", "balls pass a point of the outer race", "#E69F00", "#8A5A00"),
+    Family(
+        "half",
+        "½ BPFO",
+        "odd multiples of half of that: every second ball pass is alike",
+        "#E69F00",
+        "#8A5A00",
+        dash="dashed",
+    ),
+    Family("bpfi", "BPFI", "balls pass a point of the inner race", "#CC79A7", "#94407A"),
+    Family("bsf", "BSF", "a ball spins; a spot on it knocks twice a turn", "#009E73", "#00704F", 6),
+    Family("ftf", "FTF", "the cage turns", "#56B4E9", "#1F6F9F", 3),
+)
+"""In the order of their rows."""
+
+_WORDS = """
+if (row.order == %(first)s) return `%(title)s ${rounded(row.first, 4)} Hz`
+const whole = Math.floor(row.order), half = row.order > whole ? '½' : ''
+return `${whole || ''}${half}×`
+"""
+
+
+def fundamentals(scene: Scene) -> dict[str, float]:
+    """First frequency [Hz] of each family, at the scene's shaft speed."""
+    bearing, speed = scene.bearing, scene.shaft_speed
+    outer = bearing.bpfo(speed)
+    return {
+        "bpfo": outer,
+        "half": outer,
+        "bpfi": bearing.bpfi(speed),
+        "bsf": bearing.bsf(speed),
+        "ftf": bearing.ftf(speed),
+    }
+
+
+def orders(family: Family, first: float, top: float) -> NDArray[np.float64]:
+    """Multiples of `first` [Hz] that a family has up to `top` [Hz]."""
+    if not first > 0.0:
+        return np.zeros(0)
+    begin = 0.5 if family.name == "half" else 1.0
+    count = int(min(family.most, top / first + 1.0 - begin + 1e-9))
+    return begin + np.arange(max(count, 0), dtype=float)
+
+
+def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[np.float64]:
+    """Those of a family's multiples whose names stand clear of each other."""
+    if not multiples.size:
+        return multiples
+    step = next(
+        step * 10**power
+        for power in range(9)
+        for step in (1, 2, 5)
+        if step * 10**power * first >= ORDER_WIDTH * top
+    )
+    from_end = multiples * first <= (1.0 - 0.6 * ORDER_WIDTH) * top
+    clear = multiples * first >= multiples[0] * first + NAME_WIDTH * top
+    # halves count from the first one: ½, 1½, 2½; whole orders are named where they are round
+    round_ones = (multiples if multiples[0] == 1.0 else multiples + 0.5) % step == 0.0
+    kept = (round_ones & clear & from_end) | (np.arange(multiples.size) == 0)
+    return multiples[kept]
+
+
+class FrequencyLines:
+    """The lines and names of all families in some figures, which share the sources."""
+
+    def __init__(self, wire: Wire, prefix: str, plots: Sequence[figure], height: float) -> None:
+        self._prefix = prefix
+        self._row = ROW_PIXELS / height
+        for family in FAMILIES:
+            lines = wire.source(f"{prefix}_{family.name}", "frequency")
+            names = wire.source(
+                f"{prefix}_{family.name}_names", "frequency", "order", "first", "row"
+            )
+            first = 0.5 if family.name == "half" else 1
+            words = style.words_of(names, _WORDS % {"first": first, "title": family.title})
+            for plot in plots:
+                plot.vspan(
+                    "frequency", source=lines, line_color=family.color, line_alpha=0.6,
+                    line_dash=family.dash, line_width=1.1, level="underlay",
+                )  # fmt: skip
+                write_over(plot, names, words, "frequency", "row", family.ink, x_offset=3)
+
+    def head_room(self, shown: Sequence[str]) -> float:
+        """Share of the frame's height that the names take."""
+        return self._row * (len(shown) + 0.6)
+
+    def columns(
+        self, first: dict[str, float], shown: Sequence[str], top: float
+    ) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """Sources with the lines of the families `shown` up to `top` [Hz], and their names."""
+        sources: dict[str, dict[str, NDArray[np.float64]]] = {}
+        row = 0
+        for family in FAMILIES:
+            fundamental = first[family.name]
+            multiples = np.zeros(0)
+            if family.name in shown:
+                multiples = orders(family, fundamental, top)
+                row += 1
+            labels = named(multiples, fundamental, top)
+            sources[f"{self._prefix}_{family.name}"] = {"frequency": multiples * fundamental}
+            sources[f"{self._prefix}_{family.name}_names"] = {
+                "frequency": labels * fundamental,
+                "order": labels,
+                "first": labels * fundamental,
+                "row": np.full(labels.size, 1.0 - self._row * (row - 0.2)),
+            }
+        return sources
+
+    def nothing(self) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """The same without lines."""
+        return self.columns(dict.fromkeys([family.name for family in FAMILIES], 0.0), (), 1.0)

@@ -1,0 +1,296 @@
+"""A measured signal over frequency beside the simulated one: figures, lines, and their choices."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import panel as pn
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.measurement.form import number_of
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, fundamentals
+from bearing_explorer.views.measured_view import MEASURED, LookPanel, MeasuredView
+from bearing_explorer.views.vibration_spectrum import (
+    DEPTH_OF_VIEW,
+    FREQUENCY,
+    HIGHEST,
+    LEVEL_FLOOR,
+    SHOWN,
+    decibels,
+)
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearingcore import Spectrum
+
+FRAME = 236.0  # [px] height of the frame of a figure
+HEIGHT = 300
+SCALES = ("dB", "linear")
+RESOLUTIONS = ("32", "8", "2")
+MOST_LINES = 3000
+"""Of a spectrum that are drawn."""
+
+
+ALONG: dict[str, Any] = {
+    "kind": "one",
+    "name": "direction",
+    "label": "Along",
+    "options": [["x", "x"], ["y", "y"]],
+}
+SCALE: dict[str, Any] = {
+    "kind": "one",
+    "name": "scale",
+    "label": "Scale",
+    "options": [["dB", "dB"], ["linear", "linear"]],
+}
+LINES: dict[str, Any] = {
+    "kind": "some",
+    "name": "lines",
+    "label": "Lines",
+    "options": [[family.name, family.title, family.color] for family in FAMILIES],
+}
+"""Choices above the figures."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a spectrum is to be seen."""
+
+    direction: str = "y"
+    scale: str = "dB"
+    resolution: str = "32"
+    lines: tuple[str, ...] = ("bpfo",)
+    band: tuple[float | None, float | None] = (None, None)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a figure is to show: spectra up to `top` [Hz], and what to say beside them."""
+
+    direction: str
+    top: float
+    measured: Spectrum
+    simulated: Spectrum | None
+    resolution: float
+    why_not: str = ""
+    band: tuple[float, float] | None = None
+
+
+class FrequencyView(MeasuredView):
+    """What spectra share: figures in decibels and linear, lines, and the choices above them."""
+
+    prefix: ClassVar[str]
+    fields: ClassVar[list[dict[str, Any]]]
+    first_look: ClassVar[Look]
+    needs = frozenset({"spectra"})
+
+    def build(self, wire: Wire) -> Any:
+        self.look = self.first_look
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        self._heights = StickyRange(0.0, 1.0, anchor="zero", shrink_below=0.7)
+        p = self.prefix
+        frequency = wire.range(f"{p}_frequency", 0.0, HIGHEST)
+        ranges = {
+            "dB": wire.range(f"{p}_level", -80.0, -20.0),
+            "linear": wire.range(f"{p}_height", 0.0, 1.0),
+        }
+        quantities = {
+            "dB": style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
+            "linear": style.AxisQuantity("Amplitude density", "√S", "m/s²/√Hz", prefixed=True),
+        }
+        self._plots = {
+            scale: style.house_figure(
+                FREQUENCY,
+                quantities[scale],
+                frequency,
+                ranges[scale],
+                height=HEIGHT,
+                name=f"{p}_drawing_{scale}",
+            )
+            for scale in SCALES
+        }
+        self._lines = FrequencyLines(wire, p, list(self._plots.values()), FRAME)
+        self.decorate(wire, list(self._plots.values()))
+        measured = wire.source(f"{p}_measured", "frequency", *SCALES)
+        simulated = {
+            dof: wire.source(f"{p}_simulated_{dof}", "frequency", *SCALES) for dof in SHOWN
+        }
+        for scale, plot in self._plots.items():
+            for dof, source in simulated.items():
+                color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+                plot.line("frequency", scale, source=source, line_color=color, line_width=2.4)
+            plot.line(
+                "frequency", scale, source=measured, line_color=MEASURED, line_width=1.2,
+                line_alpha=0.9,
+            )  # fmt: skip
+            plot.visible = scale == self.look.scale
+        self.panel_of_look = LookPanel(self._asked, spec={"name": p, "fields": self.fields})
+        self._show_look()
+        self.hidden = pn.Column(
+            self.panel_of_look,
+            *self._plots.values(),
+            sizing_mode="stretch_width",
+            margin=0,
+            visible=False,
+        )
+        return self.hidden
+
+    def decorate(self, wire: Wire, plots: list[figure]) -> None:
+        """Draw what lies beneath the spectra."""
+
+    def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
+        """The numbers of that."""
+        return {}
+
+    def shown(self, results: Results, measured: Measured) -> Shown:
+        """The spectra as the look has them."""
+        raise NotImplementedError
+
+    # The look
+
+    def _asked(self, message: Any) -> None:
+        wish = message.get("look") if isinstance(message, dict) else None
+        if not isinstance(wish, dict):
+            return
+        try:
+            self.look = self._looked(wish)
+        except ValueError as error:
+            self.panel_of_look.refused = str(error)
+            return
+        self.panel_of_look.refused = ""
+        if self.measurement is not None:
+            self.measurement.redraw()
+
+    def _looked(self, wish: Mapping[Any, Any]) -> Look:
+        look = self.look
+        if (direction := wish.get("direction")) in SHOWN:
+            look = replace(look, direction=direction)
+        if (scale := wish.get("scale")) in SCALES:
+            look = replace(look, scale=scale)
+        if (resolution := wish.get("resolution")) in RESOLUTIONS:
+            look = replace(look, resolution=resolution)
+        if isinstance(lines := wish.get("lines"), list):
+            known = [family.name for family in FAMILIES]
+            look = replace(look, lines=tuple(name for name in known if name in lines))
+        for index, name in enumerate(("low", "high")):
+            if isinstance(text := wish.get(name), str):
+                band = list(look.band)
+                bare = text.strip()
+                words = f"The {'lower' if index == 0 else 'upper'} end of the band"
+                band[index] = number_of(bare[:20], words, "Hz", 1e-3, 1e7) if bare else None
+                look = replace(look, band=(band[0], band[1]))
+        return look
+
+    def _show_look(self) -> None:
+        look, measured = self.look, self.measured
+        directions = measured.directions if measured is not None else SHOWN
+        self.panel_of_look.values = {
+            "direction": look.direction if look.direction in directions else directions[0],
+            "scale": look.scale,
+            "resolution": look.resolution,
+            "lines": list(look.lines),
+            "low": "" if look.band[0] is None else f"{look.band[0]:g}",
+            "high": "" if look.band[1] is None else f"{look.band[1]:g}",
+        }
+        self.panel_of_look.disabled = {
+            "direction": [dof for dof in SHOWN if dof not in directions],
+        }
+
+    def direction(self, measured: Measured) -> str:
+        """The direction that is shown: the one chosen, where it was measured."""
+        chosen = self.look.direction
+        return chosen if chosen in measured.directions else measured.directions[0]
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        self._show_look()
+        for scale, plot in self._plots.items():
+            plot.visible = scale == self.look.scale
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        p, measured, look = self.prefix, self.measured, self.look
+        if measured is None:
+            none = dict.fromkeys(("frequency", *SCALES), np.zeros(0))
+            names = [f"{p}_measured", *(f"{p}_simulated_{dof}" for dof in SHOWN)]
+            empty: Sources = dict.fromkeys(names, none)
+            return empty | self._lines.nothing() | self.decoration(None, None), {}
+        shown = self.shown(results, measured)
+        lines = fundamentals(measured.scene(results.scene))
+        top, resolution = shown.top, shown.resolution
+        sources: Sources = {f"{p}_measured": curves(shown.measured, top)}
+        for dof in SHOWN:
+            own = shown.simulated if dof == shown.direction else None
+            sources[f"{p}_simulated_{dof}"] = curves(own, top)
+        both = [sources[f"{p}_measured"], sources[f"{p}_simulated_{shown.direction}"]]
+        # a slow drift is not what the scale is for
+        seen = [part["frequency"] > 1.5 * resolution for part in both]
+        level, height = (
+            np.concatenate([part[scale][own] for part, own in zip(both, seen, strict=True)])
+            for scale in SCALES
+        )
+        room = self._lines.head_room(look.lines)
+        loudest = float(np.nanmax(level, initial=LEVEL_FLOOR))
+        lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
+        head = (loudest - lowest) * room / (1.0 - room) + 3.0
+        greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
+        ranges = {
+            f"{p}_frequency": (0.0, top),
+            f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
+            f"{p}_height": self._heights.fit(np.array([0.0, greatest])),
+        }
+        sources |= self._lines.columns(lines, look.lines, top)
+        return sources | self.decoration(results, shown), ranges
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        measured = self.measured
+        if measured is None:
+            return {}
+        shown = self.shown(results, measured)
+        table: dict[str, np.ndarray] = {}
+        unit = f"{shown.direction}_m2_per_s4_per_hz"
+        for who, spectrum in (("measured", shown.measured), ("simulated", shown.simulated)):
+            if spectrum is not None:
+                kept = spectrum.frequency <= shown.top
+                table[f"{who}_frequency_hz"] = spectrum.frequency[kept]
+                table[f"{who}_density_{unit}"] = spectrum.density[kept]
+        return table
+
+    def simulated_at(self, results: Results, measured: Measured) -> str:
+        """That the scene is simulated at another speed than the sliders have, if it is."""
+        ours, theirs = results.scene.shaft_speed, measured.shaft_speed
+        if math.isclose(ours, theirs, rel_tol=1e-4):
+            return ""
+        return (
+            f" The scene is simulated at the measured {_hertz(theirs)} Hz, not at the "
+            f"{_hertz(ours)} Hz of the sliders."
+        )
+
+
+def curves(spectrum: Spectrum | None, top: float) -> dict[str, NDArray[np.float64]]:
+    """A spectrum up to `top` [Hz] in both scales; of very fine ones each peak stays."""
+    if spectrum is None:
+        return dict.fromkeys(("frequency", *SCALES), np.zeros(0))
+    kept = spectrum.frequency <= top
+    frequency, density = spectrum.frequency[kept], spectrum.density[kept]
+    size = math.ceil(frequency.size / MOST_LINES)
+    if size > 1:
+        n = frequency.size // size * size
+        frequency = frequency[:n].reshape(-1, size)[:, size // 2]
+        density = density[:n].reshape(-1, size).max(axis=1)
+    return {"frequency": frequency, "dB": decibels(density), "linear": np.sqrt(density)}
+
+
+def _hertz(speed: float) -> str:
+    return style.number(speed / (2.0 * math.pi), 4)

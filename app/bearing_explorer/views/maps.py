@@ -1,0 +1,513 @@
+"""The 15 stiffness terms and the loaded balls over extent and cage angle (Figs. 5 and 6).
+
+One canvas for all sixteen maps, laid out like the matrix: column j and row i of it are the unit
+square at (j, -i), and below the diagonal, where it only repeats itself, stands the map of the
+loaded balls. To the browser go whole numbers of 16 bits, two to a float of the wire; there they are
+coloured, read under the pointer, and a click asks for the extent and the cage angle clicked at.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.events import Tap
+from bokeh.models import ColumnDataSource, CustomJS, CustomJSHover, HoverTool, Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.assets import asset_text
+from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.color_scales import DIVERGING, DIVERGING_DARK, SEQUENTIAL, packed
+from bearing_explorer.figures.matrix_cells import (
+    NEGLIGIBLE,
+    PLACES,
+    SYMBOLS,
+    TERM_UNITS,
+    UNITS,
+    Cell,
+    term_sizes,
+    unit_name,
+)
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.style import (
+    DEFECT,
+    FAINT_INK,
+    FONT,
+    INK,
+    LIGHT,
+    SHADE,
+    STEEL_EDGE,
+    bare_figure,
+    in_degrees,
+    number,
+    with_prefix,
+    words_of,
+)
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore import STIFFNESS_TERMS
+
+#: how a map is coloured: kinds of scales, as the browser knows them
+ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
+
+_TOOLTIP = (
+    '<div style="font: 12px system-ui, sans-serif; line-height: 1.45">'
+    "<b>@name: @left{custom}</b><br>Extent @right{custom}<br>@top{custom}</div>"
+)
+
+NO_ANSWER = 65535
+"""The whole number of a point without an answer."""
+GREATEST = 65534
+"""That of the upper end of a map's scale; the lower end is 0."""
+MOST_LEVELS_NAMED = 14
+"""Steps of the scale of loaded balls up to which each gets its number."""
+HEIGHT = 760
+
+_TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
+"""The smaller sign's part of the greater one above which a map has two signs, below which one."""
+
+
+def _cell(row: int, column: int) -> Cell:
+    return Cell(column + 0.15, column + 0.785, -row - 0.885, -row - 0.2)
+
+
+_BALLS = Cell(0.26, 2.42, -4.8, -3.3)
+_CELLS = [*(_cell(i, j) for i, j in PLACES), _BALLS]
+_N = len(_CELLS)
+
+
+def _bar(cell: Cell) -> Cell:
+    """The colour scale right of a map."""
+    width = 0.036 if cell is not _BALLS else 0.06
+    return Cell(cell.right + 0.02, cell.right + 0.02 + width, cell.bottom, cell.top)
+
+
+_BARS = [_bar(cell) for cell in _CELLS]
+
+
+class StiffnessMaps(View):
+    """All stiffness terms and the loaded balls over extent and cage angle."""
+
+    name = "maps"
+    title = "Maps over extent and cage angle"
+    about = (
+        "Each stiffness term, and how many balls carry load, for every extent of the defect (up) "
+        "and cage angle (right). Lines that slope are balls that enter and leave the defect. "
+        "Click in a map to go there."
+    )
+    needs = frozenset({"maps", "now"})
+
+    def build(self, wire: Wire) -> Any:
+        """One canvas for all maps."""
+        self._one_sign = [StickyRange(0.0, 1.0) for _ in PLACES]
+        self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
+        self._two = [False] * len(PLACES)
+        self._balls = StickyRange(0.0, 1.0, shrink_below=0.0)
+        plot = bare_figure(
+            Range1d(-0.03, 5.23), Range1d(-5.1, 0.0), height=HEIGHT, name="maps_drawing"
+        )
+        # Fifteen maps need some width; on a phone they scroll inside their card.
+        plot.min_width = None
+        plot.stylesheets = [
+            ":host { min-width: 760px; } .bk-events.bk-events { cursor: crosshair; }"
+            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+        ]
+        cells = wire.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
+        grid = wire.source("maps_grid", *_GRID)
+        ticks = wire.source("maps_ticks", "x", "y", "value", "beside")
+        now = wire.source("maps_now", "x", "y", *_SIDES)
+        points = wire.source("maps_points", "bits")
+        frames = _frames(plot)
+        _images(plot, points)
+        _names(plot, grid)
+        _scales(plot, cells)
+        _ticks(plot, ticks)
+        _crosshair(plot, now)
+        _hover(plot, frames, cells, grid, points)
+        plot.js_on_event(Tap, _go_there(grid))
+        scroll = ":host { overflow-x: auto; max-width: 100%; }"
+        return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """Points as whole numbers, their scales, and where the sliders stand."""
+        maps, now = results.maps, results.now
+        sizes = term_sizes(maps.term)
+        cells: list[tuple[float, ...]] = []
+        points = [np.empty(0, np.uint16)]
+        for i, term in enumerate(STIFFNESS_TERMS):
+            values = maps.term(term)
+            at_now = float(now.term(term)[0])
+            low, high, flat = self._limits(i, values, sizes[i])
+            points.append(whole_numbers(values, low, high))
+            at_now = 0.0 if abs(at_now) < NEGLIGIBLE * sizes[i] else at_now
+            kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
+            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[i])))
+        counts = np.where(maps.converged, maps.loaded_balls, np.nan)
+        low, high = self._balls.fit(counts)
+        low, high = math.floor(low), math.ceil(high)
+        points.append(whole_numbers(counts, low - 0.5, high + 0.5))
+        at_now = float(now.loaded_balls[0]) if now.converged[0] else math.nan
+        cells.append((low - 0.5, high + 0.5, COUNT, at_now, len(UNITS)))
+
+        columns = dict(zip(("low", "high", "kind", "now", "unit"), np.array(cells).T,
+                           strict=True))  # fmt: skip
+        grid = _grid(results)
+        levels = high - low + 1
+        sources: Sources = {
+            "maps_cells": {**columns, **_SIDE_COLUMNS},
+            "maps_grid": {name: np.array([value]) for name, value in grid.items()},
+            "maps_ticks": _tick_rows(grid, low, high),
+            "maps_now": {**_marks(results, grid), **_SIDE_COLUMNS},
+            "maps_points": {"bits": as_bits(maps.status.shape, columns["kind"], levels, points)},
+        }
+        return sources, {}
+
+    def _limits(
+        self, i: int, values: NDArray[np.float64], size: float
+    ) -> tuple[float, float, bool]:
+        """Ends of a term's colour scale, and whether it is zero everywhere."""
+        known = values[np.isfinite(values)]
+        if not known.size:
+            return math.nan, math.nan, False
+        least, most = float(known.min()), float(known.max())
+        if max(-least, most) < NEGLIGIBLE * size:
+            return -size, size, True
+        lesser, greater = sorted((max(-least, 0.0), max(most, 0.0)))
+        two = lesser > (_TO_ONE_SIGN if self._two[i] else _TO_TWO_SIGNS) * greater
+        self._two[i] = two
+        middle = 0.5 * (least + most)
+        room = np.array([middle - 0.005 * size, middle + 0.005 * size])  # rounding is no picture
+        low, high = (self._two_signs if two else self._one_sign)[i].fit(least, most, room)
+        return low, high, False
+
+    def sentence(self, results: Results) -> str:
+        """Where fewest balls carry load, and how it is at the sliders' place."""
+        maps = results.maps
+        if not maps.converged.any():
+            first = np.unravel_index(0, maps.status.shape)
+            return f"There is nothing to map: {maps.reason(int(first[0]), int(first[1]))}."
+        mean = maps.mean_loaded_balls
+        n_balls = results.scene.bearing.n_balls
+        least, most = np.nanmin(mean), np.nanmax(mean)
+        if most - least < 0.05:
+            words = f"Whatever the extent, about {least:.1f} of {n_balls} balls carry load"
+        else:
+            fewest = maps.extents[int(np.nanargmin(mean))]
+            words = (
+                f"Fewest balls carry load at an extent of {in_degrees(fewest, 0)}: "
+                f"{least:.1f} of {n_balls} on average over the cage angle"
+            )
+            if np.isfinite(mean[0]):
+                words += f", against {mean[0]:.1f} without the defect"
+        words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
+        words += in_degrees(results.cage_angle)
+        now = results.now
+        if now.converged[0]:
+            count = int(now.loaded_balls[0])
+            words += f", where {count} {'ball carries' if count == 1 else 'balls carry'} load"
+            words += f" and k_yy is {with_prefix(float(now.term('k_yy')[0]), 'N/m')}"
+        missing = float(np.mean(~maps.converged))
+        if missing:
+            words += f". {number(100.0 * missing, 2)} % of the points have no answer"
+        return words + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """Every point of every map in SI."""
+        maps = results.maps
+        extents, angles = np.meshgrid(maps.extents, maps.cage_angles, indexing="ij")
+        columns = {
+            "extent_deg": np.degrees(extents),
+            "cage_angle_deg": np.degrees(angles),
+            "loaded_balls": maps.loaded_balls,
+            "greatest_ball_load_n": maps.greatest_load,
+        }
+        for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
+            columns[f"{term}_{unit_name(unit)}"] = maps.term(term)
+        return columns
+
+
+def whole_numbers(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.uint16]:
+    """Values between the ends of a scale as 0 to GREATEST, NO_ANSWER where there is none."""
+    if not low < high:
+        return np.full(values.size, NO_ANSWER, np.uint16)
+    shares = ((values - low) * (GREATEST / (high - low))).ravel()
+    known = np.isfinite(shares)
+    return np.where(known, np.clip(np.rint(shares), 0, GREATEST), NO_ANSWER).astype(np.uint16)
+
+
+def as_bits(
+    shape: tuple[int, int],
+    kinds: NDArray[np.float64],
+    levels: int,
+    points: list[NDArray[np.uint16]],
+) -> NDArray[np.float32]:
+    """Rows and columns of the maps, their kinds, levels of the last, and all points, as floats.
+
+    The wire carries floats; two whole numbers lie in the bits of each and are never read as one.
+    """
+    head = np.array([*shape, *kinds, levels], np.uint16)
+    numbers = np.concatenate([head, np.zeros(_HEAD - head.size, np.uint16), *points])
+    if numbers.size % 2:
+        numbers = np.append(numbers, np.uint16(0))
+    return numbers.view(np.float32)
+
+
+_HEAD = 20  # numbers in front of the points
+
+_GRID = (
+    "first_angle", "last_angle", "first_extent", "last_extent", "turn", "start", "of_shaft"
+)  # fmt: skip
+_SIDES = ("left", "right", "bottom", "top")
+_SIDE_COLUMNS = {side: np.array([getattr(cell, side) for cell in _CELLS]) for side in _SIDES}
+
+
+def _grid(results: Results) -> dict[str, float]:
+    """What the sides of a map stand for [deg]: half a point past the first and the last.
+
+    `turn` says how far the angle that the map shows turns for a degree of cage angle: it is the
+    shaft's where a defect turns with the shaft. `start` is the cage angle where it is nought.
+    """
+    maps = results.maps
+
+    def ends(angles: NDArray[np.float64]) -> tuple[float, float]:
+        half = 0.5 * float(angles[1] - angles[0])
+        return float(angles[0]) - half, float(angles[-1]) + half
+
+    angles = results.along(np.array([maps.cage_angles[0], maps.cage_angles[-1]]))
+    first, last = ends(np.linspace(float(angles[0]), float(angles[1]), maps.cage_angles.size))
+    low, high = ends(np.degrees(maps.extents))
+    turn = 1.0 / results.scene.bearing.cage_ratio if results.over_shaft else 1.0
+    return {
+        "first_angle": first,
+        "last_angle": last,
+        "first_extent": low,
+        "last_extent": high,
+        "turn": turn,
+        "start": math.degrees(maps.cage_angles[0]),
+        "of_shaft": float(results.over_shaft),
+    }
+
+
+def _marks(results: Results, grid: dict[str, float]) -> dict[str, np.ndarray]:
+    """Where the sliders stand, in each map."""
+    angle, extent = float(results.along(results.cage_angle)), math.degrees(results.extent)
+    x = (angle - grid["first_angle"]) / (grid["last_angle"] - grid["first_angle"])
+    y = (extent - grid["first_extent"]) / (grid["last_extent"] - grid["first_extent"])
+    return {
+        "x": np.array([cell.x(np.array(x)) for cell in _CELLS]),
+        "y": np.array([cell.y(np.array(y), (0.0, 1.0)) for cell in _CELLS]),
+    }
+
+
+#: what a number stands beside: the left of a map, its foot, a colour scale
+_LEFT, _FOOT, _SCALE = 0, 1, 2
+
+
+def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.ndarray]:
+    """Numbers on the axes of the maps on the diagonal and of the large one, and on its scale."""
+    rows = []
+    for at, cell in enumerate(_CELLS):
+        large = cell is _BALLS
+        if not large and len(set(PLACES[at])) > 1:
+            continue
+        for beside, first, last in (
+            (_LEFT, grid["first_extent"], grid["last_extent"]),
+            (_FOOT, grid["first_angle"], grid["last_angle"]),
+        ):
+            for value in _round_numbers(first, last, 6 if large else 2):
+                share = np.array((value - first) / (last - first))
+                x = cell.left if beside == _LEFT else float(cell.x(share))
+                y = cell.bottom if beside == _FOOT else float(cell.y(share, (0.0, 1.0)))
+                rows.append((x, y, value, beside))
+    every = -(-(most - least + 1) // MOST_LEVELS_NAMED)
+    for count in range(least, most + 1, every):
+        share = np.array((count - least + 0.5) / (most - least + 1))
+        y = float(_BARS[-1].y(share, (0.0, 1.0)))
+        rows.append((_BARS[-1].right, y, count, _SCALE))
+    return dict(zip(("x", "y", "value", "beside"), np.array(rows).T, strict=True))
+
+
+def _round_numbers(first: float, last: float, parts: int) -> list[float]:
+    """From nought to about `parts` equal round steps further, within the ends [deg]."""
+    span = last - max(first, 0.0)
+    steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
+    step = steps[0] if steps else span / parts
+    return [step * k for k in range(int(last / step + 1e-6) + 1)]
+
+
+# ------------------------------------------------------------------------ the drawing, made once
+
+
+def _text(plot: figure, source: ColumnDataSource, **options: Any) -> Any:
+    style = {"text_font": {"value": FONT}, "text_font_size": "11px", "text_color": FAINT_INK}
+    return plot.text(source=source, **{"x": "x", "y": "y", **style, **options})
+
+
+def _frames(plot: figure) -> Any:
+    """What shows where a map has no point: hatched."""
+    names = [*SYMBOLS, "Loaded balls"]
+    return plot.quad(
+        **{side: side for side in _SIDES},
+        source=ColumnDataSource({**_SIDE_COLUMNS, "name": names}),
+        fill_color="#F3F4F6",
+        hatch_pattern="right_diagonal_line",
+        hatch_color="#D5DAE0",
+        hatch_scale=7,
+        hatch_weight=1,
+        line_color=STEEL_EDGE,
+    )
+
+
+def _images(plot: figure, points: ColumnDataSource) -> None:
+    """The maps and their colour scales, coloured in the browser."""
+    places = [*_CELLS, *_BARS]
+    images = ColumnDataSource(
+        {
+            "image": [np.zeros((1, 1), np.uint32) for _ in places],
+            "x": [place.left for place in places],
+            "y": [place.bottom for place in places],
+            "dw": [place.right - place.left for place in places],
+            "dh": [place.top - place.bottom for place in places],
+        },
+        syncable=False,
+    )
+    plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
+    one, *both = (packed(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
+    scales = {
+        theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
+    }
+    color = CustomJS(
+        args={"images": images, "scales": scales, "n": _N, "head": _HEAD, "none": NO_ANSWER},
+        code=asset_text("maps_color.js"),
+    )
+    points.js_on_change("data", color)
+
+
+def _names(plot: figure, grid: ColumnDataSource) -> None:
+    """Symbols over the maps, words on the axes, and how to read it all."""
+    serif = {"text_font": {"value": "Georgia, 'Times New Roman', serif"}, "text_color": INK}
+    cells = _CELLS[:-1]
+    source = ColumnDataSource(
+        {
+            "x": [cell.left for cell in cells],
+            "y": [cell.top for cell in cells],
+            "k": ["k"] * len(cells),
+            "below": [symbol[1:] for symbol in SYMBOLS],
+        }
+    )
+    _text(plot, source, text="k", y_offset=-6, text_font_size="15px", **serif)
+    _text(plot, source, text="below", x_offset=9, y_offset=-3, **serif)
+    large = ColumnDataSource({"x": [_BALLS.left], "y": [_BALLS.top], "text": ["Loaded balls"]})
+    _text(plot, large, text="text", y_offset=-6, text_font_size="13px", text_color=INK)
+    beside = {"text_align": "center", "text_color": INK, "text_font_size": "12px"}
+    up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
+    extent = {"value": "Extent Δφf (°)"}
+    _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-36, **beside)
+    words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
+    _text(
+        plot, grid, x=0.5 * (_BALLS.left + _BALLS.right), y=_BALLS.bottom, y_offset=36,
+        text=words_of(grid, words), **beside,
+    )  # fmt: skip
+    lines = [
+        "Stiffness k of each displacement (column)",
+        "against each load (row), as in the matrix.",
+        "Crossed: the sliders’ extent and cage angle.",
+        "Hatched: no answer.",
+    ]
+    legend = ColumnDataSource(
+        {"x": [0.26] * len(lines), "y": [-2.3 - 0.13 * i for i in range(len(lines))], "text": lines}
+    )
+    _text(plot, legend, text="text", text_font_size="12px")
+
+
+def _scales(plot: figure, cells: ColumnDataSource) -> None:
+    """Numbers at the colour scales, the value at the crosshair, zero where all is zero."""
+    units = f"const unit = {[*UNITS, '']}[row.unit]\n"
+    top = "const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))\n"
+    end = (
+        "if (!unit || row.kind == 3 || isNaN(row.low)) return ''\n"
+        + top
+        + "return minus(String(Number((row.%s/10**e).toPrecision(4))))"
+    )
+    now = (
+        "if (isNaN(row.now)) return 'no value'\n"
+        "if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'\n"
+        + top
+        + "return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit"
+    )
+    beside = {"x": "right", "x_offset": 14}
+    low, high = (words_of(cells, units + end % name) for name in ("low", "high"))
+    zero = words_of(cells, units + "return unit && row.kind == 1 ? '0' : ''")
+    middle = {"expr": _between(cells)}
+    _text(plot, cells, **beside, y="bottom", text=low, text_baseline="bottom")
+    _text(plot, cells, **beside, y="top", text=high, text_baseline="top")
+    _text(plot, cells, **beside, y=middle, text=zero, text_baseline="middle")
+    _text(
+        plot, cells, x="right", y="top", x_offset=30, y_offset=-6, text_align="right",
+        text=words_of(cells, units + now),
+    )  # fmt: skip
+    flat = words_of(cells, "return row.kind == 3 ? 'zero everywhere' : ''")
+    _text(
+        plot, cells, x="left", y="top", x_offset=8, y_offset=8, text=flat, text_baseline="top",
+    )  # fmt: skip
+
+
+def _between(cells: ColumnDataSource) -> Any:
+    from bokeh.models import CustomJSExpr
+
+    return CustomJSExpr(
+        args={"source": cells},
+        code="const d = source.data; return Array.from(d.top, (y, i) => 0.5*(y + d.bottom[i]))",
+    )
+
+
+def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
+    """Numbers of the axes and of the scale of loaded balls."""
+    only = "return row.beside == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
+    kinds = (
+        (_LEFT, "°", {"x_offset": -5, "text_align": "right", "text_baseline": "middle"}),
+        (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
+        (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
+    )
+    for beside, unit, options in kinds:
+        _text(plot, ticks, text=words_of(ticks, only % (beside, unit)), **options)
+
+
+def _crosshair(plot: figure, now: ColumnDataSource) -> None:
+    """Where the sliders stand: dark on light, so that it shows on every colour."""
+    for color, width, alpha in ((LIGHT, 3.0, 0.75), (SHADE, 1.0, 0.9)):
+        style = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
+        plot.segment("x", "bottom", "x", "top", **style)
+        plot.segment("left", "y", "right", "y", **style)
+    plot.scatter("x", "y", source=now, size=8, fill_color=DEFECT, line_color=SHADE)
+
+
+def _hover(
+    plot: figure, frames: Any, cells: ColumnDataSource, grid: ColumnDataSource, points: Any
+) -> None:
+    """The value under the pointer, its extent and cage angle, without a word to the server."""
+    code = asset_text("maps_read.js")
+    args = {"cells": cells, "grid": grid, "points": points, "frames": frames.data_source}
+    args |= {"units": list(UNITS), "head": _HEAD, "none": NO_ANSWER, "greatest": GREATEST}
+    read = {
+        field: CustomJSHover(args={**args, "wanted": wanted}, code=code)
+        for field, wanted in (("@left", "value"), ("@right", "extent"), ("@top", "angle"))
+    }
+    plot.add_tools(
+        HoverTool(
+            renderers=[frames],
+            visible=False,  # no button: it is always on
+            point_policy="follow_mouse",
+            tooltips=_TOOLTIP,
+            formatters=read,
+        )
+    )
+
+
+def _go_there(grid: ColumnDataSource) -> CustomJS:
+    """What a click asks for goes the way of typed numbers, see controls.js."""
+    boxes = [[cell.left, cell.right, cell.bottom, cell.top] for cell in _CELLS]
+    return CustomJS(args={"grid": grid, "boxes": boxes}, code=asset_text("maps_click.js"))

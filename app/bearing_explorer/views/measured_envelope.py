@@ -1,0 +1,120 @@
+"""How often something knocks: the spectrum of the envelope of a measured signal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from bearing_explorer.figures import style
+from bearing_explorer.measurement.signal import Measured, Simulated
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.views.frequency_lines import fundamentals
+from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
+from bearing_explorer.views.measured_view import NOTHING
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+
+class MeasuredEnvelope(FrequencyView):
+    """Spectrum of the envelope of both, in a band in which knocks are heard."""
+
+    name = "measured-envelope"
+    prefix = "measured_envelope"
+    title = "3  Its envelope: how often something knocks"
+    about = (
+        "Knocks make something ring, and the ringing swells with each of them: lines at BPFO speak "
+        "for the outer race, at BPFI for the inner race, at twice BSF for a ball. Unless you give "
+        "a band, it is the octave in which knocks stand out most."
+    )
+    first_look = Look(scale="linear", lines=("bpfo", "bpfi", "bsf", "ftf"))
+    fields: ClassVar[list[dict[str, Any]]] = [
+        ALONG,
+        SCALE,
+        {"kind": "number", "name": "low", "label": "Band from", "hint": "auto"},
+        {"kind": "number", "name": "high", "label": "to (Hz)", "hint": "auto"},
+        LINES,
+    ]
+
+    def shown(self, results: Results, measured: Measured) -> Shown:
+        model = Simulated(results, measured)
+        first = fundamentals(model.scene)
+        direction = self.direction(measured)
+        band = self.band(measured, direction, first["bpfo"])
+        nyquist = 0.5 * measured.recording.sample_rate
+        top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
+        top = min(top, 0.8 * nyquist)
+        spectrum = measured.envelope(direction, band, top)
+        try:
+            simulated, why_not = model.envelope(direction, band, top), ""
+        except ValueError as error:
+            simulated, why_not = None, refusal(error)
+        resolution = measured.envelope_resolution(top)
+        return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
+
+    def band(self, measured: Measured, direction: str, passing: float) -> tuple[float, float]:
+        """The band [Hz] as chosen, or where knocks stand out; what is not told is guessed."""
+        low, high = self.look.band
+        if low is None or high is None:
+            best = measured.band(direction, passing)
+            low = low if low is not None else best[0] if high is None else 0.5 * high
+            high = high if high is not None else best[1] if low == best[0] else 2.0 * low
+        highest = 0.49 * measured.recording.sample_rate
+        if not low < high:
+            raise ValueError(f"a band from {low:g} to {high:g} Hz is empty")
+        if high > highest:
+            raise ValueError(
+                f"a band up to {high:.5g} Hz asks for a faster sample rate; here it ends at "
+                f"{highest:.0f} Hz"
+            )
+        return low, high
+
+    def sentence(self, results: Results) -> str:
+        measured = self.measured
+        if measured is None:
+            return NOTHING
+        shown = self.shown(results, measured)
+        first = fundamentals(measured.scene(results.scene))
+        assert shown.band is not None
+        chosen = "as chosen" if self.look.band != (None, None) else "where knocks stand out most"
+        words = (
+            f"Envelope along {shown.direction} between {shown.band[0]:.0f} and "
+            f"{shown.band[1]:.0f} Hz, {chosen}. "
+        )
+        return words + telling(shown, first) + f" {shown.why_not}".rstrip()
+
+
+_PLACES = {
+    "BPFO": ("bpfo", (1, 2, 3)),
+    "BPFI": ("bpfi", (1, 2, 3)),
+    "BSF": ("bsf", (2, 1, 4)),
+    "FTF": ("ftf", (1, 2)),
+}
+_NEAR = 0.02  # slip, and what the shaft speed is off
+
+
+def telling(shown: Shown, first: Mapping[str, float]) -> str:
+    """Which of the bearing's frequencies the highest line of the envelope stands at."""
+    frequency, density = shown.measured
+    lowest = max(2.5 * shown.resolution, 0.7 * first["ftf"])
+    seen = (frequency > lowest) & (frequency < shown.top)
+    if not seen.any():
+        return "It holds no lines."
+    at = float(frequency[seen][density[seen].argmax()])
+    words = f"Its highest line, at {style.number(at, 4)} Hz,"
+    lines = [
+        (abs(at / (multiple * first[name]) - 1.0), multiple * first[name], multiple, title)
+        for title, (name, multiples) in _PLACES.items()
+        for multiple in multiples
+    ]
+    _, line, multiple, title = min(lines)
+    if abs(at - line) > max(_NEAR * line, shown.resolution):
+        return (
+            f"{words} is at none of the bearing's frequencies: shaft speed or bearing may be "
+            "others."
+        )
+    words += f" is {'' if multiple == 1 else f'{multiple}×'}{title}"
+    if abs(at - line) > 1.5 * shown.resolution:
+        off = 100.0 * (at / line - 1.0)
+        words += f", {abs(off):.1f} % {'above' if off > 0.0 else 'below'} what the geometry says"
+    return f"{words}."

@@ -1,0 +1,118 @@
+"""Views of a measured signal, and the controls that say how its figures look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import panel as pn
+import param
+from bokeh.models import ColumnDataSource, CustomJSExpr, Range1d
+from bokeh.plotting import figure
+from panel.custom import JSComponent
+
+from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.export.measured_lines import measured_lines
+from bearing_explorer.figures import style
+from bearing_explorer.measurement.session import Measurement
+from bearing_explorer.views.base import View
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearing_explorer.measurement.signal import Measured
+
+MEASURED = style.INK
+"""Colour of what was measured, where something simulated stands beside it."""
+
+
+def write_over(
+    plot: figure,
+    source: ColumnDataSource,
+    words: CustomJSExpr,
+    x: str,
+    row: str | float,
+    color: str,
+    **look: Any,
+) -> None:
+    """Write names into a figure; `row` is where, as a share of the frame's height."""
+    plot.extra_y_ranges.setdefault("rows", Range1d(0.0, 1.0, syncable=False))
+    plot.text(
+        x, row, y_range_name="rows", source=source, text=words, text_color=color,
+        text_baseline="middle", text_font={"value": style.FONT},
+        text_font_size=style.SMALL_TEXT_SIZE, background_fill_color=style.PAPER,
+        background_fill_alpha=0.85, level="annotation", **look,
+    )  # fmt: skip
+
+
+def side_by_side(*parts: Any) -> pn.Column:
+    """Parts beside each other where there is room for two, else one below the other."""
+    columns = "repeat(auto-fit, minmax(min(100%, 380px), 1fr))"
+    return pn.Column(
+        *parts,
+        stylesheets=[f":host {{ display: grid; grid-template-columns: {columns}; }}"],
+        sizing_mode="stretch_width",
+        margin=0,
+    )
+
+
+NOTHING = "There is no signal yet: choose a file or simulate one above."
+
+
+class MeasuredView(View):
+    """A view of the session's measurement. What `build` puts in `self.hidden` waits for one."""
+
+    hidden: Any = None
+    measurement: Measurement | None = None
+
+    def measure(self, measurement: Measurement) -> None:
+        """From now on draw what is measured there."""
+        self.measurement = measurement
+
+    @property
+    def measured(self) -> Measured | None:
+        """The signal that is drawn, if there is one."""
+        return None if self.measurement is None else self.measurement.measured
+
+    def python(self) -> str:
+        """Lines of Python that read the file and make what is drawn."""
+        measured, results = self.measured, self._results
+        if measured is None or results is None:
+            return f"# {NOTHING}\n"
+        return measured_lines(self, results, measured)
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if self.hidden is not None:
+            self.hidden.visible = self.measured is not None
+        # figures that nobody sees are not to be saved as pictures
+        self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
+
+    @property
+    def drawn(self) -> bool:
+        """Whether its figures are on screen."""
+        return self.measured is not None
+
+
+class LookPanel(JSComponent):
+    """Choices of how a figure looks: one of several, some of several, numbers.
+
+    `asked` gets {"look": {name: value}} of the browser, from strangers too: judge it.
+    """
+
+    #: {"name": of the figure, "fields": [{"kind": "one" | "some" | "number", "name", "label",
+    #: "options": [[value, words, colour]], "hint"}]}
+    spec = param.Dict(default={})
+    #: {field: value, a list where some of several can be chosen}
+    values = param.Dict(default={})
+    #: {field: values that cannot be chosen now}
+    disabled = param.Dict(default={})
+    #: {field: what an empty number stands for}
+    hints = param.Dict(default={})
+    refused = param.String()
+
+    _esm = scripts("element.js", "look.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("look.css")]
+
+    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+        super().__init__(margin=0, sizing_mode="stretch_width", **params)
+        self.on_msg(lambda event: asked(event.data))

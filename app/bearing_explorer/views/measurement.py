@@ -1,0 +1,253 @@
+"""The measured signal itself: brought as a file or simulated, and what it looks like in time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import panel as pn
+import param
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+from panel.custom import JSComponent
+
+from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.compute.excerpt import least_and_greatest
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.measurement.session import MACHINES, NOISES, Measurement, MeasurementState
+from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.measured_view import MeasuredView, write_over
+from bearing_explorer.views.vibration_spectrum import SHOWN
+from bearingcore.signals.recording import UNITS
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearing_explorer.measurement.signal import Measured
+
+ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
+TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
+HEIGHT = 230
+DRAWN_PARTS = 700
+"""Stretches of which the least and the greatest number are drawn."""
+PASSES = 4.0
+"""Ball passes of the close view."""
+
+_MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
+_EVENT_COLUMNS = ("time", "exit", "row", "named")
+_EDGE_WORDS = "return row.named ? (row.exit ? 'leaves' : 'enters') : ''"
+
+
+class MeasurementPanel(JSComponent):
+    """A file to choose, a measurement to simulate, and what the file is asked about.
+
+    `asked` gets messages of the browser as they come, from strangers too: judge them.
+    """
+
+    spec = param.Dict(default={})
+    #: a MeasurementState
+    state = param.Dict(default={})
+
+    _esm = scripts("element.js", "measurement.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("measurement.css")]
+
+    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+        super().__init__(margin=0, sizing_mode="stretch_width", **params)
+        self.on_msg(lambda event: asked(event.data))
+
+    def show(self, state: MeasurementState) -> None:
+        """What there is to say."""
+        self.state = {
+            "words": state.words,
+            "bad": state.bad,
+            "busy": state.busy,
+            "columns": state.columns,
+            "values": state.values,
+            "refused": state.refused,
+            "scaled": state.scaled,
+        }
+
+    def want(self, begin: int, of: int) -> None:
+        """Ask for the piece of the file that begins at this byte; `of` comes back with it."""
+        self._send_msg({"want": begin, "of": of})
+
+
+class MeasuredSignal(MeasuredView):
+    """The acceleration as it was measured: all of it, and a few ball passes."""
+
+    name = "measurement"
+    title = "1  Your measurement"
+    about = (
+        "The acceleration of a bearing's housing with a defect on its outer race, beside what the "
+        "scene would give. Set the scene to your machine: bearing, load, support."
+    )
+    needs = frozenset()
+
+    def build(self, wire: Wire) -> Any:
+        self.form = MeasurementPanel(self._asked, spec=spec())
+        self.form.show(MeasurementState())
+        self._all, self._close = StickyRange(-1.0, 1.0), StickyRange(-1.0, 1.0)
+        plots = [self._plot(wire, "all"), self._plot(wire, "close")]
+        self._mark_events(wire, plots[1])
+        wide: dict[str, Any] = {
+            "sizing_mode": "stretch_width",
+            "margin": 0,
+            "stylesheets": [style.WRAPPED],
+        }
+        self.hidden = pn.Row(*plots, visible=False, **wide)
+        return pn.Column(self.form, self.hidden, **wide)
+
+    def _plot(self, wire: Wire, part: str) -> figure:
+        plot = style.house_figure(
+            TIME,
+            ACCELERATION,
+            wire.range(f"measurement_{part}_time", 0.0, 1.0),
+            wire.range(f"measurement_{part}_size", -1.0, 1.0),
+            height=HEIGHT,
+            title="All of it" if part == "all" else f"{PASSES:.0f} ball passes",
+        )
+        # the weaker direction is drawn over the stronger one
+        source = wire.source(f"measurement_{part}", "time", *SHOWN)
+        for dof in reversed(SHOWN):
+            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+            plot.line("time", dof, source=source, line_color=color, line_width=1.2)
+        return plot
+
+    def _mark_events(self, wire: Wire, plot: figure) -> None:
+        events = wire.source("measurement_events", *_EVENT_COLUMNS)
+        plot.vspan("time", source=events, line_color=style.INK, line_alpha=0.55, line_width=1.0)
+        words = style.words_of(events, _EDGE_WORDS)
+        write_over(plot, events, words, "time", "row", style.INK, x_offset=3)
+
+    def measure(self, measurement: Measurement) -> None:
+        super().measure(measurement)
+        measurement.show, measurement.want = self.form.show, self.form.want
+        self.form.show(measurement.state)
+
+    def _asked(self, message: Any) -> None:
+        if self.measurement is not None:
+            self.measurement.asked(message)
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        measured = self.measured
+        none = np.zeros(0)
+        sources: Sources = {
+            "measurement_all": dict.fromkeys(("time", *SHOWN), none),
+            "measurement_close": dict.fromkeys(("time", *SHOWN), none),
+            "measurement_events": dict.fromkeys(_EVENT_COLUMNS, none),
+        }
+        if measured is None:
+            return sources, {}
+        first, last = close_view(measured, measured.scene(results.scene))
+        rate = measured.recording.sample_rate
+        signal = measured.recording.acceleration
+        whole = drawn(measured, 0, len(signal))
+        part = drawn(measured, first, last)
+        events = self._events(measured, first / rate, last / rate)
+        return {
+            "measurement_all": whole,
+            "measurement_close": part,
+            "measurement_events": events,
+        }, {
+            "measurement_all_time": (0.0, measured.recording.duration),
+            "measurement_all_size": self._all.fit(*(whole[dof] for dof in SHOWN)),
+            "measurement_close_time": (first / rate, last / rate),
+            "measurement_close_size": with_head(self._close, [part[dof] for dof in SHOWN]),
+        }
+
+    def _events(self, measured: Measured, begin: float, end: float) -> dict[str, np.ndarray]:
+        """When balls enter and leave between two times [s], once the signal is sized."""
+        sized = self.measurement.sized if self.measurement is not None else None
+        if sized is None or sized.measured is not measured:
+            return dict.fromkeys(_EVENT_COLUMNS, np.zeros(0))
+        entries, exits = sized.sizing.event_times(sized.sizing.best)
+        times = np.concatenate([entries, exits])
+        leaves = np.concatenate([np.zeros(entries.size), np.ones(exits.size)])
+        kept = (times >= begin) & (times <= end)
+        return {
+            "time": times[kept],
+            "exit": leaves[kept],
+            "row": np.where(leaves[kept] > 0.0, 0.85, 0.94),
+            # a name at the right end would be cut off by the frame
+            "named": (times[kept] < end - 0.11 * (end - begin)).astype(float),
+        }
+
+    def sentence(self, results: Results) -> str:
+        measured = self.measured
+        if measured is None:
+            return "There is nothing to draw yet."
+        recording = measured.recording
+        sizes = []
+        for index, dof in enumerate(recording.directions):
+            signal = recording.acceleration[:, index]
+            middle = float(signal.mean())
+            root = math.sqrt(float(np.mean((signal - middle) ** 2)))
+            sizes.append(
+                f"{style.with_prefix(root, 'm/s²')} along {dof} about a mean of "
+                f"{style.with_prefix(middle, 'm/s²', 2)}"
+            )
+        return f"Root mean square of the acceleration: {style.list_words(sizes)}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        measured = self.measured
+        if measured is None:
+            return {}
+        recording = measured.recording
+        first, last = close_view(measured, measured.scene(results.scene))
+        table = {"time_s": np.arange(first, last) / recording.sample_rate}
+        for index, dof in enumerate(recording.directions):
+            table[f"acceleration_{dof}_m_per_s2"] = recording.acceleration[first:last, index]
+        return table
+
+
+def spec() -> dict[str, Any]:
+    """What the browser needs to know once."""
+    noises = [[name, "none" if math.isinf(db) else f"{db:.0f} dB"] for name, db in NOISES.items()]
+    return {
+        "most": MOST_BYTES,
+        "piece": PIECE,
+        "accept": ".csv,.txt,.dat,.tsv,.asc,.wav,.mat,text/plain,text/csv,audio/wav",
+        "formats": (
+            "CSV or text, WAV, or MATLAB (.mat up to version 7); at most "
+            f"{MOST_BYTES // 2**20} MB. Or drop it here."
+        ),
+        "noises": [["20", "20 dB"], *[noise for noise in noises if noise[0] != "20"]],
+        "machines": [[name, _MACHINE_WORDS[name]] for name in MACHINES],
+        "units": [[unit, unit] for unit in UNITS],
+    }
+
+
+def close_view(measured: Measured, scene: Any) -> tuple[int, int]:
+    """First and last sample of a few ball passes, from a quarter of the signal on."""
+    recording = measured.recording
+    n = len(recording.acceleration)
+    passing = scene.bearing.bpfo(scene.shaft_speed)
+    length = PASSES / passing if passing > 0.0 else recording.duration
+    count = int(min(max(round(length * recording.sample_rate), 16), n))
+    first = min(n // 4, n - count)
+    return first, first + count
+
+
+def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.float64]]:
+    """A stretch of the signal with no more numbers than can be seen; NaN where not measured."""
+    recording = measured.recording
+    rows, values = least_and_greatest(recording.acceleration[first:last], DRAWN_PARTS)
+    missing = np.full(len(rows), np.nan)
+    own = dict(zip(recording.directions, values.T, strict=True))
+    time = (first + rows) / recording.sample_rate
+    return {"time": time, **{dof: own.get(dof, missing) for dof in SHOWN}}
+
+
+def with_head(
+    sticky: StickyRange, values: list[NDArray[np.float64]], head: float = 0.22
+) -> tuple[float, float]:
+    """A range for the values with room for names above them."""
+    finite = np.concatenate([part[np.isfinite(part)] for part in values])
+    low, high = float(finite.min(initial=0.0)), float(finite.max(initial=0.0))
+    return sticky.fit(np.array([low, high + head * (high - low)]))

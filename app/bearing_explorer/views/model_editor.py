@@ -1,0 +1,93 @@
+"""What stands around the bearing: masses, springs and dampers, and the law of the contacts."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import param
+
+from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.quantities import values_of
+from bearing_explorer.state.quantity_list import MODEL_GROUPS, QUANTITY_LIST
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.widgets.controls import Rows, choice_spec, spec_of
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+_LAWS = {
+    "published": (
+        "Published, may pull",
+        "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
+    ),
+    "no tension": (
+        "Without tension",
+        "The same damping, but a contact never pulls: its force ends at zero.",
+    ),
+}
+
+
+class ModelRows(Rows):
+    """The fields in the browser."""
+
+    #: the contact damping that follows from the stiffness, as words
+    automatic = param.String()
+
+    _esm = scripts("element.js", "rows.js", "model_editor.js")
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("controls.css"),
+        asset_text("model_editor.css"),
+    ]
+
+
+class ModelEditor(ControlView):
+    """Rotor, housing, support, damping: what decides how the bearing moves."""
+
+    name = "model-editor"
+    title = "Rotor, housing and support"
+    about = (
+        "Two bodies, the rotor in the inner ring and the housing around the outer one, which "
+        "stands on springs and dampers. They decide natural frequencies and vibration, never the "
+        "static loads. What is left empty is not known."
+    )
+    needs = frozenset({"contact_damping"})
+
+    def build(self, wire: Wire) -> Any:
+        law = choice_spec("Contact law", "Contact of a moving ball", False, _LAWS)
+        self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS, {"law": law}.items()))
+        return self.rows
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        return {}, {}
+
+    def sentence(self, results: Results) -> str:
+        support = results.scene.support
+        given = "given" if results.scene.contact_damping is not None else "from its stiffness"
+        return (
+            f"A rotor of {style.number(support.inner_mass, 4)} kg in a housing of "
+            f"{style.number(support.outer_mass, 4)} kg; a loaded contact has a damping of "
+            f"{style.number(results.contact_damping, 4)} N·s/m, {given}."
+        )
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None and results.scene.contact_damping is None:
+            self.rows.automatic = style.number(results.contact_damping, 4)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        values = values_of(results.scene)
+        rows = [q for q in QUANTITY_LIST if q.group in MODEL_GROUPS]
+        numbers = [
+            results.contact_damping if q.name == "contact_damping" else values[q.name] for q in rows
+        ]
+        return {
+            "quantity": np.array([q.label for q in rows]),
+            "value": np.array(["" if math.isnan(v) else f"{v:.9g}" for v in numbers]),
+            "unit": np.array([q.unit for q in rows]),
+        }

@@ -1,0 +1,221 @@
+"""Natural frequencies over cage angle and the bands they move in (Fig. 8)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.models import ColumnDataSource, LinearColorMapper
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearingcore import Modes
+
+FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
+HEIGHT = 440
+LABEL_PIXELS = 16.0  # height that a label needs
+
+BAND_WORDS = """
+const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
+const low = row.low.toFixed(0), high = row.high.toFixed(0)
+return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
+"""
+
+
+def direction_mapper() -> LinearColorMapper:
+    """Colour of a direction given as its index in `style.DIRECTIONS`."""
+    return LinearColorMapper(
+        palette=list(style.DIRECTION_COLORS), low=-0.5, high=len(style.DIRECTIONS) - 0.5
+    )
+
+
+class NaturalFrequencies(View):
+    """Natural frequencies of rotor and housing on the varying stiffness of the bearing."""
+
+    name = "modes"
+    title = "Natural frequencies"
+    about = (
+        "Each mode as the bearing turns, named after the direction that moves most: blue x, "
+        "orange y. Shaded: the band in which a mode moves. Grey: the bearing without its defect. "
+        "Black: now."
+    )
+    needs = frozenset({"modes", "sound_modes"})
+    plans = ("modes",)
+
+    def build(self, wire: Wire) -> Any:
+        self._range = StickyRange(0.0, 2000.0, least_span=20.0)
+        self._angle_range = wire.range("modes_angle", 0.0, 30.0)
+        plot = style.house_figure(
+            style.CAGE_ANGLE,
+            FREQUENCY,
+            self._angle_range,
+            wire.range("modes_frequency", 0.0, 2000.0),
+            height=HEIGHT,
+            right=128,
+        )
+        bands = wire.source("modes_bands", "low", "high", "direction", "number", "end", "label_at")
+        colors = direction_mapper()
+        plot.hstrip(
+            "low",
+            "high",
+            source=bands,
+            fill_color={"field": "direction", "transform": colors},
+            fill_alpha=0.10,
+            line_color=None,
+        )
+        plot.line(
+            "angle",
+            "frequency",
+            source=wire.source("modes_sound", "angle", "frequency"),
+            line_color=style.SOUND,
+            line_width=1.5,
+        )
+        for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True):
+            plot.line(
+                "angle",
+                "frequency",
+                source=wire.source(f"modes_{direction}", "angle", "frequency"),
+                line_color=color,
+                line_width=2.0,
+            )
+        style.now_line(plot, wire.source("modes_now", "now"))
+        self._label(plot, bands, colors)
+        self._axis = plot.xaxis[0]
+        return plot
+
+    def _label(self, plot: figure, bands: ColumnDataSource, colors: LinearColorMapper) -> None:
+        plot.text(
+            "end",
+            "label_at",
+            text=style.words_of(bands, BAND_WORDS),
+            source=bands,
+            level="annotation",  # beside the frame, not cut off by it
+            x_offset=8,
+            text_font={"value": style.FONT},
+            text_font_size=style.TEXT_SIZE,
+            text_baseline="middle",
+            text_color={"field": "direction", "transform": colors},
+        )
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        modes, sound = results.modes, results.sound_modes
+        shown = self._range.fit(modes.frequency, sound.frequency)
+        angle = results.along(modes.cage_angles)
+        bands = band_rows(modes)
+        pixels = HEIGHT - 60.0  # of the frame, without axis and borders
+        middle = 0.5 * (bands["low"] + bands["high"])
+        bands["end"] = np.full(middle.size, angle[-1])
+        bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
+        sources: Sources = {
+            "modes_bands": bands,
+            "modes_sound": lines(results.along(sound.cage_angles), sound.frequency),
+            "modes_now": {"now": results.along([results.cage_angle])},
+        }
+        for direction in style.DIRECTIONS:
+            own = [i for i, label in enumerate(modes.label) if label[:-1] == direction]
+            sources[f"modes_{direction}"] = lines(angle, modes.frequency[:, own])
+        ranges = {
+            "modes_angle": (float(angle[0]), float(angle[-1])),
+            "modes_frequency": shown,
+        }
+        return sources, ranges
+
+    def sentence(self, results: Results) -> str:
+        bands, sound = results.modes.bands(), results.sound_modes.bands()
+        known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
+        if not known:
+            return "There is no static state to take natural frequencies from."
+        radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
+        words = [f"{label} within {_from_to(known[label])}" for label in radial]
+        turning = "shaft makes this turn" if results.over_shaft else "cage turns"
+        text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
+        first = radial[0]
+        if results.beside_words and np.isfinite(sound.get(first, (np.nan,))[0]):
+            text += f"; {results.beside_words} {first} within {_from_to(sound[first])}"
+        return text + "."
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None:
+            over = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE
+            self._axis.axis_label = over.label()
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        modes, sound = results.modes, results.sound_modes
+        table = {"cage_angle_deg": np.degrees(modes.cage_angles)}
+        if results.over_shaft:
+            table["shaft_angle_deg"] = results.along(modes.cage_angles)
+        for i, label in enumerate(modes.label):
+            table[f"{label}_hz"] = modes.frequency[:, i]
+        for i, label in enumerate(modes.label):
+            table[f"{label}_damping_ratio"] = modes.damping_ratio[:, i]
+        beside = results.beside_name
+        table[f"{beside}_cage_angle_deg"] = np.degrees(sound.cage_angles)
+        for i, label in enumerate(sound.label):
+            table[f"{beside}_{label}_hz"] = sound.frequency[:, i]
+        return table
+
+
+def _from_to(band: tuple[float, float]) -> str:
+    return f"{band[0]:.0f} to {band[1]:.0f} Hz"
+
+
+def band_rows(modes: Modes) -> dict[str, np.ndarray]:
+    """Bands as columns: low and high [Hz], index of the direction, number of the mode."""
+    rows = [
+        (low, high, style.DIRECTIONS.index(label[:-1]), int(label[-1]))
+        for label, (low, high) in modes.bands().items()
+        if np.isfinite(low)
+    ]
+    low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T
+    return {"low": low, "high": high, "direction": direction, "number": number}
+
+
+def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.ndarray]:
+    """The columns over x as one line with a gap between one column and the next."""
+    n = columns.shape[1]
+    return {
+        "angle": np.tile(np.append(x, np.nan), n),
+        "frequency": np.append(columns, np.full((1, n), np.nan), axis=0).T.ravel(),
+    }
+
+
+def spread(
+    places: NDArray[np.float64], apart: float, lowest: float, highest: float
+) -> NDArray[np.float64]:
+    """`places` moved as little as it takes to be at least `apart` and stay within the limits.
+
+    Neighbours that are too close become a group around the mean of where they want to be; groups
+    that meet join. Where there are too many for the room they keep the distance and overrun it.
+    """
+    order = np.argsort(places, kind="stable")
+    groups: list[list[float]] = []  # wanted places, lowest first
+    for place in places[order]:
+        groups.append([float(place)])
+        while len(groups) > 1 and _bottom(groups[-1], apart, lowest, highest) < (
+            _bottom(groups[-2], apart, lowest, highest) + apart * len(groups[-2])
+        ):
+            last = groups.pop()
+            groups[-1] += last
+    moved = [
+        _bottom(group, apart, lowest, highest) + apart * i
+        for group in groups
+        for i in range(len(group))
+    ]
+    result = np.empty(places.size)
+    result[order] = moved
+    return result
+
+
+def _bottom(group: list[float], apart: float, lowest: float, highest: float) -> float:
+    """Where the lowest of a group stands."""
+    height = apart * (len(group) - 1)
+    wanted = float(np.mean(group)) - 0.5 * height
+    return max(min(wanted, highest - 0.5 * apart - height), lowest + 0.5 * apart)

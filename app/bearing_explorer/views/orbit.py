@@ -1,0 +1,319 @@
+"""The steady orbit of the scene: whether there is one, whether it holds, what it looks like."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import ColumnDataSource, Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.vibration_spectrum import (
+    DEPTH_OF_VIEW,
+    FREQUENCY,
+    HIGHEST,
+    LEVEL_FLOOR,
+    SHOWN,
+    decibels,
+    drawn_levels,
+)
+from bearing_explorer.widgets.status import StatusLine, scientific
+from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+HEIGHT = 280
+ORBIT_POINTS = 600
+MARCHED_POINTS = 3000
+MARCHED_PASSES = 8
+"""Ball passes of the marched motion that are drawn beside the orbit."""
+
+FAR_APART = 3.0
+"""[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
+
+_LOST = {
+    "-1": "Unstable: the period doubles",
+    "pair": "Unstable: a second frequency is added",
+    "+1": "Unstable: the motion goes to another orbit",
+}
+_LOST_LONG = {
+    "-1": (
+        "Every ball pass alike is possible but does not last: the machine settles to a motion that "
+        "repeats after two passes or more, with lines at half the ball-pass frequency"
+    ),
+    "pair": (
+        "Every ball pass alike is possible but does not last: a slow beat is added, and every line "
+        "of the spectrum gets neighbours"
+    ),
+    "+1": (
+        "Every ball pass alike is possible but does not last: the machine goes to another orbit, "
+        "and which one hangs on where it comes from"
+    ),
+}
+
+
+class SteadyOrbit(View):
+    """Multipliers, path of the inner ring, and spectrum of the periodic steady state."""
+
+    name = "orbit"
+    title = "Steady orbit"
+    about = (
+        "The motion that repeats itself with every ball pass, found by Newton's method rather than "
+        "by waiting. Its multipliers say what a pass does to a small disturbance: inside the unit "
+        "circle it dies out. Then the path of the inner ring, and the spectrum of the housing, "
+        "blue along x, orange along y. Grey, beneath: the marched motion."
+    )
+    needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
+
+    def build(self, wire: Wire) -> Any:
+        self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02) for _ in SHOWN]
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
+        # a row that wraps: Panel's own asks for the width of all its parts together
+        plots = pn.Column(
+            self._multipliers(wire),
+            self._path(wire),
+            self._spectrum(wire),
+            sizing_mode="stretch_width",
+            margin=0,
+            stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
+        )
+        return pn.Column(self.status, plots, sizing_mode="stretch_width", margin=0)
+
+    def _multipliers(self, wire: Wire) -> figure:
+        shown = wire.range("orbit_multipliers", -1.2, 1.2)
+        plot = _square(
+            style.AxisQuantity("", "", ""),
+            style.AxisQuantity("", "", ""),
+            shown,
+            wire.range("orbit_multipliers_up", -1.2, 1.2),
+        )
+        plot.xaxis.axis_label, plot.yaxis.axis_label = "Multipliers, real part", "Imaginary part"
+        turn = np.linspace(0.0, 2.0 * math.pi, 121)
+        circle = ColumnDataSource({"x": np.cos(turn), "y": np.sin(turn)})
+        plot.patch("x", "y", source=circle, fill_color="#E6F3EE", line_color=None)
+        plot.line("x", "y", source=circle, line_color="#00704F", line_width=1.5)
+        for name, color in (("orbit_inside", style.DEFECTIVE), ("orbit_outside", "#D55E00")):
+            plot.scatter(
+                "x", "y", source=wire.source(name, "x", "y"), size=10, fill_color=color,
+                fill_alpha=0.85, line_color="white", line_width=1.0,
+            )  # fmt: skip
+        return plot
+
+    def _path(self, wire: Wire) -> figure:
+        plot = _square(
+            style.AxisQuantity("Inner ring along x", "", "µm"),
+            style.AxisQuantity("Along y", "", "µm"),
+            wire.range("orbit_x", -1.0, 1.0),
+            wire.range("orbit_y", -1.0, 1.0),
+        )
+        plot.line(
+            "x", "y", source=wire.source("orbit_marched", "x", "y"), line_color=style.SOUND,
+            line_width=3.0,
+        )  # fmt: skip
+        plot.line(
+            "x", "y", source=wire.source("orbit_path", "x", "y"), line_color=style.DEFECTIVE,
+            line_width=1.4,
+        )  # fmt: skip
+        return plot
+
+    def _spectrum(self, wire: Wire) -> figure:
+        plot = style.house_figure(
+            FREQUENCY,
+            style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
+            Range1d(0.0, HIGHEST, syncable=False),
+            wire.range("orbit_level", -80.0, -20.0),
+            height=HEIGHT + 40,
+        )
+        # beside the squares where there is room, else as wide as the card
+        plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
+        marched = wire.source("orbit_marched_levels", "frequency", *SHOWN)
+        found = wire.source("orbit_levels", "frequency", *SHOWN)
+        for dof in SHOWN:
+            plot.line("frequency", dof, source=marched, line_color=style.SOUND, line_width=4.0)
+        for dof in SHOWN:
+            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+            plot.line("frequency", dof, source=found, line_color=color, line_width=1.6)
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        orbit = results.orbit
+        multipliers = orbit.multipliers if orbit is not None else np.zeros(0, complex)
+        reach = np.abs(np.concatenate([multipliers.real, multipliers.imag, [1.2]])).max()
+        round_about = self._multiplier_range.fit(-1.05 * reach, 1.05 * reach)
+        outside = np.abs(multipliers) >= 1.0
+        path, marched = orbit_path(results), marched_path(results)
+        x_range, y_range = (
+            fit.fit(path[dof], marched[dof])
+            for fit, dof in zip(self._displacement, SHOWN, strict=True)
+        )
+        found = drawn_levels(results.orbit_spectra, HIGHEST)
+        late = drawn_levels(results.late_spectra, HIGHEST)
+        in_view = np.concatenate([spectrum[dof] for spectrum in (found, late) for dof in SHOWN])
+        loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
+        low_high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 3.0)
+        return {
+            "orbit_inside": _points(multipliers[~outside]),
+            "orbit_outside": _points(multipliers[outside]),
+            "orbit_path": path,
+            "orbit_marched": marched,
+            "orbit_levels": found,
+            "orbit_marched_levels": late,
+        }, {
+            "orbit_multipliers": round_about,
+            "orbit_multipliers_up": round_about,
+            "orbit_x": x_range,
+            "orbit_y": y_range,
+            "orbit_level": low_high,
+        }
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        self.status.line = (
+            {"mood": "bad", "words": "No orbit", "details": []}
+            if results is None
+            else orbit_status(results)
+        )
+
+    def sentence(self, results: Results) -> str:
+        orbit = results.orbit
+        if orbit is None:
+            return (
+                f"With the defect on the inner race all repeats only after {results.ball_passes} "
+                "ball passes, too many to look for while sliders move; grey is the marched motion."
+            )
+        if orbit.status == NO_PERIOD:
+            return (
+                "A defect of the inner race turns with the shaft, and shaft and cage never come "
+                "round together: no motion repeats itself, so grey shows the marched one."
+            )
+        if orbit.status == NO_START:
+            return "There is no static state to begin from, so no orbit was looked for."
+        if orbit.status == NOT_CONVERGED and results.moving:
+            return (
+                "A short search found no motion that repeats with every ball pass; it goes on when "
+                "the slider rests. Grey is the marched one."
+            )
+        if orbit.status == NOT_CONVERGED:
+            return (
+                "Newton's method found no motion that repeats with every ball pass; grey is the "
+                "marched one."
+            )
+        size = style.number(orbit.largest_multiplier, 3)
+        if orbit.status == UNSTABLE:
+            return f"{_LOST_LONG[orbit.through]}; a pass makes disturbances {size} times as large."
+        text = f"Every ball pass is alike; a pass leaves {size} of a small disturbance"
+        gap = level_gap(results)
+        if gap > FAR_APART:
+            text += (
+                ". The marched motion, in grey, has not come to it: the spectra are up to "
+                f"{style.number(gap, 2)} dB apart"
+            )
+        elif math.isfinite(gap):
+            text += f". Its spectrum is within {style.number(gap, 2)} dB of the marched one"
+        return text + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        orbit = results.orbit
+        multipliers = orbit.multipliers if orbit is not None else np.zeros(0, complex)
+        path = orbit_path(results)
+        table = {
+            "multiplier_real": multipliers.real,
+            "multiplier_imaginary": multipliers.imag,
+            "multiplier_size": np.abs(multipliers),
+        }
+        table |= {f"inner_{dof}_um": path[dof] for dof in SHOWN}
+        for who, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
+            for dof in SHOWN:
+                if dof in spectra:
+                    table.setdefault("frequency_hz", spectra[dof].frequency)
+                    table[f"{who}_density_{dof}_m2_per_s4_per_hz"] = spectra[dof].density
+        return table
+
+
+def orbit_status(results: Results) -> dict[str, Any]:
+    """The orbit's status in words and colour, with what it took to find it."""
+    orbit = results.orbit
+    if orbit is None:
+        return {"mood": "bad", "words": "No orbit looked for", "details": []}
+    if not orbit.multipliers.size:
+        words = {NO_PERIOD: "No common period", NO_START: "No static state"}
+        none = "No orbit found yet" if results.moving else "No orbit found"
+        return {"mood": "bad", "words": words.get(orbit.status, none), "details": []}
+    passes = "1 ball pass" if orbit.ball_passes == 1 else f"{orbit.ball_passes} ball passes"
+    return {
+        "mood": "good" if orbit.stable else "bad",
+        "words": "Stable orbit" if orbit.stable else _LOST[orbit.through],
+        "details": [
+            f"largest multiplier |μ| = {style.number(orbit.largest_multiplier, 3)}",
+            f"period {style.with_prefix(orbit.period, 's')}: {passes}",
+            f"{orbit.iterations} Newton steps",
+            f"misses its beginning by {scientific(orbit.residual)} of its size",
+        ],
+    }
+
+
+def orbit_path(results: Results) -> dict[str, NDArray[np.float64]]:
+    """Path of the inner ring [µm] over the period, closed; empty where there is none."""
+    orbit = results.orbit
+    if orbit is None or not orbit.multipliers.size:
+        return {dof: np.zeros(0) for dof in SHOWN}
+    time = np.linspace(0.0, orbit.period, ORBIT_POINTS)
+    return _along(orbit.dofs, orbit.inner_displacement(time))
+
+
+def marched_path(results: Results) -> dict[str, NDArray[np.float64]]:
+    """The last ball passes of the marched motion [µm]."""
+    motion, scene = results.motion, results.scene
+    passing = scene.bearing.bpfo(scene.shaft_speed)
+    wanted = MARCHED_PASSES / passing if passing > 0.0 else math.inf
+    count = int(min(0.5 * motion.time.size, wanted * motion.sample_rate))
+    path = motion.inner_displacement[-max(count, 2) :]
+    return _along(motion.dofs, path[:: max(1, len(path) // MARCHED_POINTS)])
+
+
+def _along(dofs: tuple[str, ...], path: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Columns [µm] of the directions shown; one that cannot move stays at zero."""
+    return {
+        dof: 1e6 * path[:, dofs.index(dof)] if dof in dofs else np.zeros(len(path)) for dof in SHOWN
+    }
+
+
+def level_gap(results: Results) -> float:
+    """Greatest difference [dB] of the two spectra where they are heard; NaN without both.
+
+    Heard is what lies less than 40 dB below the loudest line.
+    """
+    gaps = []
+    for dof in SHOWN:
+        if dof in results.orbit_spectra and dof in results.late_spectra:
+            frequency, found = results.orbit_spectra[dof]
+            marched = results.late_spectra[dof].density
+            in_view = (frequency >= 100.0) & (frequency <= HIGHEST)
+            heard = in_view & (marched > 1e-4 * marched[in_view].max(initial=0.0))
+            gaps.append(np.abs(decibels(found[heard]) - decibels(marched[heard])).max(initial=0.0))
+    return float(max(gaps)) if gaps else math.nan
+
+
+def _points(numbers: NDArray[np.complex128]) -> dict[str, np.ndarray]:
+    return {"x": numbers.real, "y": numbers.imag}
+
+
+def _square(
+    x: style.AxisQuantity, y: style.AxisQuantity, x_range: Range1d, y_range: Range1d
+) -> figure:
+    plot = style.house_figure(x, y, x_range, y_range, height=HEIGHT + 40)
+    plot.sizing_mode = "fixed"
+    plot.width = plot.min_width = HEIGHT + 70
+    plot.min_border_right = 8
+    return plot

@@ -1,0 +1,433 @@
+"""The size of the defect behind a measured signal: candidates, and what each would sound like."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.compute.jobs import Work
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.measurement.session import Sized
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.value_range import focused
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.frequency_lines import FAMILIES
+from bearing_explorer.views.job_view import JobView
+from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
+from bearing_explorer.views.measurement import with_head
+from bearing_explorer.views.modes import BAND_WORDS, spread
+from bearing_explorer.views.vibration_spectrum import (
+    DEPTH_OF_VIEW,
+    FREQUENCY,
+    LEVEL_FLOOR,
+    SHOWN,
+    decibels,
+)
+from bearing_explorer.widgets.candidates import CandidateList, in_degrees, rows
+from bearing_explorer.widgets.status import StatusLine
+from bearingcore import Candidate, Scene, Sizing, size_defect
+from bearingcore.signals.averaging import BallPasses
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+HEIGHT = 236
+SAMPLES = 600
+"""Of a mean ball pass that is drawn."""
+BEFORE = 0.14
+"""Of a ball pass that is drawn before the entry."""
+NAME_WIDTH = 0.36
+"""Of a band's name, as a share of the width of its figure."""
+
+_KNOCK_WORDS = "return 'knock'"
+_EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+
+
+class Given(Exception):  # noqa: N818
+    """Somebody wants the work to end."""
+
+
+class DefectSize(JobView[Sized], MeasuredView):
+    """Candidates for the extent with their probabilities, and their curves over the measured."""
+
+    name = "sizing"
+    title = "4  The size of the defect"
+    about = (
+        "The time from a ball's entry to a ball's exit gives the extent up to whole ball spacings. "
+        "So every extent is simulated and asked how well it explains the mean ball pass and the "
+        "spectrum. Point at a candidate to see it, coloured, over what was measured, thin."
+    )
+    needs = frozenset()
+    start = "Find the size"
+    bounds = (
+        "Takes some seconds. Bearing, load, support, depth and centre of the defect are taken from "
+        "the scene; its extent is not looked at."
+    )
+
+    def build(self, wire: Wire) -> Any:
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
+        self.candidates = CandidateList(self._looked_at)
+        self._looked: int | None = None
+        self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
+        self._levels = {dof: StickyRange(-80.0, -20.0, least_span=30.0) for dof in SHOWN}
+        seconds = wire.range("sizing_time", 0.0, 0.03)
+        frequency = wire.range("sizing_frequency", 0.0, 2500.0)
+        events = wire.source("sizing_events", "time", "exit", "row", "shift")
+        knocks = wire.source("sizing_knocks", "time", "shift")
+        self._rows = {}
+        wide: dict[str, Any] = {
+            "sizing_mode": "stretch_width",
+            "margin": 0,
+            "stylesheets": [style.WRAPPED],
+        }
+        for dof in SHOWN:
+            self._rows[dof] = pn.Row(
+                self._pass_plot(wire, dof, seconds, events, knocks),
+                self._spectrum_plot(wire, dof, frequency),
+                **wide,
+            )
+        self._answer_part = pn.Column(
+            self.status,
+            self.candidates,
+            *self._rows.values(),
+            visible=False,
+            **wide,
+        )
+        self.hidden = pn.Column(self.job, self._answer_part, visible=False, **wide)
+        return self.hidden
+
+    def _pass_plot(
+        self, wire: Wire, dof: str, seconds: Range1d, events: Any, knocks: Any
+    ) -> figure:
+        plot = style.house_figure(
+            style.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
+            style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
+            seconds,
+            wire.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
+            height=HEIGHT,
+            title=f"Mean ball pass along {dof}",
+        )
+        plot.vspan("time", source=knocks, line_color=style.DEFECT, line_width=5, line_alpha=0.28)
+        words = style.words_of(knocks, _KNOCK_WORDS)
+        write_over(plot, knocks, words, "time", 0.06, FAMILIES[0].ink, x_offset="shift")
+        plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
+        words = style.words_of(events, _EDGE_WORDS)
+        write_over(plot, events, words, "time", "row", style.INK, x_offset="shift")
+        self._curves(wire, plot, dof, "pass", "time", "size")
+        return plot
+
+    def _spectrum_plot(self, wire: Wire, dof: str, frequency: Range1d) -> figure:
+        plot = style.house_figure(
+            FREQUENCY,
+            style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+            frequency,
+            wire.range(f"sizing_level_{dof}", -80.0, -20.0),
+            height=HEIGHT,
+            title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
+        )
+        color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+        bands = wire.source(f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at")
+        plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
+        words = style.words_of(bands, BAND_WORDS)
+        write_over(plot, bands, words, "label_at", 0.93, color, text_align="center")
+        self._curves(wire, plot, dof, "spectrum", "frequency", "level")
+        return plot
+
+    def _curves(
+        self, wire: Wire, plot: figure, dof: str, what: str, along: str, value: str
+    ) -> None:
+        color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+        for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
+            source = wire.source(f"sizing_{what}_{who}_{dof}", along, value)
+            plot.line(along, value, source=source, line_color=line, line_width=width)
+
+    # The job
+
+    def fields(self) -> list[dict[str, Any]]:
+        return []
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        return {}, {}
+
+    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+        measured = self.measured
+        if measured is None:
+            raise ValueError(NOTHING)
+        scene = measured.scene(focused(editor.scene, editor.selected))
+
+        def work(job: Work) -> str:
+            return compute(job, measured, scene)
+
+        return work
+
+    def _take(self, found: Sized) -> None:
+        if self.measurement is not None:
+            self.measurement.sized = found
+        self._looked = None
+        super()._take(found)
+
+    @property
+    def sized(self) -> Sized | None:
+        """The answer, where it is one about the signal that is drawn."""
+        found = self.found
+        return found if found is not None and found.measured is self.measured else None
+
+    @property
+    def drawn(self) -> bool:
+        return self.sized is not None
+
+    def _looked_at(self, message: Any) -> None:
+        sized = self.sized
+        index = message.get("look") if isinstance(message, dict) else None
+        if sized is None or not isinstance(index, int) or isinstance(index, bool):
+            return
+        if 0 <= index < len(sized.sizing.candidates):
+            self._looked = index
+            self._draw()
+
+    def candidate(self, sizing: Sizing) -> Candidate:
+        """The candidate that is looked at; the most probable one at first."""
+        return sizing.best if self._looked is None else sizing.candidates[self._looked]
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        sized = self.sized
+        if sized is None:
+            return self._nothing(), {}
+        sizing = sized.sizing
+        candidate = self.candidate(sizing)
+        measured = alike(sizing.passes, candidate.passes)
+        period = 1.0 / sizing.passes.frequency
+        entry, _ = sizing.best.phases()  # time 0 for all, so that what was measured stays put
+        times, first = pass_times(entry, period)
+        curves = {
+            "measured": in_order(measured.waveform(SAMPLES, sizing.band.lowest), first),
+            "candidate": in_order(candidate.waveform(SAMPLES, sizing.band.lowest), first),
+        }
+        levels = {
+            "measured": decibels(measured.density),
+            "candidate": decibels(candidate.passes.density),
+        }
+        frequency = measured.harmonic_frequency
+        seen = (frequency >= sizing.band.lowest) & (frequency <= sizing.band.highest)
+        top = sizing.band.highest
+        sources = self._nothing() | edges(sizing, candidate, entry, period)
+        ranges: Ranges = {
+            "sizing_time": (-BEFORE * period, (1.0 - BEFORE) * period),
+            "sizing_frequency": (0.0, top),
+        }
+        for column, dof in enumerate(sizing.recording.directions):
+            for who in ("measured", "candidate"):
+                sources[f"sizing_pass_{who}_{dof}"] = {
+                    "time": times,
+                    "size": curves[who][:, column],
+                }
+                sources[f"sizing_spectrum_{who}_{dof}"] = {
+                    "frequency": frequency[seen],
+                    "level": levels[who][seen, column],
+                }
+            sources[f"sizing_bands_{dof}"] = bands_of(candidate, dof, top)
+            ranges[f"sizing_pass_size_{dof}"] = with_head(
+                self._passes[dof], [curve[:, column] for curve in curves.values()], 0.3
+            )
+            level = levels["measured"][seen, column]
+            loudest = max(
+                float(np.nanmax(part[seen, column], initial=LEVEL_FLOOR))
+                for part in levels.values()
+            )
+            lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
+            head = 0.2 * (loudest - lowest)
+            ranges[f"sizing_level_{dof}"] = self._levels[dof].fit(
+                np.array([lowest, loudest + head])
+            )
+        return sources, ranges
+
+    def _nothing(self) -> Sources:
+        none = np.zeros(0)
+        bands = dict.fromkeys(("low", "high", "direction", "number", "label_at"), none)
+        sources: Sources = {
+            "sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none),
+            "sizing_knocks": {"time": none, "shift": none},
+        }
+        for dof in SHOWN:
+            for who in ("measured", "candidate"):
+                sources[f"sizing_pass_{who}_{dof}"] = {"time": none, "size": none}
+                sources[f"sizing_spectrum_{who}_{dof}"] = {"frequency": none, "level": none}
+            sources[f"sizing_bands_{dof}"] = bands
+        return sources
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        sized = self.sized
+        self._answer_part.visible = sized is not None
+        if sized is None:
+            return
+        self.status.line = status(sized)
+        self.candidates.rows = rows(sized)
+        looked = self.candidate(sized.sizing)
+        self.candidates.looked = next(
+            index for index, other in enumerate(sized.sizing.candidates) if other is looked
+        )
+        for dof, row in self._rows.items():
+            row.visible = dof in sized.measured.directions
+
+    def sentence(self, results: Results) -> str:
+        if self.measured is None:
+            return NOTHING
+        sized = self.sized
+        if sized is None:
+            return "The size has not been looked for yet."
+        words = sized.sizing.status
+        truth = sized.measured.true_extent
+        if truth is not None:
+            words += f" The signal is simulated: the true extent is {in_degrees(truth)}."
+        if not same_machine(
+            sized.scene, sized.measured.scene(focused(results.scene, results.focus))
+        ):
+            words += " The scene has changed since; this is the answer for the one before."
+        return words
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        sized = self.sized
+        if sized is None:
+            return {}
+        candidates = sized.sizing.candidates
+        table = {
+            "extent_deg": np.degrees([c.extent for c in candidates]),
+            "ball_spacings": np.array([c.turns for c in candidates]),
+            "probability": np.array([c.probability for c in candidates]),
+            "edge": np.array([c.edge for c in candidates]),
+            "waveform_misfit": np.array([c.waveform_misfit.mean() for c in candidates]),
+            "spectrum_misfit": np.array([c.spectrum_misfit.mean() for c in candidates]),
+        }
+        for name in candidates[0].factors:
+            table[f"{name}_factor"] = np.array([c.factors[name] for c in candidates])
+        return table
+
+
+def compute(job: Work, measured: Measured, scene: Scene) -> str:
+    """Size the defect. Runs in a job's thread."""
+    started = time.perf_counter()
+
+    def progress(share: float) -> None:
+        job.progress(share)
+        if job.cancelled():
+            raise Given
+
+    try:
+        sizing = size_defect(measured.recording, scene, progress=progress)
+    except Given:
+        return "There is no answer yet."
+    except ValueError as error:
+        raise ValueError(refusal(error).replace("_", " ")) from error
+    for candidate in sizing.candidates:
+        _ = candidate.bands  # here, and not while somebody waits for a drawing
+    job.show(Sized(measured, scene, sizing))
+    return f"Every extent from 1° to 110° was tried, in {time.perf_counter() - started:.1f} s."
+
+
+def status(sized: Sized) -> dict[str, Any]:
+    """How sure the answer is, in words and colour, with what it rests on."""
+    sizing = sized.sizing
+    best, events, passes = sizing.best, sizing.events, sizing.passes
+    scene = sized.scene
+    nominal = scene.bearing.bpfo(scene.shaft_speed)
+    off = 100.0 * (passes.frequency / nominal - 1.0)
+    side = "above" if off > 0.0 else "below"
+    spacing = math.degrees(scene.bearing.ball_spacing)
+    uncertainty = 1e3 * events.time_uncertainty
+    details = [
+        f"entry to exit Δt = {style.number(1e3 * events.time_difference, 3)} ± "
+        f"{style.number(uncertainty, 1)} ms",
+        f"ball spacing {style.number(spacing, 3)}°",
+        f"{passes.n_passes} ball passes at {style.number(passes.frequency, 4)} Hz"
+        + (f", {abs(off):.2f} % {side} BPFO" if abs(off) >= 0.01 else ""),
+    ]
+    if not sizing.conclusive:
+        return {"mood": "bad", "words": "The signal cannot tell", "details": details}
+    size = f"{in_degrees(best.extent)} ± {in_degrees(sizing.extent_uncertainty)}"
+    return {"mood": "good", "words": f"The defect extends over {size}", "details": details}
+
+
+def same_machine(one: Scene, other: Scene) -> bool:
+    """Whether two scenes are alike to the sizing, which does not look at extent and edge."""
+    try:
+        return one.replace(extent=0.5, edge="exact") == other.replace(extent=0.5, edge="exact")
+    except ValueError:
+        return False
+
+
+def alike(passes: BallPasses, candidate: BallPasses) -> BallPasses:
+    """The measured pass with no more harmonics than the simulated one."""
+    count = len(candidate.harmonics)
+    return dataclasses.replace(
+        passes, harmonics=passes.harmonics[:count], power=passes.power[:count]
+    )
+
+
+def pass_times(entry: float, period: float) -> tuple[NDArray[np.float64], int]:
+    """Times [s] of a drawn pass and the sample it begins with; a ball enters at phase `entry`."""
+    begin = entry / (2.0 * math.pi) - BEFORE
+    first = math.ceil(begin * SAMPLES - 1e-9)
+    times = (np.arange(SAMPLES) + first) / SAMPLES - entry / (2.0 * math.pi)
+    return times * period, first % SAMPLES
+
+
+def in_order(values: NDArray[np.float64], first: int) -> NDArray[np.float64]:
+    """A pass that begins with another of its samples."""
+    return np.roll(values, -first, axis=0)
+
+
+def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> Sources:
+    """Where balls enter and leave by the candidate, and where the signal alone has its knocks.
+
+    Time 0 is at the phase `entry`.
+    """
+
+    def places(*phases: float) -> NDArray[np.float64]:
+        turns = (np.array(phases) - entry) / (2.0 * math.pi)
+        # rounding must not send the very phase of the entry around
+        return ((turns + BEFORE + 1e-9) % 1.0 - BEFORE - 1e-9) * period
+
+    def shift(times: NDArray[np.float64], width: float) -> NDArray[np.float64]:
+        """Names at the right end stand left of their lines [px]."""
+        return np.where(times > (0.8 - BEFORE) * period, -width, 4.0)
+
+    times = places(*candidate.phases())
+    knocks = places(sizing.events.entry_phase, sizing.events.exit_phase)
+    return {
+        "sizing_events": {
+            "time": times,
+            "exit": np.array([0.0, 1.0]),
+            "row": np.array([0.93, 0.82]),
+            "shift": shift(times, 66.0),
+        },
+        "sizing_knocks": {"time": knocks, "shift": shift(knocks, 40.0)},
+    }
+
+
+def bands_of(candidate: Candidate, dof: str, top: float) -> dict[str, NDArray[np.float64]]:
+    """A candidate's natural-frequency bands along a direction, with places for their names."""
+    found = [
+        (low, high, style.DIRECTIONS.index(dof), int(label[-1]))
+        for label, (low, high) in candidate.bands.items()
+        if label[:-1] == dof and math.isfinite(low)
+    ]
+    low, high, direction, number = np.array(found, dtype=float).reshape(-1, 4).T
+    place = spread(0.5 * (low + high), NAME_WIDTH * top, 0.0, top)
+    return {"low": low, "high": high, "direction": direction, "number": number, "label_at": place}

@@ -1,0 +1,314 @@
+"""Where the steady orbit holds over two quantities of the scene, and how it is lost elsewhere."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import ColorBar, FixedTicker, LinearColorMapper
+from bokeh.palettes import Blues256
+from numpy.typing import NDArray
+
+from bearing_explorer.compute.jobs import LONGEST, Work
+from bearing_explorer.figures import style
+from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, ends
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.value_range import SWEEPABLE, Sweep, alike_but_for, focused, value_of
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.job_view import JobView
+from bearingcore.dynamics.stability_map import OUTCOMES, StabilityMap, regions, stability_map
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+GRIDS = (13, 25, 49, 97)
+"""Points along each side that can be asked for; each holds the points of those before."""
+
+HEIGHT = 460
+
+PERIOD_DOUBLING = (
+    "<b>Period-doubling</b>: every second ball pass is alike, not every one, so the spectrum shows "
+    "lines at half the ball-pass frequency and its odd multiples, between the usual ones. They "
+    "look like a second fault or like looseness, but one defect at one shaft speed makes them, and "
+    "they vanish when the speed changes."
+)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a point of the map can be; `through` is how an unstable orbit leaves."""
+
+    outcome: str
+    through: str
+    words: str
+    color: str
+
+
+KINDS = (
+    Kind("stable orbit", "", "stable", CLEAR),
+    Kind("unstable orbit", "-1", "the period doubles (through −1)", "#D55E00"),
+    Kind("unstable orbit", "pair", "a second frequency (through a pair)", "#CC79A7"),
+    Kind("unstable orbit", "+1", "goes to another orbit (through +1)", "#F0C419"),
+    Kind("not converged", "", "no orbit found", "#30363D"),
+    Kind("no common period", "", "no common period", "#8B929A"),
+    Kind("no static state to start from", "", "no static state", "#B9BEC4"),
+    Kind("refused", "", "no such scene", "#DDE0E3"),
+)
+"""In the order of their codes in the picture."""
+
+_SAY = """
+const [size, kind] = cell
+if (isNaN(kind)) return "not computed"
+return kinds[kind] + (isNaN(size) ? "" : `, |μ| = ${Number(size.toPrecision(3))}`)
+"""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A map with the quantities of its sides."""
+
+    map: StabilityMap
+    x: Sweep
+    y: Sweep
+
+
+class OrbitStability(JobView[Found]):
+    """Largest Floquet multiplier over two quantities."""
+
+    name = "stability-map"
+    title = "Where the orbit is stable"
+    about = (
+        "Blue: the largest multiplier |μ| of a stable orbit. Other colours: how it is lost; the "
+        "dark line is |μ| = 1. Ring: this scene. Click to go there."
+    )
+    needs = frozenset()
+    start = "Compute the map"
+    bounds = (
+        f"At most {GRIDS[-1]} × {GRIDS[-1]} points and {LONGEST / 60.0:.0f} minutes; coarse "
+        "pictures come first."
+    )
+
+    def build(self, wire: Wire) -> Any:
+        self._sides = {name: Side.of(quantity) for name, quantity in SWEEPABLE.items()}
+        speed, extent = self._sides["shaft_speed_hz"], self._sides["extent_deg"]
+        plot = style.house_figure(
+            style.AxisQuantity(speed.words, speed.symbol, speed.unit),
+            style.AxisQuantity(extent.words, extent.symbol, extent.unit),
+            wire.range("stability_x", 0.0, 60.0),
+            wire.range("stability_y", 0.0, 60.0),
+            height=HEIGHT,
+            name="stability_drawing",
+        )
+        plot.grid.visible = False
+        plot.stylesheets = [":host { cursor: crosshair; }"]
+        size = LinearColorMapper(
+            palette=list(Blues256[::-1][12:215]), low=0.0, high=1.0, nan_color=CLEAR
+        )
+        kind = LinearColorMapper(
+            palette=[k.color for k in KINDS[1:]],
+            low=0.5,
+            high=len(KINDS) - 0.5,
+            low_color=CLEAR,
+            nan_color=CLEAR,
+        )
+        said = "const kinds = [" + ", ".join(f'"{k.words}"' for k in KINDS) + "]\n" + _SAY
+        self._image = GridImage(
+            plot, wire, "stability_cells", [size, kind], list(self._sides.values()), said
+        )
+        plot.segment(
+            "x0",
+            "y0",
+            "x1",
+            "y1",
+            source=wire.source("stability_border", "x0", "y0", "x1", "y1"),
+            line_color=style.SHADE,
+            line_width=1.6,
+        )
+        mark = wire.source("stability_mark", "x", "y")
+        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
+            plot.scatter(
+                "x", "y", source=mark, size=15, fill_color=None, line_color=color, line_width=width,
+                level="annotation",
+            )  # fmt: skip
+        plot.add_layout(_bar(size), "right")
+        return pn.Column(
+            self.job,
+            plot,
+            pn.pane.HTML(legend(), sizing_mode="stretch_width", margin=0),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+    # The job
+
+    def fields(self) -> list[dict[str, Any]]:
+        grids = [[str(n), f"{n} × {n}"] for n in GRIDS]
+        return [*plane_fields(), {"name": "grid", "label": "Points", "options": grids}]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        fills = plane_fills(editor.limits)
+        x, y = "shaft_speed_hz", "extent_deg"
+        return {"x": x, "y": y, **fills["x"][x], **fills["y"][y], "grid": "25"}, fills
+
+    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+        if given["grid"] not in map(str, GRIDS):
+            sizes = ", ".join(map(str, GRIDS[:-1]))
+            raise ValueError(f"A map has {sizes} or at most {GRIDS[-1]} points along a side.")
+        n = int(given["grid"])
+        x, y = plane_sweeps(given, (n, n), editor.limits)
+        scene = focused(editor.scene, editor.selected)
+
+        def work(job: Work) -> str:
+            return compute(job, scene, x, y, n)
+
+        return work
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        found = self.found
+        if found is None:
+            empty = dict.fromkeys(("x0", "y0", "x1", "y1"), np.zeros(0))
+            mark = {"x": np.zeros(0), "y": np.zeros(0)}
+            sources: Sources = {"stability_cells": self._image.nothing()}
+            return sources | {"stability_border": empty, "stability_mark": mark}, {}
+        x, y = found.x, found.y
+        sides = self._sides[x.quantity.name], self._sides[y.quantity.name]
+        scene = focused(results.scene, results.focus)
+        codes = codes_of(found.map)
+        own = alike_but_for(scene, found.map.scene, (x, y))
+        sources = {
+            "stability_cells": self._image.columns(
+                (sides[0], x.values),
+                (sides[1], y.values),
+                [found.map.multiplier, codes],
+                1.0 if own else 0.35,
+            ),
+            "stability_border": border(x.values, y.values, codes),
+            "stability_mark": {
+                "x": np.array([value_of(scene, x.quantity)]),
+                "y": np.array([value_of(scene, y.quantity)]),
+            },
+        }
+        return sources, {"stability_x": ends(x.values), "stability_y": ends(y.values)}
+
+    def sentence(self, results: Results) -> str:
+        found = self.found
+        if found is None:
+            return "There is no map yet."
+        words = " ".join(regions(found.map))
+        scene = focused(results.scene, results.focus)
+        if not alike_but_for(scene, found.map.scene, (found.x, found.y)):
+            return f"Faint, as the scene has changed since this was computed. Then: {words}"
+        missing = found.map.count("not computed")
+        return f"{words} {missing} were not computed." if missing else words
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        found = self.found
+        if found is None:
+            return {}
+        y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
+        return {
+            found.x.quantity.name: x,
+            found.y.quantity.name: y,
+            "largest_multiplier": found.map.multiplier,
+            "outcome": np.array(OUTCOMES)[found.map.outcome],
+            "through": found.map.through,
+        }
+
+
+def compute(job: Work, scene: Any, x: Sweep, y: Sweep, n: int) -> str:
+    """The map on coarse grids and then on finer ones, shown each time. Runs in a job's thread."""
+    started = time.perf_counter()
+    levels = [(x.every((n - 1) // (g - 1)), y.every((n - 1) // (g - 1))) for g in GRIDS if g <= n]
+    sizes = [a.values.size * b.values.size for a, b in levels]
+    done = 0
+    shown = "Nothing is shown yet."
+    for (x_level, y_level), size in zip(levels, sizes, strict=True):
+        try:
+            found = stability_map(
+                scene,
+                x_level.in_si,
+                y_level.in_si,
+                progress=job.within(done / sum(sizes), (done + size) / sum(sizes)),
+                cancelled=job.cancelled,
+            )
+        except ValueError as error:
+            raise ValueError(refusal(error)) from error
+        if found.completed or not done:
+            job.show(Found(found, x_level, y_level))
+            spent = time.perf_counter() - started
+            shown = f"{x_level.values.size} × {y_level.values.size} points after {spent:.1f} s."
+        if not found.completed:
+            break
+        done += size
+    return shown
+
+
+def codes_of(found: StabilityMap) -> NDArray[np.float64]:
+    """Index into KINDS of each point; NaN where it was not computed."""
+    codes = np.full(found.outcome.shape, np.nan)
+    for code, kind in enumerate(KINDS):
+        here = found.outcome == OUTCOMES.index(kind.outcome)
+        if kind.through:
+            here &= found.through == kind.through
+        codes[here] = code
+    return codes
+
+
+def border(
+    x: NDArray[np.float64], y: NDArray[np.float64], codes: NDArray[np.float64]
+) -> dict[str, np.ndarray]:
+    """Sides of cells between what is stable and what is not, as columns x0, y0, x1, y1."""
+    known, stable = np.isfinite(codes), codes == 0
+    left, bottom = ends(x)[0], ends(y)[0]
+    dx, dy = x[1] - x[0], y[1] - y[0]
+    j, i = np.nonzero((stable[:, 1:] != stable[:, :-1]) & known[:, 1:] & known[:, :-1])
+    upright = [left + (i + 1) * dx, bottom + j * dy, left + (i + 1) * dx, bottom + (j + 1) * dy]
+    j, i = np.nonzero((stable[1:] != stable[:-1]) & known[1:] & known[:-1])
+    level = [left + i * dx, bottom + (j + 1) * dy, left + (i + 1) * dx, bottom + (j + 1) * dy]
+    return {
+        name: np.concatenate([a, b])
+        for name, a, b in zip(("x0", "y0", "x1", "y1"), upright, level, strict=True)
+    }
+
+
+def _bar(mapper: LinearColorMapper) -> ColorBar:
+    return ColorBar(
+        color_mapper=mapper,
+        title="|μ|, stable",
+        ticker=FixedTicker(ticks=[0.0, 0.25, 0.5, 0.75, 1.0]),
+        width=10,
+        bar_line_color=style.STEEL_EDGE,
+        major_tick_line_color=None,
+        major_label_text_font=style.FONT,
+        major_label_text_font_size=style.SMALL_TEXT_SIZE,
+        major_label_text_color=style.FAINT_INK,
+        title_text_font=style.FONT,
+        title_text_font_style="normal",
+        title_text_font_size=style.SMALL_TEXT_SIZE,
+        title_text_color=style.INK,
+        background_fill_color=None,
+    )
+
+
+def legend() -> str:
+    """What the colours of unstable regions mean, and what period-doubling is."""
+    swatch = "display:inline-block;width:11px;height:11px;border-radius:2px;margin-right:6px"
+    items = "".join(
+        f'<span style="white-space:nowrap"><i style="{swatch};background:{kind.color}"></i>'
+        f"{kind.words}</span>"
+        for kind in KINDS[1:]
+    )
+    font = f"font:12.5px/1.45 {style.FONT}".replace('"', "'")
+    return (
+        f'<div style="{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px">{items}'
+        f'</div><p style="{font};margin:6px 2px 0">{PERIOD_DOUBLING}</p>'
+    )

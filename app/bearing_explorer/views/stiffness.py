@@ -1,0 +1,335 @@
+"""All 15 stiffness traces over cage angle in one light drawing, and the number of loaded balls.
+
+One canvas instead of sixteen: the cells of the upper triangle of the symmetric 5×5 matrix are
+drawn in one plane, where column j and row i of the matrix are the unit square at (j, -i). A line
+of all traces is one line with gaps. That paints several times faster than a figure for each
+trace, and shows where in the matrix each term stands. Below the diagonal, where the matrix only
+repeats itself, stand the legend and the number of loaded balls.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.core.properties import value
+from bokeh.models import ColumnDataSource, Range1d
+from bokeh.plotting import figure
+
+from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.matrix_cells import (
+    NEGLIGIBLE,
+    PLACES,
+    SYMBOLS,
+    TERM_UNITS,
+    UNITS,
+    Cell,
+    term_sizes,
+    unit_name,
+)
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.style import (
+    DEFECTIVE,
+    FAINT_INK,
+    FONT,
+    GRID,
+    INK,
+    SOUND,
+    STEEL_EDGE,
+    bare_figure,
+    in_degrees,
+    with_prefix,
+    words_of,
+)
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore import STIFFNESS_TERMS
+
+
+def _cell(row: int, column: int) -> Cell:
+    return Cell(column + 0.215, column + 0.985, -row - 0.86, -row - 0.27)
+
+
+_CELLS = [_cell(i, j) for i, j in PLACES]
+_BALLS = Cell(0.215, 2.6, -4.86, -3.5)
+_FRAMES = [*_CELLS, _BALLS]
+_IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest of its column
+_PLACE_COLUMNS = {
+    **{
+        side: np.array([getattr(cell, side) for cell in _FRAMES])
+        for side in ("left", "right", "bottom", "top")
+    },
+    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS] + [len(UNITS)]),
+}
+_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
+
+
+class Stiffness(View):
+    """15 stiffness traces, defective against sound, the current cage angle marked."""
+
+    name = "stiffness"
+    title = "Stiffness of the bearing"
+    about = (
+        "The 15 independent terms of its symmetric 5×5 stiffness matrix as the bearing turns: "
+        "how hard the inner ring resists each displacement (column) with each load (row)."
+    )
+    needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+    plans = ("stiffness",)
+
+    def build(self, wire: Wire) -> Any:
+        """One canvas for all traces."""
+        self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
+        self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
+        plot = bare_figure(Range1d(-0.02, 5.03), Range1d(-5.08, 0.0), height=524)
+        # Fifteen cells need some width; on a phone they scroll inside their card. (As a
+        # property of the figure, Panel would hand the width on to the whole card.)
+        plot.min_width = None
+        plot.stylesheets = [":host { min-width: 760px; }"]
+        self._legend = _static_parts(plot)
+        cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
+        sound = wire.source("stiffness_sound", "x", "y")
+        defective = wire.source("stiffness_defective", "x", "y")
+        now = wire.source("stiffness_now", "x", "y", "low", "high")
+        _moving_parts(plot, cells)
+        axis = wire.source("stiffness_axis", "shaft")
+        _text(
+            plot,
+            axis,
+            x=0.5 * (_BALLS.left + _BALLS.right),
+            y=_BALLS.bottom,
+            y_offset=4,
+            text=words_of(axis, _AXIS_WORDS),
+            text_align="center",
+            text_baseline="top",
+        )
+        plot.segment("x", "low", "x", "high", source=now, line_color=INK, line_alpha=0.45)
+        plot.line("x", "y", source=sound, line_color=SOUND, line_width=1.6)
+        plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
+        plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
+        scroll = ":host { overflow-x: auto; max-width: 100%; }"
+        return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """All traces, scaled into their cells."""
+        found, sound, now = results.equilibrium, results.sound_equilibrium, results.now
+        first, last, _ = results.stretch
+        shares = [(e.cage_angles - first) / (last - first) for e in (found, sound)]
+        now_share = (results.cage_angle - first) % (last - first) / (last - first)
+        scales = term_sizes(lambda term: np.concatenate([found.term(term), sound.term(term)]))
+        lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
+        marks: list[tuple[float, float, float, float]] = []
+        heads: list[tuple[float, float, float, float]] = []
+
+        def put(
+            cell: Cell, limits: tuple[float, float], xs: list[np.ndarray], *ys: np.ndarray
+        ) -> None:
+            for line, x, y in zip(lines, xs, ys, strict=True):
+                line["x"] += [cell.x(x), _GAP]
+                line["y"] += [cell.y(y, limits), _GAP]
+
+        for cell, sticky, term, scale in zip(
+            _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
+        ):
+            a, b = _cleaned(found.term(term), scale), _cleaned(sound.term(term), scale)
+            at_now = float(_cleaned(now.term(term), scale)[0])
+            limits = _trace_limits(sticky, scale, a, b)
+            put(cell, limits, shares, a, b)
+            at = float(cell.y(np.array(at_now), limits))
+            marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
+            zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
+            heads.append((limits[0], limits[1], at_now, zero))
+
+        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, sound)]
+        low, high = self._ball_limits.fit(*counts)
+        limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
+        put(
+            _BALLS,
+            limits,
+            [_stepped(share) for share in shares],
+            *(np.repeat(count, 2) for count in counts),
+        )
+        balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
+        at = float(_BALLS.y(np.array(balls), limits))
+        marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
+        heads.append((limits[0], limits[1], balls, _BALLS.bottom))
+
+        drawn, beside = (
+            {axis: np.concatenate(parts) for axis, parts in line.items()} for line in lines
+        )
+        mark, head = np.array(marks).T, np.array(heads).T
+        return {
+            "stiffness_defective": drawn,
+            "stiffness_sound": beside,
+            "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
+            "stiffness_cells": {
+                **_PLACE_COLUMNS,
+                "foot": _IS_FOOT * float(results.along(last)),
+                **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
+            },
+            "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
+        }, {}
+
+    def sentence(self, results: Results) -> str:
+        """How far the radial stiffness and the number of loaded balls vary."""
+        found, sound = results.equilibrium, results.sound_equilibrium
+        beside = "sound" if results.pinned is None else results.pinned.words
+        if not found.converged.any():
+            return "There is no equilibrium here, so there is no stiffness to show."
+        parts = []
+        for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
+            values, sounds = found.term(term), sound.term(term)
+            least, most = np.nanmin(values), np.nanmax(values)
+            line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
+            line += f" to {with_prefix(most, 'N/m')}"
+            if sound.converged.any():
+                mean = _mean(sound.cage_angles, sounds)
+                line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
+            parts.append(line)
+        balls = found.loaded_balls[found.converged]
+        count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
+        at = in_degrees(results.cage_angle)
+        over = " Curves are over a turn of the shaft, with which a defect turns."
+        return f"{'; '.join(parts)}. {count} balls carry load. Marked: cage angle {at}." + (
+            over if results.over_shaft else ""
+        )
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        """Also in the legend what is drawn in grey."""
+        super().say(results, sentence)
+        if results is not None:
+            words = _legend_words(results.pinned.words if results.pinned else "sound bearing")
+            if words != self._legend.data["text"]:
+                self._legend.data = {**self._legend.data, "text": words}
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """Every trace in SI, defective and sound."""
+        found, sound = results.equilibrium, results.sound_equilibrium
+        columns: dict[str, np.ndarray] = {}
+        for kind, answer in (("defective", found), (results.beside_name, sound)):
+            columns[f"{kind}_cage_angle_deg"] = np.degrees(answer.cage_angles)
+            if results.over_shaft:
+                columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
+            for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
+                columns[f"{kind}_{term}_{unit_name(unit)}"] = answer.term(term)
+            columns[f"{kind}_loaded_balls"] = answer.loaded_balls
+        return columns
+
+
+_GAP = np.array([np.nan])
+_AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
+
+
+def _cleaned(values: np.ndarray, scale: float) -> np.ndarray:
+    """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
+    return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
+
+
+def _trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
+    finite = np.concatenate(traces)
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
+        return math.nan, math.nan
+    if not finite.any():
+        return -1.0, 1.0
+    middle = 0.5 * (finite.min() + finite.max())
+    return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
+
+
+def _mean(angles: np.ndarray, values: np.ndarray) -> float:
+    """Mean over the angles, which may stand close in one place and far apart in another."""
+    known = np.isfinite(values)
+    angles, values = angles[known], values[known]
+    if angles.size < 2:
+        return float(values.mean())
+    middles = 0.5 * (values[1:] + values[:-1])
+    return float(middles @ np.diff(angles) / (angles[-1] - angles[0]))
+
+
+def _stepped(share: np.ndarray) -> np.ndarray:
+    """Edges of steps halfway between the angles, two for each angle."""
+    middles = 0.5 * (share[1:] + share[:-1])
+    return np.concatenate([share[:1], np.repeat(middles, 2), share[-1:]])
+
+
+def _text(plot: figure, source: ColumnDataSource, **options: Any) -> None:
+    style = {"text_font": value(FONT), "text_font_size": "11px", "text_color": FAINT_INK}
+    plot.text(source=source, **{"x": "x", "y": "y", **style, **options})
+
+
+def _static_parts(plot: figure) -> ColumnDataSource:
+    """Frames, names and legend: painted from the page's own numbers; returns the legend's."""
+    plot.quad(
+        left=[cell.left for cell in _FRAMES],
+        right=[cell.right for cell in _FRAMES],
+        bottom=[cell.bottom for cell in _FRAMES],
+        top=[cell.top for cell in _FRAMES],
+        fill_color="#FAFBFC",
+        line_color=GRID,
+    )
+    names = {
+        "x": [cell.left for cell in _CELLS],
+        "y": [cell.top for cell in _CELLS],
+        "text": ["k"] * len(_CELLS),
+        "below": [symbol[1:] for symbol in SYMBOLS],
+    }
+    source = ColumnDataSource(names)
+    serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": INK}
+    _text(plot, source, text="text", y_offset=-6, text_font_size="15px", **serif)
+    _text(plot, source, text="below", x_offset=9, y_offset=-3, text_font_size="11px", **serif)
+    balls = ColumnDataSource({"x": [_BALLS.left], "y": [_BALLS.top], "text": ["Loaded balls"]})
+    _text(plot, balls, text="text", y_offset=-6, text_font_size="12px", text_color=INK)
+
+    y = [-2.36, -2.52, -2.68]
+    colors, widths = [DEFECTIVE, SOUND, INK], [2.4, 2.0, 1.2]
+    plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
+    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("sound bearing")})
+    _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
+    return legend
+
+
+def _legend_words(beside: str) -> list[str]:
+    """Words of the legend; `beside` is what is drawn in grey."""
+    return ["with the defect", beside if len(beside) <= 40 else beside[:39] + "…", "now"]
+
+
+def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:
+    """Zero lines, limits and values of the cells, and the ends of their cage angles."""
+    plot.segment("left", "zero", "right", "zero", source=cells, line_color=STEEL_EDGE)
+    names = f"const unit = {[*UNITS, '']}[row.unit]\n"
+    limit = """
+if (isNaN(row.low)) return ''
+const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
+return minus(String(Number((row.%s/10**e).toPrecision(4))))
+"""
+    now = """
+if (isNaN(row.now)) return 'no value'
+if (!unit) return rounded(row.now, 3)
+const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
+return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
+"""
+    words = {end: words_of(cells, names + limit % end) for end in ("low", "high")}
+    beside = {"x": "left", "x_offset": -5, "text_align": "right"}
+    _text(plot, cells, **beside, y="bottom", text=words["low"], text_baseline="bottom")
+    _text(plot, cells, **beside, y="top", text=words["high"], text_baseline="top")
+    _text(
+        plot,
+        cells,
+        x="right",
+        y="top",
+        text=words_of(cells, names + now),
+        y_offset=-6,
+        text_align="right",
+    )
+    foot = "return row.foot ? rounded(%s, 4) + '°' : ''"
+    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
+    _text(plot, cells, x="left", **below, text=words_of(cells, foot % "0*row.foot"))
+    _text(
+        plot,
+        cells,
+        x="right",
+        **below,
+        text=words_of(cells, foot % "row.foot"),
+        text_align="right",
+    )

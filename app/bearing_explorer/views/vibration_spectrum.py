@@ -1,0 +1,246 @@
+"""Spectra of the housing's acceleration with the bands of the natural frequencies (Fig. 10)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import CheckboxGroup, CustomJS, GlyphRenderer, Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
+from bearingcore.plan import SETTLED
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearingcore import Scene
+
+FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz")
+SHOWN = ("x", "y")
+HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
+LABEL_WIDTH = 0.17  # of the width of the figure
+DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
+LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
+
+_PASS_WORDS = "return `${row.inner ? 'BPFI' : 'BPFO'} ${rounded(row.frequency, 4)} Hz`"
+
+
+class VibrationSpectra(View):
+    """Power spectral density of the housing's acceleration along x and y."""
+
+    name = "vibration-spectrum"
+    title = "Spectrum of the vibration"
+    about = (
+        "Power spectral density of the housing's acceleration along x and y once the start is "
+        "forgotten, 32 Hz resolution. Grey: without the defect. Shaded: the bands of the natural "
+        "frequencies."
+    )
+    needs = frozenset({"motion", "late_spectra", "sound_late_spectra", "band_modes"})
+    plans = (SETTLED,)
+
+    def build(self, wire: Wire) -> Any:
+        self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        frequency = wire.range("spectrum_frequency", 0.0, HIGHEST)
+        level = wire.range("spectrum_level", -80.0, -20.0)
+        lines = wire.source("spectrum_lines", "frequency", *SHOWN)
+        sound = wire.source("spectrum_sound", "frequency", *SHOWN)
+        passes = wire.source("spectrum_passes", "frequency", "inner")
+        first = wire.source("spectrum_first_pass", "frequency", "inner")
+        plots, marks = [], []
+        for dof in SHOWN:
+            plot = style.house_figure(
+                FREQUENCY,
+                style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+                frequency,
+                level,
+                height=270,
+            )
+            plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+            self._shade_bands(plot, wire, dof, color)
+            marks.append(
+                plot.vspan("frequency", source=passes, line_color=style.DEFECT, line_alpha=0.4)
+            )
+            marks.append(self._name_pass(plot, first))
+            plot.line("frequency", dof, source=sound, line_color=style.SOUND, line_width=1.5)
+            plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
+            plots.append(plot)
+        for mark in marks:
+            mark.visible = False
+            mark.syncable = False
+        # a group of one: its box and its words belong together for screen readers and fingers
+        toggle = CheckboxGroup(
+            labels=["Mark the ball-pass frequency and its harmonics"],
+            active=[],
+            syncable=False,
+            margin=(4, 5, 8, 5),
+            stylesheets=[f":host {{ font-family: {style.FONT}; font-size: 13px }}"],
+        )
+        toggle.js_on_change(
+            "active",
+            CustomJS(
+                args={"marks": marks},
+                code="for (const mark of marks) mark.visible = cb_obj.active.length > 0",
+            ),
+        )
+        return pn.Column(toggle, *plots, sizing_mode="stretch_width", margin=0)
+
+    def _shade_bands(self, plot: figure, wire: Wire, dof: str, color: str) -> None:
+        bands = wire.source(
+            f"spectrum_bands_{dof}", "low", "high", "direction", "number", "label_at"
+        )
+        plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.12, line_color=None)
+        plot.text(
+            "label_at",
+            0.94,
+            y_range_name="rows",
+            text=style.words_of(bands, BAND_WORDS),
+            source=bands,
+            text_align="center",
+            text_baseline="middle",
+            text_font={"value": style.FONT},
+            text_font_size=style.SMALL_TEXT_SIZE,
+            text_color=color,
+        )
+
+    def _name_pass(self, plot: figure, first: Any) -> GlyphRenderer:
+        return plot.text(
+            "frequency",
+            0.06,
+            y_range_name="rows",
+            text=style.words_of(first, _PASS_WORDS),
+            source=first,
+            x_offset=4,
+            text_baseline="middle",
+            text_font={"value": style.FONT},
+            text_font_size=style.SMALL_TEXT_SIZE,
+            text_color=style.INK,
+            background_fill_color="white",
+            background_fill_alpha=0.85,
+            level="annotation",
+        )
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        bands = band_rows(results.band_modes)
+        top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
+        drawn = drawn_levels(results.late_spectra, top)
+        in_view = np.concatenate([drawn[dof] for dof in SHOWN])
+        # a level far below everything is silence, not something to make room for
+        loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
+        low, high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 6.0)
+        passing = pass_frequencies(results.scene, top)
+        first = {
+            name: column[np.searchsorted(passing["inner"], np.unique(passing["inner"]))]
+            for name, column in passing.items()
+        }
+        sources: Sources = {
+            "spectrum_lines": drawn,
+            "spectrum_sound": drawn_levels(results.sound_late_spectra, top),
+            "spectrum_passes": passing,
+            "spectrum_first_pass": first,
+        }
+        for index, dof in enumerate(style.DIRECTIONS):
+            if dof in SHOWN:
+                own = {name: column[bands["direction"] == index] for name, column in bands.items()}
+                middle = 0.5 * (own["low"] + own["high"])
+                own["label_at"] = spread(middle, LABEL_WIDTH * top, 0.0, top)
+                sources[f"spectrum_bands_{dof}"] = own
+        return sources, {"spectrum_frequency": (0.0, top), "spectrum_level": (low, high)}
+
+    def sentence(self, results: Results) -> str:
+        words = []
+        if not results.late_spectra:
+            return "The simulated motion did not stay finite: there is no spectrum of it."
+        for dof in SHOWN:
+            if dof in results.late_spectra:
+                frequency, density = results.late_spectra[dof]
+                heard = (frequency >= 100.0) & (frequency <= HIGHEST)
+                most = np.flatnonzero(heard)[np.argmax(density[heard])]
+                words.append(
+                    f"along {dof} {style.number(decibels(density[most]), 2)} dB at "
+                    f"{frequency[most]:.0f} Hz"
+                )
+        text = (
+            "Above 100 Hz the housing vibrates most " + style.list_words(words)
+            if words
+            else "The housing cannot move along x or y in this scene"
+        )
+        passing = style.list_words(
+            [
+                f"of the {race} race at {style.number(frequency, 4)} Hz"
+                for race, frequency in passed(results.scene)
+            ]
+        )
+        text += f"; balls pass a point {passing}"
+        if (plan := results.plan) is None:
+            return f"{text}."
+        if plan.orbit is not None:
+            return f"{text}. The spectrum is that of the stable orbit, which repeats itself."
+        start = style.with_prefix(results.settled_since, "s")
+        return f"{text}. The spectrum is that of a marched motion without its first {start}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        table: dict[str, np.ndarray] = {}
+        beside = f"{results.beside_name}_"
+        spectra_of = {"": results.late_spectra, beside: results.sound_late_spectra}
+        for who, spectra in spectra_of.items():
+            for dof, (frequency, density) in spectra.items():
+                # samples of an orbit fit its period: a hair's breadth off those of a march
+                table.setdefault(f"{who}frequency_hz", frequency)
+                unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"
+                table[f"{who}density_{dof}_{unit}"] = density
+        return table
+
+
+def decibels(density: Any) -> Any:
+    """Level of a density [(m/s²)²/Hz] in dB re 1 (m/s²)²/Hz; silence is `LEVEL_FLOOR`."""
+    return 10.0 * np.log10(np.maximum(density, 10.0 ** (LEVEL_FLOOR / 10.0)))
+
+
+def levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]]:
+    """Levels [dB] of the directions shown up to `top` [Hz]; NaN for one that is not free."""
+    frequency = next(iter(spectra.values())).frequency
+    shown = frequency <= top
+    missing = np.full(int(shown.sum()), np.nan)
+    return {
+        "frequency": frequency[shown],
+        **{
+            dof: decibels(spectra[dof].density[shown]) if dof in spectra else missing
+            for dof in SHOWN
+        },
+    }
+
+
+def drawn_levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]]:
+    """The same; empty without spectra."""
+    if not spectra:
+        return {name: np.zeros(0) for name in ("frequency", *SHOWN)}
+    return levels(spectra, top)
+
+
+def passed(scene: Scene) -> list[tuple[str, float]]:
+    """Races with a defect and how often a point of them is passed [Hz]; outer without defects."""
+    bearing, speed = scene.bearing, scene.shaft_speed
+    races = {defect.race for defect in scene.defects} or {"outer"}
+    rates = {"outer": bearing.bpfo(speed), "inner": bearing.bpfi(speed)}
+    return [(race, rate) for race, rate in rates.items() if race in races]
+
+
+def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
+    """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
+
+    Columns: frequency, and whether it belongs to the inner race; the outer race comes first.
+    """
+    frequencies, inner = [np.empty(0)], [np.empty(0)]
+    for race, first in passed(scene):
+        count = int(top / first) if first > 0.0 else 0
+        frequencies.append(first * np.arange(1.0, count + 1.0))
+        inner.append(np.full(count, float(race == "inner")))
+    return {"frequency": np.concatenate(frequencies), "inner": np.concatenate(inner)}

@@ -1,0 +1,251 @@
+"""Housing acceleration and contact forces while balls pass the defect (Fig. 9)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
+from bokeh.plotting import figure
+
+from bearing_explorer.compute.excerpt import Event, Excerpt, least_and_greatest
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.plan import SETTLED
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
+ACCELERATION = style.AxisQuantity("Housing acceleration", "a", "m/s²", prefixed=True)
+
+PIXELS = 500  # stretches of a line that are kept apart
+SHOWN = ("x", "y")
+SLOTS = len(style.BALL_COLORS)
+LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
+NAME_WIDTH = 0.17
+ROW_HEIGHT = 0.065  # of its height
+EVENT_ROWS = 3
+
+_EVENT_WORDS = "return `ball ${row.ball} ${row.enters ? 'enters' : 'leaves'}`"
+
+
+class VibrationInTime(View):
+    """What an accelerometer on the housing sees, and what the balls carry meanwhile."""
+
+    name = "vibration-time"
+    title = "Vibration as balls pass the defect"
+    about = (
+        "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
+        "or leave the defect; thin: what they would carry at rest."
+    )
+    needs = frozenset({"excerpt"})
+    plans = (SETTLED,)
+
+    def build(self, wire: Wire) -> Any:
+        self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
+        self._load = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        time = wire.range("vibration_time", 0.0, 0.04)
+        above = style.house_figure(
+            TIME,
+            ACCELERATION,
+            time,
+            wire.range("vibration_acceleration", -5.0, 5.0),
+            height=270,
+        )
+        events = wire.source("vibration_events", "time", "ball", "enters", "label_from", "label_at")
+        motion = wire.source("vibration_motion", "time", *SHOWN)
+        self._mark(above, events)
+        for dof in reversed(SHOWN):
+            above.line(
+                "time",
+                dof,
+                source=motion,
+                line_color=style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)],
+                line_width=1.4,
+            )
+        self._label_events(above, events)
+        below = style.house_figure(
+            TIME,
+            style.BALL_LOAD,
+            time,
+            wire.range("vibration_load", 0.0, 100.0),
+            height=230,
+        )
+        self._mark(below, events)
+        self._draw_loads(below, wire)
+        return pn.Column(above, below, sizing_mode="stretch_width", margin=0)
+
+    def _mark(self, plot: figure, events: ColumnDataSource) -> None:
+        plot.vspan("time", source=events, line_color=style.FAINT_INK, line_alpha=0.55, line_width=1)
+
+    def _label_events(self, plot: figure, events: ColumnDataSource) -> None:
+        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
+        plot.text(
+            "label_from",
+            "label_at",
+            y_range_name="shares",
+            text=style.words_of(events, _EVENT_WORDS),
+            source=events,
+            x_offset=4,
+            text_font={"value": style.FONT},
+            text_font_size=style.SMALL_TEXT_SIZE,
+            text_color=style.INK,
+            text_baseline="middle",
+            background_fill_color="white",
+            background_fill_alpha=0.85,
+        )
+
+    def _draw_loads(self, plot: figure, wire: Wire) -> None:
+        moving = wire.source("vibration_loads", "time", *(f"load{i}" for i in range(SLOTS)))
+        resting = wire.source("vibration_static_loads", "time", "load")
+        plot.line("time", "load", source=resting, line_color=style.INK, line_width=1.0)
+        for i, color in enumerate(style.BALL_COLORS):
+            plot.line(
+                "time", f"load{i}", source=moving, line_color=color, line_width=2.0, line_alpha=0.9
+            )
+        names = wire.source("vibration_ball_names", "from", "at", "ball", "slot")
+        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
+        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
+        plot.text(
+            "from",
+            "at",
+            x_range_name="shares",
+            y_range_name="shares",
+            text=style.words_of(names, "return `ball ${row.ball}`"),
+            source=names,
+            text_baseline="middle",
+            text_font={"value": style.FONT},
+            text_font_size=style.SMALL_TEXT_SIZE,
+            text_color={
+                "field": "slot",
+                "transform": LinearColorMapper(
+                    palette=list(style.BALL_COLORS), low=-0.5, high=SLOTS - 0.5
+                ),
+            },
+        )
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        shown = results.excerpt
+        missing = np.full(shown.time.size, np.nan)
+        signals = np.stack([shown.acceleration.get(dof, missing) for dof in SHOWN], axis=1)
+        rows, signals_drawn = least_and_greatest(signals, PIXELS)
+        loads = np.full((shown.time.size, SLOTS), np.nan)
+        loads[:, : shown.balls.size] = shown.ball_load[:, :SLOTS]
+        load_rows, loads_drawn = least_and_greatest(loads, PIXELS)
+        start, end = float(shown.time[0]), float(shown.time[-1])
+        sources: Sources = {
+            "vibration_motion": {
+                "time": shown.time[rows],
+                **{dof: signals_drawn[:, i] for i, dof in enumerate(SHOWN)},
+            },
+            "vibration_loads": {
+                "time": shown.time[load_rows],
+                **{f"load{i}": loads_drawn[:, i] for i in range(SLOTS)},
+            },
+            "vibration_static_loads": static_lines(shown),
+            "vibration_events": event_rows(shown.events, start, end),
+            "vibration_ball_names": ball_names(shown),
+        }
+        # room above the signal for the labels of the events
+        room = 1.0 + 2.2 * ROW_HEIGHT * EVENT_ROWS
+        greatest = np.nanmax(np.abs(signals), initial=0.0)
+        ranges = {
+            "vibration_time": (start, end),
+            "vibration_acceleration": self._acceleration.fit(greatest * room),
+            "vibration_load": self._load.fit(
+                1.2 * np.append(shown.ball_load.ravel(), shown.greatest_static_load)
+            ),
+        }
+        return sources, ranges
+
+    def sentence(self, results: Results) -> str:
+        shown = results.excerpt
+        if shown.broke_off:
+            return f"The simulated motion ended early: {shown.broke_off}."
+        peaks = [
+            f"{style.number(float(np.max(np.abs(shown.acceleration[dof]))), 2)} m/s² along {dof}"
+            for dof in SHOWN
+            if dof in shown.acceleration
+        ]
+        text = (
+            "The housing's acceleration peaks at " + style.list_words(peaks)
+            if peaks
+            else "The housing cannot move along x or y in this scene"
+        )
+        entry = next((event for event in shown.events if event.enters), None)
+        leaving = next(
+            (e for e in shown.events if entry and not e.enters and e.time >= entry.time), None
+        )
+        if entry and leaving:
+            text += (
+                f"; ball {entry.ball + 1} enters the defect and "
+                f"{style.with_prefix(leaving.time - entry.time, 's')} later "
+                + ("it" if leaving.ball == entry.ball else f"ball {leaving.ball + 1}")
+                + " leaves it"
+            )
+        return text + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        shown = results.excerpt
+        table = {"time_s": shown.time}
+        for dof, signal in shown.acceleration.items():
+            unit = "rad_per_s2" if dof.startswith("r") else "m_per_s2"
+            table[f"acceleration_{dof}_{unit}"] = signal
+        for k, ball in enumerate(shown.balls):
+            table[f"ball_{ball + 1}_load_n"] = shown.ball_load[:, k]
+        table["static_time_s"] = shown.static_time
+        for k, ball in enumerate(shown.balls):
+            table[f"ball_{ball + 1}_static_load_n"] = shown.static_load[:, k]
+        return table
+
+
+def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
+    """The static loads of all balls as one line with gaps."""
+    n = min(shown.balls.size, SLOTS)
+    loads = shown.static_load[:, :n]
+    return {
+        "time": np.tile(np.append(shown.static_time, np.nan), n),
+        "load": np.append(loads, np.full((1, n), np.nan), axis=0).T.ravel(),
+    }
+
+
+def ball_names(shown: Excerpt) -> dict[str, np.ndarray]:
+    """The names of the balls beside each other, shares of the figure's width and height."""
+    balls = shown.balls[:SLOTS]
+    slots = np.arange(float(balls.size))
+    return {
+        "from": 0.02 + NAME_WIDTH * slots,
+        "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
+        "ball": balls + 1.0,
+        "slot": slots,
+    }
+
+
+def event_rows(events: tuple[Event, ...], start: float, end: float) -> dict[str, np.ndarray]:
+    """Events as columns; a label stands right of its line, in the first row where it has room.
+
+    At the end of the stretch it moves left as far as it needs. An event whose label has room in no
+    row keeps its line and loses its label.
+    """
+    width = LABEL_WIDTH * (end - start)
+    free_from = [start] * EVENT_ROWS
+    lefts = [min(event.time, end - width) for event in events]
+    places: list[float] = []
+    for left in lefts:
+        row = next((r for r in range(EVENT_ROWS) if left >= free_from[r]), None)
+        if row is None:
+            places.append(np.nan)
+            continue
+        free_from[row] = left + width
+        places.append(1.0 - ROW_HEIGHT * (row + 0.7))
+    return {
+        "time": np.array([event.time for event in events]),
+        "ball": np.array([event.ball + 1.0 for event in events]),
+        "enters": np.array([float(event.enters) for event in events]),
+        "label_from": np.array(lefts),
+        "label_at": np.array(places),
+    }

@@ -1,0 +1,1 @@
+"""Parts of the page around the figures: controls, tabs, status, share bar."""

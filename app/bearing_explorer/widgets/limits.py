@@ -1,0 +1,58 @@
+"""The strip that warns where a scene leaves what the model holds for."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import param
+
+from bearing_explorer.assets import asset_path, asset_text
+from bearing_explorer.figures import style
+from bearing_explorer.server.live import LiveComponent
+
+if TYPE_CHECKING:
+    from bearingcore import Limit
+
+
+class LimitsStrip(LiveComponent):
+    """What is crossed, in a sentence each; on demand all that is looked at."""
+
+    #: rows of `rows_of`
+    rows = param.List(default=[])
+
+    _esm = asset_path("limits.js")
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("footer.css"),
+        asset_text("limits.css"),
+    ]
+
+
+def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:
+    """Limits for the browser, crossed ones first: names, numbers and sentences in words."""
+    rows = [
+        {
+            "name": limit.name,
+            "value": _number(limit.value, limit.unit),
+            "limit": _number(limit.limit, limit.unit),
+            "state": "unknown"
+            if math.isnan(limit.value)
+            else "crossed"
+            if limit.crossed
+            else "kept",
+            "sentence": limit.sentence,
+        }
+        for limit in limits
+    ]
+    return sorted(rows, key=lambda row: row["state"] != "crossed")
+
+
+def _number(value: float, unit: str) -> str:
+    if math.isnan(value):
+        return "not known"
+    if unit == "rad":
+        return f"{style.number(math.degrees(value), 3)}°"
+    if unit:
+        return style.with_prefix(value, unit)
+    return style.number(value, 3) if value >= 1e-4 or value == 0.0 else "below 0.0001"

@@ -1,0 +1,32 @@
+"""The bar above the controls: steps back and forth, links, kept scenes, files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import param
+from panel.custom import JSComponent
+
+from bearing_explorer.assets import asset_text, scripts
+
+
+class ShareBar(JSComponent):
+    """Undo, redo, reset; share, keep, download.
+
+    `asked` gets messages of the browser as they come, from strangers too: judge them.
+    """
+
+    #: what `Keeping.state` tells
+    state = param.Dict(default={})
+
+    _esm = scripts("element.js", "figure_export.js", "report.js", "share.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("share.css")]
+
+    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+        super().__init__(margin=0, sizing_mode="stretch_width", **params)
+        self.on_msg(lambda event: asked(event.data))
+
+    def answer(self, **news: Any) -> None:
+        """Give the browser what it asked for: a `file` to save, a `kept` scene, a `report`."""
+        self._send_msg(news)

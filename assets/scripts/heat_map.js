@@ -1,0 +1,16 @@
+// A picture of numbers on a grid, out of the packed column of the wire. See app/bearing_explorer/figures/heat_map.py.
+const p = cb_obj.data.packed
+if (p.length > head) {
+  const [columns, rows, left, width, bottom, height, faint, across, up] = p
+  const size = columns*rows
+  layers.forEach((layer, k) => {
+    const Grid = layer.data.image[0].constructor
+    const values = p.slice(head + k*size, head + (k + 1)*size)
+    layer.data = {
+      image: [new Grid(values, [rows, columns])],
+      x: [left], y: [bottom], dw: [width], dh: [height], alpha: [faint],
+    }
+  })
+  for (const [axis, which] of [[x_axis, across], [y_axis, up]])
+    if (axis.axis_label != quantities[which].label) axis.axis_label = quantities[which].label
+}

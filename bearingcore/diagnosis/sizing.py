@@ -1,0 +1,338 @@
+"""The size of a defect from the vibration of the housing: analysis by synthesis.
+
+The time from a ball's entry to a ball's exit gives the extent only up to whole ball spacings
+(Petersen, Howard & Prime 2014, Section 4). So every extent is simulated, what is only roughly known
+about the scene is varied with it, and each candidate Δφ + k·360°/N_b is asked how well it explains
+the signal: the mean ball pass in both directions and the spectrum. The answer is a probability for
+each candidate, and a word where the signal cannot tell.
+
+Quantity                                   | Symbol | Name           | Unit
+------------------------------------------ | ------ | -------------- | ----
+extent                                     | Δφ     | extent         | rad
+whole ball spacings in it                  | k      | turns          |
+time from entry to exit                    | Δt     | (events)       | s
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.diagnosis.events import Events, find_events
+from bearingcore.diagnosis.fitting import Guess, Search, guesses
+from bearingcore.diagnosis.synthesis import Band, Target, comparison_band
+from bearingcore.diagnosis.variants import Tolerances
+from bearingcore.dynamics.modes import modes
+from bearingcore.model.defect import Defect
+from bearingcore.model.scene import Scene
+from bearingcore.signals.averaging import BallPasses, average_passes
+from bearingcore.signals.recording import Recording
+from bearingcore.statics.passes import crossings
+
+TEMPERATURE = 3.0
+"""By which scores are divided before they become probabilities."""
+
+SPREAD_FACTOR = 1.0
+SPREAD_FLOOR = math.radians(0.05)
+"""What makes a standard deviation [rad] of the extent out of that of the fit."""
+
+CLEAR = 0.9
+"""Probability from which a candidate counts as told."""
+
+MUCH_UNEXPLAINED = 0.3
+"""Part of the mean ball pass: where the best candidate leaves more, the status says so."""
+
+LEAST_PROMINENCE = 6.0
+"""Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
+
+EVENTS_REACH = 3.3
+"""Times the highest compared frequency over 1.35 up to which knocks are looked for."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An extent that the time between entry and exit allows.
+
+    Attributes
+    ----------
+    turns
+        k, whole ball spacings in the extent.
+    extent
+        [rad]
+    probability
+        that this candidate is the true one, among all candidates.
+    edge
+        the edge model that fits best.
+    factors
+        by what the scene's numbers are multiplied to fit best, by name.
+    waveform_misfit, spectrum_misfit : (d,)
+        what is left unexplained of the mean ball pass; mean squared natural logarithm of the ratio
+        of the smoothed spectra.
+    level
+        natural logarithm of simulated over measured power.
+    scene
+        the fitted scene: its modes, bands, motion and spectrum are the candidate's.
+    passes
+        its simulated ball passes.
+    lag
+        ball-pass phase [rad] of the simulation at which the measured signal begins.
+    """
+
+    turns: int
+    extent: float
+    probability: float
+    edge: str
+    factors: dict[str, float]
+    waveform_misfit: NDArray[np.float64]
+    spectrum_misfit: NDArray[np.float64]
+    level: float
+    scene: Scene = field(repr=False)
+    passes: BallPasses = field(repr=False)
+    lag: float = field(repr=False)
+
+    @cached_property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest natural frequency [Hz] of each mode, by label."""
+        return modes(self.scene).bands()
+
+    def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
+        """The simulated mean pass (n, d), laid over the measured one."""
+        turn = np.exp(1j * self.lag * np.arange(1, len(self.passes.harmonics) + 1))
+        moved = dataclasses.replace(self.passes, harmonics=self.passes.harmonics * turn[:, None])
+        return moved.waveform(n, lowest)
+
+    def phases(self) -> tuple[float, float]:
+        """Phases [rad] of the measured ball pass at which balls enter and leave."""
+        spacing = self.scene.bearing.ball_spacing
+        found = {}
+        for crossing in crossings(self.scene, 0.0, spacing):
+            found[crossing.enters] = 2.0 * math.pi * crossing.cage_angle / spacing - self.lag
+        return found[True] % (2.0 * math.pi), found[False] % (2.0 * math.pi)
+
+
+@dataclass(frozen=True)
+class Sizing:
+    """What a signal says about the size of a defect.
+
+    Attributes
+    ----------
+    candidates
+        by rising extent; their probabilities add up to 1.
+    extent_uncertainty
+        standard deviation [rad] of the extent if the most probable candidate is the true one.
+    status
+        a sentence: how sure the answer is, or why there is none.
+    conclusive
+        whether one candidate is told from all the others.
+    events
+        entry and exit as found in the signal alone, and the paper's Δt.
+    passes
+        the measured mean ball pass and spectrum.
+    band
+        frequencies that were compared.
+    recording
+        the signal.
+    """
+
+    candidates: tuple[Candidate, ...]
+    extent_uncertainty: float
+    status: str
+    conclusive: bool
+    events: Events
+    passes: BallPasses
+    band: Band
+    recording: Recording = field(repr=False)
+    scores: NDArray[np.float64] = field(repr=False)
+    """(candidates,) before the temperature."""
+
+    @property
+    def best(self) -> Candidate:
+        """The most probable candidate."""
+        return max(self.candidates, key=lambda candidate: candidate.probability)
+
+    def event_times(
+        self, candidate: Candidate | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Times [s] in the recording at which balls enter and leave the defect.
+
+        By a candidate's simulation, or by the signal alone where it is None.
+        """
+        entry, leave = (
+            candidate.phases()
+            if candidate is not None
+            else (self.events.entry_phase, self.events.exit_phase)
+        )
+        duration, frequency = self.recording.duration, self.passes.frequency
+        turns = np.arange(math.floor(duration * frequency) + 1)
+
+        def times(phase: float) -> NDArray[np.float64]:
+            all_times = (turns + phase / (2.0 * math.pi)) / frequency
+            return np.asarray(all_times[all_times <= duration])
+
+        return times(entry), times(leave)
+
+
+def size_defect(
+    recording: Recording,
+    scene: Scene,
+    *,
+    tolerances: Tolerances | None = None,
+    slip: float = 0.02,
+    progress: Callable[[float], None] | None = None,
+) -> Sizing:
+    """Candidates for the extent of a defect on the outer race, and their probabilities.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing along y, or x and y: two directions tell more.
+    scene
+        bearing, load, support and shaft speed of the machine, and a defect whose centre and
+        nominal depth are taken as known; its extent is not looked at.
+    tolerances
+        how well the scene is known; None for the usual.
+    slip
+        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
+    progress
+        is called with the share of the work done, and may raise an exception to end it.
+
+    Raises
+    ------
+    ValueError
+        for a scene that is not fit for it, or a signal too short or sampled too slowly.
+    """
+    scene, columns = _prepared(scene, recording.directions)
+    slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
+    tolerances = tolerances if tolerances is not None else Tolerances()
+    band = comparison_band(scene, recording.sample_rate)
+    passes = average_passes(
+        recording.acceleration,
+        recording.sample_rate,
+        scene.bearing.bpfo(scene.shaft_speed),
+        slip,
+        band.lowest,
+        band.highest,
+        min(EVENTS_REACH * band.highest / 1.35, 0.4 * recording.sample_rate),
+    )
+    spacing = scene.bearing.ball_spacing
+
+    def cell(difference: float) -> int:
+        return round(difference / spacing)
+
+    search = Search(scene, Target(passes, band), columns, tolerances)
+    found = guesses(search, cell, progress if progress is not None else _go_on)
+    best = found[0]
+    in_cells: dict[int, Guess] = {}
+    for guess in found:
+        in_cells.setdefault(cell(guess.extent - best.extent), guess)
+    chosen = [in_cells[number] for number in sorted(in_cells)]
+    scores = np.array([guess.score for guess in chosen])
+    weights = np.exp((scores - scores.max()) / TEMPERATURE)
+    weights /= weights.sum()
+    candidates = tuple(
+        _candidate(search, guess, float(weight))
+        for guess, weight in zip(chosen, weights, strict=True)
+    )
+    spread = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
+    conclusive, status = _status(candidates, spread, passes)
+    events = find_events(passes, scene, recording.directions)
+    return Sizing(candidates, spread, status, conclusive, events, passes, band, recording, scores)
+
+
+def _go_on(share: float) -> None:
+    """Progress that nobody wants to know."""
+
+
+def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[int, ...]]:
+    """The scene with a nominal extent, and the columns of its motion that were measured."""
+    if not isinstance(scene.defect, Defect):
+        raise checks.refuse("defect", f"{len(scene.defect)} defects", "a single one")
+    if scene.defect.race != "outer":
+        raise checks.refuse("race", scene.defect.race, "outer: an inner-race defect turns")
+    if scene.defect.floor is not None:
+        raise checks.refuse("floor", "uneven", "a flat floor")
+    checks.number("depth", scene.defect.depth, above=0.0, unit="m")
+    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    if scene.bearing.n_balls < 3:
+        raise checks.refuse("n_balls", scene.bearing.n_balls, "at least 3")
+    missing = [name for name in directions if name not in scene.active_dofs]
+    if missing:
+        raise checks.refuse("dofs", scene.active_dofs, "with " + ", ".join(missing))
+    columns = tuple(scene.active_dofs.index(name) for name in directions)
+    return scene.replace(extent=0.5), columns
+
+
+def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
+    names = [f.name for f in dataclasses.fields(search.tolerances)]
+    exponents = guess.offsets * search.tolerances.spread
+    factors = {name: math.exp(x) for name, x in zip(names, exponents.tolist(), strict=True)}
+    return Candidate(
+        turns=math.floor(guess.extent / search.scene.bearing.ball_spacing),
+        extent=guess.extent,
+        probability=probability,
+        edge=guess.edge,
+        factors=factors,
+        waveform_misfit=guess.waveform_misfit,
+        spectrum_misfit=guess.spectrum_misfit,
+        level=guess.level,
+        scene=search.varied(guess.extent, guess.edge, guess.offsets),
+        passes=guess.passes,
+        lag=guess.lag,
+    )
+
+
+def _spread(best: Guess, others: list[Guess]) -> float:
+    """Standard deviation [rad] of the extent, from the fit's and from guesses nearly as good."""
+    weights = np.exp((np.array([g.score for g in others]) - best.score) / TEMPERATURE)
+    away = np.array([g.extent - best.extent for g in others])
+    between = float((weights * away**2).sum() / weights.sum())
+    own = best.extent_spread * SPREAD_FACTOR
+    return math.sqrt(own**2 + between + SPREAD_FLOOR**2)
+
+
+def _status(
+    candidates: tuple[Candidate, ...], spread: float, passes: BallPasses
+) -> tuple[bool, str]:
+    best = max(candidates, key=lambda candidate: candidate.probability)
+    size = f"{math.degrees(best.extent):.1f}° ± {math.degrees(spread):.1f}°"
+    unexplained = float(best.waveform_misfit.mean())
+    if passes.prominence < LEAST_PROMINENCE and unexplained > 0.6:
+        return False, (
+            "The signal cannot tell: no lines stand out at the ball-pass frequency of an "
+            "outer-race defect."
+        )
+    if unexplained > 0.9 and float(best.spectrum_misfit.mean()) > 1.0:
+        return False, (
+            "The signal cannot tell: no extent explains it. Load, speed, support or bearing may "
+            "not be those of this machine."
+        )
+    if abs(best.level) > math.log(10.0):
+        decibels = 10.0 / math.log(10.0) * abs(best.level)
+        than = "weaker" if best.level > 0.0 else "stronger"
+        return False, (
+            f"Most like {size}, but the signal is {decibels:.0f} dB {than} than such a defect "
+            "gives: it may be in another unit, or have another cause."
+        )
+    if best.probability < CLEAR:
+        likely = [c for c in candidates if c.probability >= 0.05]
+        told = ", ".join(
+            f"{math.degrees(c.extent):.1f}° ({100.0 * c.probability:.0f} %)" for c in likely
+        )
+        return False, f"The signal cannot tell these apart: {told}."
+    words = (
+        f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
+        f"probability {100.0 * best.probability:.0f} %."
+    )
+    if unexplained > MUCH_UNEXPLAINED:
+        words += (
+            f" It leaves {100.0 * unexplained:.0f} % of the mean ball pass unexplained: noise "
+            "is loud, or load, speed, support or bearing are not those of this machine."
+        )
+    return True, words

@@ -1,0 +1,291 @@
+"""Modes of the rotor on its support, linearised at the static state (Eqs. 24-29)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
+
+DAMPING_OVER_STIFFNESS = 1e-5
+"""β [s] of the sound bearing where a scene does not say its contact damping; the paper asks for
+0.25e-5 to 2.5e-5 s."""
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.
+
+    A mode keeps its column: it is the one most like that mode of the mean stiffness over the cage
+    angles (modal assurance criterion).
+
+    Attributes
+    ----------
+    scene, dofs, cage_angles
+        what was linearised, in which directions, at which cage angles (n,) [rad].
+    frequency : (n, m) [Hz]
+        |λ|/2π with the damping matrix (Eq. 29).
+    damping_ratio : (n, m)
+        −Re λ/|λ|; negative would mean that the motion grows.
+    undamped_frequency : (n, m) [Hz]
+        of the mass and stiffness matrices alone.
+    shape : (n, m, 2 len(dofs))
+        undamped mode shapes, inner ring first, of unit modal mass; the sign is kept from angle to
+        angle.
+    label : (m,)
+        direction that moves most, numbered by rising frequency: "x1", "y1", "x2", "y2".
+    body : (m,)
+        "inner" or "outer": the body that moves most in that direction.
+
+    Rows are NaN where the static state has no answer.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    cage_angles: NDArray[np.float64]
+    frequency: NDArray[np.float64]
+    damping_ratio: NDArray[np.float64]
+    undamped_frequency: NDArray[np.float64]
+    shape: NDArray[np.float64]
+    label: tuple[str, ...]
+    body: tuple[str, ...]
+
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest frequency [Hz] of each mode over the cage angles, by label.
+
+        NaN for both where no angle has an answer.
+        """
+        bands = {}
+        for i, label in enumerate(self.label):
+            known = self.frequency[np.isfinite(self.frequency[:, i]), i]
+            bands[label] = (
+                (float(known.min()), float(known.max()))
+                if known.size
+                else (
+                    math.nan,
+                    math.nan,
+                )
+            )
+        return bands
+
+
+def modes(scene: Scene, cage_angles: ArrayLike | None = None) -> Modes:
+    """Natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
+
+    Parameters
+    ----------
+    scene
+        its active directions are those of the statics; support and inertia must be known there.
+    cage_angles : (n,)
+        [rad]; None takes one period, as `equilibrium` does.
+
+    Raises
+    ------
+    ValueError
+        where the support lacks a number, by its name.
+    """
+    return modes_at(equilibrium(scene, cage_angles))
+
+
+def modes_at(state: Equilibrium) -> Modes:
+    """The modes at static states that are already known."""
+    scene, dofs = state.scene, state.dofs
+    nd = len(dofs)
+    index = [DOF_NAMES.index(name) for name in dofs]
+    mass = np.concatenate(
+        [scene.support.inertia("inner", dofs), scene.support.inertia("outer", dofs)]
+    )
+    K_b = state.stiffness[:, index][:, :, index]
+    C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
+    K = two_body_matrix(K_b, scene.support.stiffness(dofs))
+    C = two_body_matrix(C_b, scene.support.damping(dofs))
+    known = np.isfinite(K).all(axis=(1, 2))
+    n, m = len(K), 2 * nd
+    undamped, frequency, ratio = (np.full((n, m), np.nan) for _ in range(3))
+    shape = np.full((n, m, m), np.nan)
+    mean = (
+        K[known].mean(axis=0)
+        if known.any()
+        else two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
+    )
+    _, template = _undamped(mean, mass)
+    if known.any():
+        undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
+        frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
+    label, body = _labels(template, mass, dofs)
+    return Modes(scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body)
+
+
+@lru_cache(maxsize=512)
+def highest_natural_frequency(scene: Scene) -> float:
+    """The greatest undamped natural frequency [Hz] of a scene over one period of cage angles.
+
+    NaN where no angle has a static state. It decides how finely a motion must be stepped.
+    """
+    dofs = scene.active_dofs
+    index = [DOF_NAMES.index(name) for name in dofs]
+    angles = default_cage_angles(scene, 31)
+    K_b = equilibrium(scene, angles, dofs).stiffness[:, index][:, :, index]
+    known = np.isfinite(K_b).all(axis=(1, 2))
+    if not known.any():
+        return math.nan
+    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    frequency, _ = _undamped(two_body_matrix(K_b[known], scene.support.stiffness(dofs)), mass)
+    return float(frequency.max())
+
+
+def two_body_matrix(
+    bearing: NDArray[np.float64], support: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """[B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
+    return np.block([[bearing, -bearing], [-bearing, bearing + np.diag(support)]])
+
+
+def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
+    """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
+    alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
+    radial, axial = np.cos(alpha), np.sin(alpha)
+    lever = state.scene.bearing.groove_center_radius
+    e = np.stack(
+        [
+            radial * np.cos(phi),
+            radial * np.sin(phi),
+            axial,
+            lever * axial * np.sin(phi),
+            -lever * axial * np.cos(phi),
+        ],
+        axis=-1,
+    )
+    e *= (state.ball_load > 0.0)[..., None]
+    return np.swapaxes(e, 1, 2) @ e
+
+
+@lru_cache(maxsize=512)
+def _mean_stiffness_a_ball(sound: Scene) -> float:
+    """mean(k_xx + k_yy) / mean(loaded balls) [N/m] of a scene, over one ball spacing."""
+    angles = np.arange(120) * (sound.bearing.ball_spacing / 120)
+    state = equilibrium(sound, angles)
+    good = state.converged & (state.loaded_balls > 0)
+    if not good.any():
+        return math.nan
+    radial = state.term("k_xx")[good] + state.term("k_yy")[good]
+    return float(radial.mean() / state.loaded_balls[good].mean())
+
+
+def contact_damping(scene: Scene) -> float:
+    """Viscous damping c [N·s/m] of a loaded contact: the scene's, or β·mean(k_xx + k_yy)/mean(n).
+
+    The paper does not print c; it asks for a damping of the sound bearing that is 0.25e-5 to
+    2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the sound bearing has no static
+    state to take it from.
+    """
+    if scene.contact_damping is not None:
+        return scene.contact_damping
+    # the damping hangs on bearing and load only; other fields would make needless cache entries
+    stiffness = _mean_stiffness_a_ball(scene.sound().replace(shaft_speed=0.0))
+    return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
+
+
+def _assignment(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
+    from scipy.optimize import (
+        linear_sum_assignment,
+    )  # imported late: it would double the time to import this package
+
+    return np.asarray(linear_sum_assignment(-likeness)[1])
+
+
+def _matched(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(n, m) which column belongs to each row of likeness (n, m, columns), none taken twice.
+
+    Mostly the greatest of each row will do; where two rows want the same one, the assignment of
+    the greatest sum decides.
+    """
+    best = likeness.argmax(axis=2)
+    clash = (np.diff(np.sort(best, axis=1), axis=1) == 0).any(axis=1)
+    for k in np.flatnonzero(clash):
+        best[k] = _assignment(likeness[k])
+    return best
+
+
+def _follow(
+    frequency: NDArray[np.float64],
+    shape: NDArray[np.float64],
+    template: NDArray[np.float64],
+    mass: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Modes reordered so that each column is one mode: the one most like its template.
+
+    frequency (n, m), shape (n, m, m) and template (m, m), all of unit modal mass, so that the
+    modal assurance criterion is a squared product. Following from one angle to the next instead
+    would depend on the spacing of the angles: where two frequencies meet and part again, small
+    steps stay on a branch while its shape turns into the other's.
+    """
+    product = np.einsum("im,m,njm->nij", template, mass, shape)
+    order = _matched(product**2)
+    sign = np.where(np.take_along_axis(product, order[:, :, None], axis=2) < 0.0, -1.0, 1.0)
+    return (
+        np.take_along_axis(frequency, order, axis=1),
+        np.take_along_axis(shape, order[:, :, None], axis=1) * sign,
+    )
+
+
+def _undamped(
+    K: NDArray[np.float64], mass: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Natural frequencies (..., m) [Hz], rising, and shapes (..., m, m) of unit modal mass."""
+    root = np.sqrt(mass)
+    values, vectors = np.linalg.eigh(K / (root[:, None] * root))
+    frequency = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)
+    return frequency, np.swapaxes(vectors, -1, -2) / root
+
+
+def _damped(
+    K: NDArray[np.float64],
+    C: NDArray[np.float64],
+    mass: NDArray[np.float64],
+    shape: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each beside its undamped mode.
+
+    State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
+    """
+    n, m = shape.shape[:2]
+    A = np.zeros((n, 2 * m, 2 * m))
+    A[:, :m, m:] = np.eye(m)
+    A[:, m:, :m] = -K / mass[:, None]
+    A[:, m:, m:] = -C / mass[:, None]
+    values, vectors = np.linalg.eig(A)
+    motion = vectors[:, :m, :] * np.sqrt(mass)[:, None]
+    motion = motion / np.maximum(np.linalg.norm(motion, axis=1, keepdims=True), 1e-300)
+    likeness = np.abs((shape * np.sqrt(mass)) @ motion) ** 2
+    # of a conjugate pair, alike in shape, the one that turns forwards
+    picked = _matched(likeness - 2.0 * (values.imag < 0.0)[:, None, :])
+    chosen = np.take_along_axis(values, picked, axis=1)
+    size = np.abs(chosen)
+    return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
+
+
+def _labels(
+    template: NDArray[np.float64], mass: NDArray[np.float64], dofs: tuple[str, ...]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Direction and number of each mode, two modes a direction, and the body that moves most.
+
+    `template` (m, m) are shapes in the order of rising frequency.
+    """
+    nd, m = len(dofs), 2 * len(dofs)
+    energy = template**2 * mass  # shares of the kinetic energy
+    by_direction = energy[:, :nd] + energy[:, nd:]
+    direction = _assignment(np.repeat(by_direction, 2, axis=1)) // 2
+    label = [""] * m
+    for d in range(nd):
+        for number, i in enumerate(np.flatnonzero(direction == d), start=1):
+            label[i] = f"{dofs[d]}{number}"
+    own = np.arange(m)
+    outer = np.abs(template[own, nd + direction]) > np.abs(template[own, direction])
+    return tuple(label), tuple("outer" if flag else "inner" for flag in outer)

@@ -1,0 +1,409 @@
+"""The periodic steady state, found by shooting, and its stability by Floquet multipliers.
+
+Quantity                                              | Symbol | Name            | Unit
+----------------------------------------------------- | ------ | --------------- | ----
+state: displacements and velocities of both rings     | y      |                 | m, m/s
+what a period does to it                              | P(y)   |                 |
+its derivative at the orbit                           | Φ      | monodromy       |
+eigenvalues of Φ                                      | μ      | multipliers     |
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import (
+    body_numbers,
+    default_step_rate,
+    hermite_weights,
+    is_flat,
+    length_units,
+    packed_numbers,
+    static_start,
+)
+from bearingcore.model.scene import Scene
+from bearingcore.signals.spectrum import Spectrum
+
+STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START = (
+    "stable orbit",
+    "unstable orbit",
+    "not converged",
+    "no common period",
+    "no static state to start from",
+)
+
+MOST_BALL_PASSES = 400
+"""The longest common period, in ball passes, that is looked for."""
+
+WINDOW_REACH = 6
+"""Bins over which the Hann window lets a line be seen: beyond, its side lobes are 60 dB down."""
+
+MARCHED_BEFORE = (2, 20, 60)
+"""Periods marched before Newton's method begins, and before it begins again."""
+
+CLOSED = 1e-7
+"""An orbit is closed when it misses its beginning by this part of its own size."""
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic motion of a scene and what becomes of small disturbances of it.
+
+    Attributes
+    ----------
+    scene, dofs
+        what moves, in which directions.
+    status
+        "stable orbit", "unstable orbit", "not converged", "no common period" (then nothing was
+        tried) or "no static state to start from".
+    through
+        for an unstable orbit, how its largest multiplier leaves the unit circle: "+1" (the motion
+        drifts off to another orbit), "-1" (every second period alike: period-doubling) or "pair"
+        (a slow beat is added). Empty otherwise.
+    period
+        [s]; ball_passes of them make it.
+    multipliers : (4 len(dofs),)
+        Floquet multipliers, the largest first: what a period multiplies disturbances by.
+    residual
+        how far the orbit misses its beginning, over its own size.
+    iterations, right_hand_side_calls
+        Newton steps, and evaluations of the accelerations; one with the tangent counts once.
+    history : (steps + 1, 6, len(dofs))
+        displacement, velocity, acceleration of the inner, then of the outer ring over the period,
+        tilts times r_d.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    status: str
+    through: str
+    period: float
+    ball_passes: int
+    multipliers: NDArray[np.complex128]
+    residual: float
+    iterations: int
+    right_hand_side_calls: int
+    history: NDArray[np.float64] = field(repr=False)
+
+    @property
+    def stable(self) -> bool:
+        """True where the orbit was found and disturbances of it die out."""
+        return self.status == STABLE
+
+    @property
+    def largest_multiplier(self) -> float:
+        """|μ| of the largest multiplier; NaN where there is no orbit."""
+        return float(np.abs(self.multipliers[0])) if self.multipliers.size else math.nan
+
+    def outer_acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated."""
+        time = np.asarray(time, dtype=float).ravel() % self.period
+        parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
+        # from the equations of motion: it jumps as balls touch, and no interpolation follows that
+        rates = kernels.motion_rates(
+            time, np.hstack(parts), 0.0, *packed_numbers(self.scene, self.dofs)
+        )
+        return np.asarray(rates[:, -len(self.dofs) :]) / length_units(self.scene, self.dofs)
+
+    def inner_displacement(self, time: ArrayLike) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
+        return self._sampled(time, 0, 0) / length_units(self.scene, self.dofs)
+
+    def _sampled(self, time: ArrayLike, body: int, derivative: int) -> NDArray[np.float64]:
+        """Quintic interpolation in the periodic history, tilts times r_d."""
+        steps = len(self.history) - 1
+        at = np.asarray(time, dtype=float) / self.period * steps % steps
+        step = np.minimum(at.astype(int), steps - 1)
+        weights = hermite_weights(at - step, derivative, self.period / steps)
+        ends = np.concatenate(
+            [self.history[step, body : body + 3], self.history[step + 1, body : body + 3]], axis=1
+        )
+        return np.einsum("nw,nwd->nd", weights, ends)
+
+    def spectrum(
+        self, sample_rate: float = 65536.0, resolution: float = 32.0, duration: float = 1.4
+    ) -> Spectrum:
+        """`bearingcore.spectrum` of the housing's acceleration while the period repeats.
+
+        Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
+        begins with the period, without making the record: each Fourier line of the orbit is seen
+        through the Hann window, and lines beat with each other from segment to segment.
+        """
+        segment = round(sample_rate / resolution)
+        hop = segment - segment // 2
+        segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
+        frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
+        steps = len(self.history) - 1
+        # of the velocity, as the acceleration jumps where balls touch, and its samples would alias
+        velocity = self.history[:-1, 4] / length_units(self.scene, self.dofs)
+        lines = np.fft.rfft(velocity, axis=0) / steps
+        lines *= (2j * math.pi / self.period) * np.arange(len(lines))[:, None]
+        # a segment's own beginning turns line k by exp(iπk/(period·resolution)); what is left of
+        # the Hann window's transform, half sinc(x)/(1 − x²) a sample, x bins away, is real
+        spacing = 1.0 / (self.period * resolution)
+        lines *= np.exp(1j * math.pi * spacing * np.arange(len(lines)))[:, None]
+        # lines within WINDOW_REACH bins of a frequency are what a segment sees there
+        reach = max(math.ceil(WINDOW_REACH / spacing), 2)
+        k = np.rint(frequency * self.period).astype(int)[:, None] + np.arange(-reach, reach + 1)
+        known = (k > 0) & (k < min(len(lines), 0.5 * sample_rate * self.period))
+        x = k * spacing - frequency[:, None] / resolution
+        edge = np.abs(np.abs(x) - 1.0) < 1e-9
+        seen = np.where(edge, 0.25, 0.5 * np.sinc(x) / np.where(edge, 1.0, 1.0 - x * x)) * known
+        density = np.zeros((len(frequency), velocity.shape[1]))
+        turn = 2.0 * math.pi * hop / (sample_rate * self.period)  # of a line from the next, a hop
+        beats = np.exp(1j * turn * np.outer(np.arange(2 * reach + 1), np.arange(segments)))
+        beats = beats.mean(axis=1)
+        for axis in range(velocity.shape[1]):
+            part = lines[np.where(known, k, 0), axis] * seen
+            density[:, axis] = np.einsum("fk,fk->f", part, part.conj()).real
+            for apart in range(1, 2 * reach + 1):
+                cross = np.einsum("fk,fk->f", part[:, apart:], part[:, :-apart].conj())
+                density[:, axis] += 2.0 * (beats[apart] * cross).real
+        scale = 2.0 * segment / (0.375 * sample_rate)  # Σ w² = 0.375 segment
+        return Spectrum(frequency, np.maximum(scale * density, 0.0))
+
+
+def orbit(
+    scene: Scene,
+    *,
+    start: Orbit | None = None,
+    ball_passes: int | None = None,
+    step_rate: float | None = None,
+    most_iterations: int = 25,
+    give_up: Callable[[], bool] | None = None,
+) -> Orbit:
+    """The periodic motion of `scene`, by Newton's method on P(y) = y (shooting).
+
+    The variational equations are integrated beside the motion. Newton finds unstable orbits as
+    well as stable ones, so the multipliers are part of the answer: only a stable orbit is what a
+    machine settles to.
+
+    Parameters
+    ----------
+    scene
+        its active directions move.
+    start
+        an orbit of a scene nearby to begin from; None begins at the static state.
+    ball_passes
+        how many of them make a period: 1 for sound bearings and outer-race defects, as every
+        ball pass is then alike. None takes the shortest period there is; an inner-race defect
+        has one only where shaft and cage return together.
+    step_rate
+        least number of steps [Hz]; the period takes a whole number of them. None as in `simulate`.
+    most_iterations
+        Newton steps before giving up.
+    give_up
+        asked after every period that was integrated; True ends the search, which has then not
+        converged unless the orbit was just found.
+
+    Raises
+    ------
+    ValueError
+        for a shaft that stands still or a support that lacks a number.
+    """
+    if scene.shaft_speed == 0.0:
+        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for an orbit")
+    dofs = scene.active_dofs
+    shortest = common_ball_passes(scene)
+    if ball_passes is None:
+        ball_passes = shortest or 0
+    else:
+        ball_passes = checks.whole_number(
+            "ball_passes", ball_passes, at_least=1, at_most=MOST_BALL_PASSES
+        )
+        if shortest is None or ball_passes % shortest:
+            ball_passes = 0
+    nothing = Orbit(
+        scene, dofs, NO_PERIOD, "", math.nan, ball_passes, np.zeros(0, complex),
+        math.nan, 0, 0, np.full((2, 6, len(dofs)), math.nan),
+    )  # fmt: skip
+    if ball_passes == 0:
+        return nothing
+    period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
+    rate = step_rate or default_step_rate(scene, 65536.0, highest_natural_frequency(scene))
+    shooting = _Shooting(scene, dofs, period, max(math.ceil(period * rate), 8), give_up)
+    y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)
+    if y is None:
+        return replace(nothing, status=NO_START, period=period)
+    y = shooting.own(y)
+    if start is not None:
+        found = _newton(nothing, shooting, y, period, most_iterations)
+        if found.status != NOT_CONVERGED or shooting.given_up:
+            return found
+    # where Newton loses its way it begins again, nearer to where the motion itself goes
+    for periods in MARCHED_BEFORE:
+        y = shooting.marched(y, periods)
+        found = _newton(nothing, shooting, y, period, most_iterations)
+        if found.status != NOT_CONVERGED or shooting.given_up:
+            break
+    return found
+
+
+def common_ball_passes(scene: Scene) -> int | None:
+    """Ball passes after which everything that acts on the rings repeats; None where it never does.
+
+    The balls are alike after one. A defect of the inner race has turned
+    (2π/N_b)·ω_s/ω_c for each of them, and must have come round by whole turns.
+    """
+    if all(defect.race == "outer" for defect in scene.defects):
+        return 1
+    turns = 1.0 / (scene.bearing.cage_ratio * scene.bearing.n_balls)
+    fraction = Fraction(turns).limit_denominator(MOST_BALL_PASSES)
+    # what is left over in the longest period must be below any step: 1e-9 of a turn
+    if abs(float(fraction) - turns) * fraction.denominator > 1e-9:
+        return None
+    return fraction.denominator
+
+
+class _Shooting:
+    """What a period does to a state, with and without the tangent.
+
+    States are those of `kernels.march_smooth`, without tension those of `kernels.march`.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        dofs: tuple[str, ...],
+        period: float,
+        steps: int,
+        give_up: Callable[[], bool] | None = None,
+    ) -> None:
+        self.steps = steps
+        self.calls = 0
+        self.given_up = False
+        self._give_up = give_up
+        self._smooth = scene.contact_law == "published"
+        self._packed = packed_numbers(scene, dofs)
+        n_balls, numbers, _, active, *paths = self._packed
+        w, ca, sa, A0, rL, K, c, _ = numbers.tolist()
+        force, *others = body_numbers(scene, dofs)
+        h = period / steps
+        motion = (steps, h, 0.0, w, *paths, force)
+        self.history = np.empty((steps + 1, 6, len(dofs)))
+        self._arguments: tuple[Any, ...]
+        if is_flat(scene):
+            self._plain, self._tangent = kernels.march_flat, kernels.march_flat_with_tangent
+            self._arguments = (*motion, *others, n_balls, rL, K, c, self.history)
+        elif self._smooth:
+            self._plain, self._tangent = kernels.march_smooth, kernels.march_smooth_with_tangent
+            self._arguments = (steps, h, 0.0, *self._packed, self.history)
+        else:
+            self._plain, self._tangent = _march_without_tension, kernels.march_with_tangent
+            contact = (n_balls, ca, sa, A0, rL, K, c)
+            self._arguments = (*motion, active, *others, *contact, self.history)
+        # velocities count over the highest natural frequency, so that all of y are lengths
+        omega = 2.0 * math.pi * highest_natural_frequency(scene)
+        self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(dofs))
+
+    def own(self, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A state of displacements and velocities in the variables that are marched."""
+        own = y.copy()
+        if self._smooth:
+            kernels.turn_smooth(own, 1.0, 0.0, *self._packed)
+        return own
+
+    def marched(self, y: NDArray[np.float64], periods: int = 1) -> NDArray[np.float64]:
+        """P(y), or P of P, or more."""
+        end = y.copy()
+        for _ in range(periods):
+            if self.given_up:
+                break
+            self._plain(end, *self._arguments)
+            self._count()
+        return end
+
+    def with_tangent(
+        self, y: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """P(y) and its derivative."""
+        end, tangent = y.copy(), np.eye(y.size)
+        self._tangent(end, tangent, *self._arguments)
+        self._count()
+        return end, tangent
+
+    def _count(self) -> None:
+        self.calls += 4 * self.steps
+        self.given_up = self.given_up or (self._give_up is not None and self._give_up())
+
+    def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
+        """|P(y) − y| over the size of the motion between."""
+        size = np.ptp(self.history[:, 0], axis=0).max() + np.ptp(self.history[:, 3], axis=0).max()
+        if not (np.all(np.isfinite(end)) and size > 0.0):
+            return math.inf
+        return float(np.linalg.norm((end - y) * self.scale) / size)
+
+
+def _march_without_tension(*arguments: Any) -> None:
+    """`kernels.march` with the arguments of its tangent."""
+    *others, history = arguments
+    kernels.march(*others, False, history)
+
+
+def _newton(
+    nothing: Orbit, shooting: _Shooting, y: NDArray[np.float64], period: float, most: int
+) -> Orbit:
+    end, tangent = shooting.with_tangent(y)
+    miss = shooting.miss(y, end)
+    iterations = 0
+    while miss > CLOSED and iterations < most and math.isfinite(miss) and not shooting.given_up:
+        iterations += 1
+        try:
+            step = np.linalg.solve(tangent - np.eye(y.size), y - end)
+        except np.linalg.LinAlgError:
+            break
+        part = 1.0
+        while part > 0.02:
+            trial = y + part * step
+            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_miss = shooting.miss(trial, trial_end)
+            if trial_miss < miss or shooting.given_up:
+                break
+            part *= 0.4
+        else:
+            # no part of the step helps: let the motion itself move on
+            trial = end
+            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_miss = shooting.miss(trial, trial_end)
+        y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
+    found = replace(
+        nothing,
+        status=NOT_CONVERGED,
+        period=period,
+        residual=miss,
+        iterations=iterations,
+        right_hand_side_calls=shooting.calls,
+    )
+    if not miss <= CLOSED:
+        return found
+    multipliers = np.linalg.eigvals(tangent)
+    multipliers = multipliers[np.argsort(-np.abs(multipliers))]
+    largest = multipliers[0]
+    through = ""
+    if abs(largest) >= 1.0:
+        through = "pair" if abs(largest.imag) > 1e-9 else ("+1" if largest.real > 0.0 else "-1")
+    return replace(
+        found,
+        status=STABLE if abs(largest) < 1.0 else UNSTABLE,
+        through=through,
+        multipliers=multipliers.astype(complex),
+        history=shooting.history,
+    )
+
+
+def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
+    """The first state of another orbit; None where it moves along other directions or is none."""
+    first = start.history[0]
+    if start.dofs != dofs or not np.all(np.isfinite(first)):
+        return static_start(start.scene, dofs) if start.dofs == dofs else None
+    return np.concatenate([first[0], first[1], first[3], first[4]])

@@ -1,0 +1,172 @@
+"""Where in the plane of two quantities the periodic steady state holds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.dynamics.orbit import (
+    NO_PERIOD,
+    NO_START,
+    NOT_CONVERGED,
+    STABLE,
+    UNSTABLE,
+    Orbit,
+    orbit,
+)
+from bearingcore.model.scene import Scene
+
+REFUSED = "refused"
+
+OUTCOMES = (STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START, REFUSED, "not computed")
+"""What the codes of `StabilityMap.outcome` mean."""
+
+
+@dataclass(frozen=True)
+class StabilityMap:
+    """Largest Floquet multiplier over two fields of a scene.
+
+    Attributes
+    ----------
+    scene
+        the scene whose fields vary.
+    x_field, y_field
+        their names, as `Scene.replace` takes them.
+    x (nx,), y (ny,)
+        their values, in the fields' own units.
+    multiplier : (ny, nx)
+        |μ| of the orbit over one ball pass; NaN where there is none.
+    outcome : (ny, nx)
+        indices into OUTCOMES.
+    through : (ny, nx)
+        "", "+1", "-1" or "pair": how an unstable orbit leaves.
+    completed
+        False where it was cancelled; what was not computed says so.
+    refusals
+        why there is no such scene, by (row, column) of the points that are refused.
+    """
+
+    scene: Scene
+    x_field: str
+    y_field: str
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    multiplier: NDArray[np.float64]
+    outcome: NDArray[np.int8]
+    through: NDArray[np.str_]
+    completed: bool
+    refusals: dict[tuple[int, int], str] = field(default_factory=dict)
+
+    def count(self, outcome: str) -> int:
+        """How many points ended in one of OUTCOMES."""
+        return int(np.sum(self.outcome == OUTCOMES.index(outcome)))
+
+
+def stability_map(
+    scene: Scene,
+    x: tuple[str, ArrayLike],
+    y: tuple[str, ArrayLike],
+    *,
+    ball_passes: int | None = None,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> StabilityMap:
+    """Orbits over a grid of two fields, each begun from its neighbour.
+
+    Parameters
+    ----------
+    scene
+        what stays the same.
+    x, y
+        name of a field as `Scene.replace` takes it, and its values, 2 to 1000 each.
+    ball_passes
+        period to look for, in ball passes; None takes the shortest.
+    progress, cancelled
+        called before each row; asked before each row and point.
+
+    Raises
+    ------
+    ValueError
+        for unknown fields, first or last values that the scene refuses, two fields of one name, or
+        where every point is refused. A point that is refused among others is an outcome.
+    """
+    x_field, x_values = _axis(scene, x)
+    y_field, y_values = _axis(scene, y)
+    if x_field == y_field:
+        raise checks.refuse("the fields of a map", x_field, "two different names")
+    shape = (y_values.size, x_values.size)
+    multiplier = np.full(shape, math.nan)
+    outcome = np.full(shape, OUTCOMES.index("not computed"), dtype=np.int8)
+    through = np.full(shape, "", dtype="<U4")
+    refusals: dict[tuple[int, int], str] = {}
+    above: Orbit | None = None
+    stopped = False
+    rows = list(range(y_values.size))
+    done = 0
+    for j in in_turn(rows, lambda j: f"{y_field} = {y_values[j]:g}", progress, cancelled):
+        nearby = above
+        above = None
+        for i, value in enumerate(x_values):
+            if cancelled is not None and cancelled():
+                stopped = True
+                break
+            done += 1
+            try:
+                at = scene.replace(**{x_field: float(value), y_field: float(y_values[j])})
+                found = orbit(at, start=nearby, ball_passes=ball_passes)
+            except ValueError as error:
+                outcome[j, i] = OUTCOMES.index(REFUSED)
+                refusals[j, i] = str(error)
+                continue
+            multiplier[j, i] = found.largest_multiplier
+            outcome[j, i] = OUTCOMES.index(found.status)
+            through[j, i] = found.through
+            nearby = found if found.status in (STABLE, UNSTABLE) else None
+            above = above or nearby
+    if len(refusals) == multiplier.size:
+        raise ValueError(refusals[0, 0])
+    completed = not stopped and done == multiplier.size
+    return StabilityMap(
+        scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, completed,
+        refusals,
+    )  # fmt: skip
+
+
+def _axis(scene: Scene, axis: tuple[str, ArrayLike]) -> tuple[str, NDArray[np.float64]]:
+    """A field's name and values, each tried on the scene."""
+    name, given = axis
+    values = np.asarray(given, dtype=float).ravel()
+    if not 2 <= values.size <= 1000:
+        raise checks.refuse(f"number of values of {name}", int(values.size), "2 to 1000")
+    for value in (values[0], values[-1]):
+        scene.replace(**{name: float(value)})
+    return name, values
+
+
+def regions(found: StabilityMap) -> Sequence[str]:
+    """In sentences, what the map shows: how much of it is stable, and how the rest loses it."""
+    size = found.multiplier.size
+    sentences = [f"{found.count(STABLE)} of {size} points have a stable orbit."]
+    for how, words in (
+        ("-1", "lose it by doubling their period: lines appear at half the ball-pass frequency"),
+        ("pair", "lose it to a second frequency: every line gets neighbours"),
+        ("+1", "lose it to another orbit"),
+    ):
+        n = int(np.sum(found.through == how))
+        if n:
+            sentences.append(f"{n} {words}.")
+    lost = found.count(NOT_CONVERGED)
+    if lost:
+        sentences.append(f"At {lost} shooting finds no orbit; there the motion must be marched.")
+    refused = found.count(REFUSED)
+    if refused:
+        reasons = sorted(set(found.refusals.values()))
+        verb = "is" if refused == 1 else "are"
+        sentences.append(f"{refused} {verb} refused, as there is no such scene: {reasons[0]}.")
+    return sentences

@@ -1,0 +1,245 @@
+"""Ways to march a motion, each behind one small interface, so that they can be compared.
+
+A setting is one number: steps a second [Hz] for fixed steps, the tolerance relative to
+`MotionProblem.scale` for steps that choose themselves.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from bearingcore import kernels
+from bearingcore.dynamics.adaptive import March, how_it_ended, march_adaptively, whole_steps
+from bearingcore.dynamics.problem import Array, MotionProblem
+
+Marcher = Callable[[MotionProblem, float, float, float], March]
+"""(problem, setting, duration [s], sample rate [Hz]) -> March"""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to march.
+
+    Attributes
+    ----------
+    name
+        as charts show it.
+    fixed_step
+        True where the setting is a step rate [Hz], False where it is a tolerance.
+    order
+        of its local expansion on smooth motions.
+    march
+        does it.
+    note
+        what it is, in a sentence.
+    """
+
+    name: str
+    fixed_step: bool
+    order: int
+    march: Marcher
+    note: str
+
+
+def _masses(problem: MotionProblem) -> tuple[Array, Array]:
+    return 1.0 / problem.bodies[1], 1.0 / problem.bodies[2]
+
+
+def _runge_kutta(
+    problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
+) -> March:
+    """The program's own: variables that do not jump where the contact law allows them."""
+    if problem.scene.contact_law != "published":
+        return _plain_runge_kutta(problem, step_rate, duration, sample_rate)
+    n_steps = whole_steps(step_rate, duration)
+    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
+    y = problem.start.copy()
+    kernels.turn_smooth(y, 1.0, *problem.packed)
+    if not problem.flat:
+        done = kernels.march_smooth(y, n_steps, 1.0 / step_rate, *problem.packed, history)
+        return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
+    cage_speed, _, _, _, rL, K, c, _ = problem.numbers
+    n_balls = problem.scene.bearing.n_balls
+    paths = (problem.rows, problem.tables)
+    force, _, _, stiffness, damping = problem.bodies
+    inner, outer = _masses(problem)
+    done = kernels.march_flat(
+        y, n_steps, 1.0 / step_rate, 0.0, cage_speed, *paths, force, inner, outer, stiffness,
+        damping, n_balls, rL, K, c, history,
+    )  # fmt: skip
+    return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
+
+
+def _plain_runge_kutta(
+    problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
+) -> March:
+    n_steps = whole_steps(step_rate, duration)
+    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
+    cage_speed, ca, sa, A0, rL, K, c, pull = problem.numbers
+    force, _, _, stiffness, damping = problem.bodies
+    done = kernels.march(
+        problem.start.copy(), n_steps, 1.0 / step_rate, 0.0, cage_speed, problem.rows,
+        problem.tables, force, problem.active, *_masses(problem), stiffness, damping,
+        problem.scene.bearing.n_balls, ca, sa, A0, rL, K, c, pull > 0.0, history,
+    )  # fmt: skip
+    return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
+
+
+def _verlet(problem: MotionProblem, step_rate: float, duration: float, sample_rate: float) -> March:
+    n_steps = whole_steps(step_rate, duration)
+    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
+    done = kernels.march_verlet(
+        problem.start.copy(), n_steps, 1.0 / step_rate, *problem.packed, history
+    )
+    return March(history, step_rate, n_steps, how_it_ended(done, n_steps, step_rate))
+
+
+def _generalised_alpha(am: float, af: float) -> Marcher:
+    def march(
+        problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
+    ) -> March:
+        n_steps = whole_steps(step_rate, duration)
+        history = np.empty((n_steps + 1, 6, len(problem.dofs)))
+        done, calls, unsolved = kernels.march_generalised_alpha(
+            problem.start.copy(), n_steps, 1.0 / step_rate, am, af, *problem.packed, history
+        )
+        failure = how_it_ended(done, n_steps, step_rate)
+        if not failure and unsolved > n_steps // 100:
+            failure = f"the equations of {unsolved} of {n_steps} steps were not solved"
+        return March(history, step_rate, calls, failure)
+
+    return march
+
+
+def _of_scipy(name: str) -> Marcher:
+    """`scipy.integrate.solve_ivp` with the compiled right-hand side."""
+
+    def march(
+        problem: MotionProblem, tolerance: float, duration: float, sample_rate: float
+    ) -> March:
+        from scipy.integrate import solve_ivp  # imported late: slow to import
+
+        n = whole_steps(sample_rate, duration)
+        time = np.arange(n + 1) / sample_rate
+        limited = _Limited(problem, MOST_SCIPY_CALLS)
+        try:
+            answer = solve_ivp(  # type: ignore[call-overload]
+                limited.rate,
+                (0.0, time[-1]),
+                problem.start,
+                method=name,
+                t_eval=time,
+                rtol=max(tolerance, 2.3e-14),
+                atol=tolerance * problem.scale,
+            )
+        except (_TooManyCallsError, ValueError, np.linalg.LinAlgError) as error:
+            history = np.full((n + 1, 6, len(problem.dofs)), math.nan)
+            return March(history, sample_rate, limited.calls, str(error) or type(error).__name__)
+        history = history_of(problem, time[: answer.y.shape[1]], answer.y.T)
+        failure = "" if answer.success and len(history) == n + 1 else str(answer.message)
+        return March(history, sample_rate, limited.calls, failure)
+
+    return march
+
+
+MOST_SCIPY_CALLS = 5_000_000
+
+
+class _TooManyCallsError(RuntimeError):
+    pass
+
+
+class _Limited:
+    """A right-hand side that counts, and gives up after `most` calls."""
+
+    def __init__(self, problem: MotionProblem, most: int) -> None:
+        self._problem, self._most, self.calls = problem, most, 0
+
+    def rate(self, t: float, y: Array) -> Array:
+        self.calls += 1
+        if self.calls > self._most:
+            raise _TooManyCallsError(f"more than {self._most:,} right-hand sides")
+        return self._problem.rate(t, y)
+
+
+def history_of(problem: MotionProblem, time: Array, states: Array) -> Array:
+    """History (n, 6, directions) of states (n, 4 directions) at times (n,) [s]."""
+    n = len(problem.dofs)
+    rates = kernels.motion_rates(time, np.ascontiguousarray(states), *problem.packed)
+    history = np.empty((len(time), 6, n))
+    for body in range(2):
+        columns = slice(2 * body * n, (2 * body + 1) * n)
+        following = slice((2 * body + 1) * n, (2 * body + 2) * n)
+        history[:, 3 * body] = states[:, columns]
+        history[:, 3 * body + 1] = states[:, following]
+        history[:, 3 * body + 2] = rates[:, following]
+    return history
+
+
+# Chung & Hulbert's choice for a spectral radius of 0.8 at infinite frequency
+_RADIUS = 0.8
+_AM, _AF = (2.0 * _RADIUS - 1.0) / (_RADIUS + 1.0), _RADIUS / (_RADIUS + 1.0)
+
+GENERALISED_ALPHA = {"trapezoidal": (0.0, 0.0), "generalised-α": (_AM, _AF)}
+"""How far before a step's end inertia and forces are taken, by the implicit methods' names."""
+
+METHODS: dict[str, Method] = {
+    method.name: method
+    for method in (
+        Method(
+            "RK4",
+            True,
+            4,
+            _runge_kutta,
+            "Runge-Kutta of order 4 as the program uses it: in variables that do not jump where "
+            "the scene allows them",
+        ),
+        Method(
+            "RK4 in velocities",
+            True,
+            4,
+            _plain_runge_kutta,
+            "the same steps with velocities as variables, which jump in rate as a ball touches",
+        ),
+        Method("Verlet", True, 2, _verlet, "velocity-Verlet (leapfrog): symplectic, explicit"),
+        Method(
+            "trapezoidal",
+            True,
+            2,
+            _generalised_alpha(*GENERALISED_ALPHA["trapezoidal"]),
+            "trapezoidal rule: implicit, loses no amplitude",
+        ),
+        Method(
+            "generalised-α",
+            True,
+            2,
+            _generalised_alpha(*GENERALISED_ALPHA["generalised-α"]),
+            "generalised-α, spectral radius 0.8: implicit, damps what it cannot resolve",
+        ),
+        Method(
+            "Dormand-Prince",
+            False,
+            5,
+            march_adaptively,
+            "embedded pair of orders 5 and 4, its steps chosen by the difference",
+        ),
+        Method(
+            "Dormand-Prince, stops",
+            False,
+            5,
+            partial(march_adaptively, stop_at_kinks=True),
+            "the same, ending a step wherever a ball meets an edge or floor",
+        ),
+        Method("scipy RK45", False, 5, _of_scipy("RK45"), "embedded pair, steps run by Python"),
+        Method("scipy DOP853", False, 8, _of_scipy("DOP853"), "Runge-Kutta of order 8"),
+        Method("scipy LSODA", False, 12, _of_scipy("LSODA"), "Adams or BDF by stiffness"),
+        Method("scipy Radau", False, 5, _of_scipy("Radau"), "implicit Runge-Kutta of order 5"),
+        Method("scipy BDF", False, 5, _of_scipy("BDF"), "implicit, of variable order"),
+    )
+}
+"""Ways to march by name."""

@@ -1,0 +1,239 @@
+"""Work and precision of models: directions, edges, dynamics, steady state.
+
+Here the error is that of what a model leaves out, not of how it is solved: every model is solved
+with the program's own defaults, and held against a fuller model solved by two families of methods.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+
+import numpy as np
+
+from bearingcore.common import checks
+from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.orbit import orbit
+from bearingcore.dynamics.problem import Array, motion_problem
+from bearingcore.experiments.motions import BAND
+from bearingcore.experiments.points import RIGHT, Experiment, Point, failed, least_time
+from bearingcore.experiments.references import (
+    MotionReference,
+    bins_that_count,
+    motion_reference,
+    spectrum_error,
+)
+from bearingcore.model.defect import EDGES
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.signals.spectrum import spectrum
+from bearingcore.statics.equilibrium import equilibrium
+
+MODEL_ERRORS = {
+    "spectrum": "greatest error of the housing's spectrum along x and y [dB], up to 1.25 times the "
+    "highest natural frequency, where a direction is within 40 dB of its greatest level",
+    "level": "error of the housing's root mean square acceleration along x and y [dB]",
+    "displacement": "greatest error of the inner ring's displacement along x and y over its swing",
+}
+"""Errors of models by name."""
+
+FULL, EXACT, SETTLED = "all five directions", "exact edges", "settled motion"
+SETTLING = 0.25
+"""Part of a marched motion that counts as transient where an orbit is compared with it."""
+
+MODELS = ("2 DOF", "3 DOF", "5 DOF", "quasi-static", *(f"{e} edges" for e in EDGES), "transient",
+          "orbit")  # fmt: skip
+
+
+def models_experiment(
+    scene: Scene,
+    *,
+    duration: float = 0.7,
+    sample_rate: float = 65536.0,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> Experiment:
+    """What models leave out, against what they cost, on `scene`.
+
+    Directions and quasi-statics are held against the scene in all five directions, edge models
+    against exact edges, the orbit and the marched transient against the settled part of the motion
+    by two families.
+
+    Parameters
+    ----------
+    scene
+        at hand; its support must be known along all five directions for the models with more of
+        them than it has, which are failures otherwise.
+    duration
+        [s] of motion.
+    sample_rate
+        [Hz].
+    progress, cancelled
+        see `points`.
+
+    Raises
+    ------
+    ValueError
+        for a shaft that stands still or a scene without a static state.
+    """
+    if scene.shaft_speed == 0.0:
+        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
+    if progress is not None:
+        progress(0.0, "references by two families")
+    runner = _Models(scene, duration, sample_rate)
+    points = [runner.point(model) for model in in_turn(MODELS, str, progress, cancelled, begin=0.3)]
+    return Experiment(
+        "models",
+        f"Models of the motion over {duration:g} s, each solved with the program's defaults",
+        MODEL_ERRORS,
+        "right-hand sides",
+        runner.references,
+        tuple(points),
+        "sound bearing as a model of a damaged one; models without contact",
+        completed=len(points) == len(MODELS),
+    )
+
+
+class _Models:
+    """The scene's fuller models by two families, and each model held against one of them."""
+
+    def __init__(self, scene: Scene, duration: float, sample_rate: float) -> None:
+        self.scene, self.duration, self.sample_rate = scene, duration, sample_rate
+        self.band = BAND * highest_natural_frequency(scene)
+        own = self._reference(scene)
+        try:
+            full = own if len(scene.active_dofs) == 5 else self._reference(_with(scene, DOF_NAMES))
+        except ValueError as refused:
+            full = own
+            self._no_full = str(refused)
+        else:
+            self._no_full = ""
+        exact = scene.defects and all(d.edge == "exact" for d in scene.defects)
+        edges = own if exact else self._reference(_edged(scene, "exact"))
+        self._by_name = {FULL: full, EXACT: edges, SETTLED: own}
+        self.references = {name: r.reference for name, r in self._by_name.items()}
+        if self._no_full:
+            note = f"in the scene's own directions only: {self._no_full}"
+            self.references[FULL] = replace(self.references[FULL], note=note)
+
+    def _reference(self, scene: Scene) -> MotionReference:
+        return motion_reference(motion_problem(scene), self.duration, self.sample_rate, self.band)
+
+    def point(self, model: str) -> Point:
+        """One model, or why it cannot be computed."""
+        try:
+            if model.endswith("DOF"):
+                dofs = DOF_NAMES[: int(model[0])]
+                return self._marched(model, _with(self.scene, dofs), FULL)
+            if model.endswith("edges"):
+                return self._marched(model, _edged(self.scene, model.split()[0]), EXACT)
+            if model == "quasi-static":
+                return self._quasi_static()
+            return self._transient() if model == "transient" else self._orbit()
+        except ValueError as refused:
+            return failed(model, "", math.nan, str(refused))
+
+    def _marched(self, model: str, scene: Scene, against: str) -> Point:
+        motion, seconds, runs = least_time(
+            lambda: simulate(scene, self.duration, self.sample_rate).outer_acceleration
+        )
+        told = simulate(scene, self.duration, self.sample_rate)
+        words = f"{told.step_rate:.0f} steps/s"
+        if not told.completed:
+            return failed(model, words, told.step_rate, told.status, seconds)
+        errors = self._errors(against, motion[:, :2], told.inner_displacement[:, :2])
+        return Point(
+            model, words, told.step_rate, errors, seconds, runs, told.right_hand_side_calls,
+            RIGHT, against, {"step_rate": told.step_rate},
+        )  # fmt: skip
+
+    def _errors(self, against: str, acceleration: Array, inner: Array) -> dict[str, float]:
+        """Of signals (n, 2) along x and y."""
+        history = self._by_name[against].history[: len(acceleration)]
+        truth, place = history[:, 5, :2], history[:, 0, :2]
+        swing = float(np.abs(place - place.mean(axis=0)).max())
+        return {
+            "spectrum": spectrum_error(acceleration, truth, self.sample_rate, self.band),
+            "level": _level_error(acceleration, truth),
+            "displacement": float(np.abs(inner - place).max()) / swing,
+        }
+
+    def _quasi_static(self) -> Point:
+        """The static state at the cage angle of each instant: the housing rests in its springs."""
+        scene = self.scene
+        n = round(self.duration * self.sample_rate)
+        # static curves repeat every ball spacing where the defect stands still
+        angles = scene.cage_speed * np.arange(n) / self.sample_rate
+        state, seconds, runs = least_time(lambda: equilibrium(scene, angles))
+        if not np.all(state.converged):
+            return failed("quasi-static", "", math.nan, "cage angles without one static state")
+        support = scene.support
+        rest = np.array([scene.load.fx / support.stiffness_x, scene.load.fy / support.stiffness_y])
+        inner = state.displacement[:, :2] + rest
+        errors = self._errors(FULL, np.zeros_like(inner), inner)
+        return Point(
+            "quasi-static", f"{n} cage angles", float(n), errors, seconds, runs,
+            int(state.evaluations.sum()), RIGHT, FULL,
+        )  # fmt: skip
+
+    def _settled(self) -> tuple[int, Array]:
+        """First sample after the transient, and the housing's acceleration from there on."""
+        history = self._by_name[SETTLED].history
+        first = round(SETTLING * len(history))
+        return first, history[first:-1, 5, :2]
+
+    def _transient(self) -> Point:
+        """Marching and dropping the first part."""
+        first, truth = self._settled()
+        start = time.perf_counter()
+        told = simulate(self.scene, self.duration, self.sample_rate)
+        signal = told.outer_acceleration[first:, :2]
+        first_time = time.perf_counter() - start
+        if not told.completed:
+            return failed("transient", "", math.nan, told.status, first_time)
+        _, seconds, runs = least_time(
+            lambda: simulate(self.scene, self.duration, self.sample_rate).outer_acceleration
+        )
+        n = min(len(signal), len(truth))
+        errors = {
+            "spectrum": spectrum_error(signal[:n], truth[:n], self.sample_rate, self.band),
+            "level": _level_error(signal[:n], truth[:n]),
+        }
+        return Point(
+            "transient", f"{told.step_rate:.0f} steps/s", told.step_rate, errors, seconds, runs,
+            told.right_hand_side_calls, RIGHT, SETTLED, {"step_rate": told.step_rate},
+        )  # fmt: skip
+
+    def _orbit(self) -> Point:
+        """The periodic motion by shooting, where it is proven stable."""
+        _, truth = self._settled()
+        found, seconds, runs = least_time(lambda: orbit(self.scene))
+        words = f"{found.ball_passes} ball pass" + ("es" if found.ball_passes != 1 else "")
+        if not found.stable:
+            why = found.status + (f" through {found.through}" if found.through else "")
+            return failed("orbit", words, math.nan, why, seconds, found.right_hand_side_calls)
+        frequency, density = spectrum(truth, self.sample_rate)
+        mine = found.spectrum(self.sample_rate).density[:, :2]
+        level = 10.0 * math.log10(mine.sum() / density.sum())
+        counts = bins_that_count(frequency, density, self.band)
+        decibel = np.abs(10.0 * np.log10(mine[counts] / density[counts]))
+        errors = {"spectrum": float(decibel.max()), "level": abs(level)}
+        return Point(
+            "orbit", words, float(found.ball_passes), errors, seconds, runs,
+            found.right_hand_side_calls, RIGHT, SETTLED,
+        )  # fmt: skip
+
+
+def _with(scene: Scene, dofs: tuple[str, ...]) -> Scene:
+    return scene.replace(dofs=dofs)
+
+
+def _edged(scene: Scene, edge: str) -> Scene:
+    return scene.replace(defect=tuple(replace(defect, edge=edge) for defect in scene.defects))
+
+
+def _level_error(found: Array, truth: Array) -> float:
+    power, right = float(np.mean(found**2)), float(np.mean(truth**2))
+    return abs(10.0 * math.log10(power / right)) if power > 0.0 else math.inf

@@ -1,0 +1,213 @@
+"""What a work-precision experiment finds: points of error against cost, failures among them."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+T = TypeVar("T")
+
+RIGHT = "right"
+
+
+@dataclass(frozen=True)
+class Point:
+    """One method at one setting.
+
+    Attributes
+    ----------
+    method, setting
+        who, and how it was set, in words.
+    value
+        the setting as a number: steps a second [Hz], tolerance, number of cage angles.
+    errors
+        against the reference, by the names in `Experiment.errors`; NaN where there is none.
+    seconds
+        [s] the least of `runs` runs, after one that is not counted.
+    runs
+        how often it was timed.
+    evaluations
+        right-hand sides, or evaluations of all contacts at one displacement: the cost that does
+        not depend on the machine.
+    status
+        "right", or "failed: " and why.
+    against
+        which reference the errors are taken from, where an experiment has several.
+    settings
+        arguments that make `simulate` or `equilibrium` do the same, where they can.
+    """
+
+    method: str
+    setting: str
+    value: float
+    errors: Mapping[str, float]
+    seconds: float
+    runs: int
+    evaluations: int
+    status: str = RIGHT
+    against: str = ""
+    settings: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def failed(self) -> bool:
+        """True where the method gave no answer."""
+        return self.status != RIGHT
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What errors are measured from, and why it is believed.
+
+    Attributes
+    ----------
+    families
+        the two different families of methods that computed it.
+    agreement
+        how far they are apart, by the names in `Experiment.errors`.
+    trusted
+        True where they agree well enough to judge the points. Errors below the agreement say
+        nothing.
+    seconds
+        [s] it took.
+    note
+        what else is to be known.
+    """
+
+    families: tuple[str, str]
+    agreement: Mapping[str, float]
+    trusted: bool
+    seconds: float
+    note: str = ""
+
+    @property
+    def sentence(self) -> str:
+        """For captions: who agrees with whom, and how well."""
+        apart = ", ".join(f"{name} {value:.1e}" for name, value in self.agreement.items())
+        verdict = "agree" if self.trusted else "DO NOT AGREE, so errors below mean little"
+        text = f"{self.families[0]} and {self.families[1]} {verdict}: apart by {apart}"
+        return f"{text}. {self.note}" if self.note else text
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Points of several methods on one problem.
+
+    Attributes
+    ----------
+    name, title
+        short name, and what is compared, with the scene in words.
+    errors
+        what each error is, with its unit, by name; the first is the one to draw.
+    evaluations
+        what is counted as cost beside time.
+    references
+        by name; "" is that of every point that names none.
+    points
+        in the order measured.
+    left_out
+        which methods are not among them, and why.
+    completed
+        False where it was cancelled.
+    """
+
+    name: str
+    title: str
+    errors: Mapping[str, str]
+    evaluations: str
+    references: Mapping[str, Reference]
+    points: tuple[Point, ...]
+    left_out: str = ""
+    completed: bool = True
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Names of the methods, in the order measured."""
+        return tuple(dict.fromkeys(point.method for point in self.points))
+
+    def of(self, method: str) -> tuple[Point, ...]:
+        """The points of one method."""
+        return tuple(point for point in self.points if point.method == method)
+
+    def frontier(self, error: str | None = None, cost: str = "seconds") -> tuple[Point, ...]:
+        """The points that no other point beats in both error and cost, from cheap to exact."""
+        name = error or next(iter(self.errors))
+        known = [p for p in self.points if not p.failed and math.isfinite(p.errors.get(name, nan))]
+        best: list[Point] = []
+        for point in sorted(known, key=lambda p: (getattr(p, cost), p.errors[name])):
+            if not best or point.errors[name] < best[-1].errors[name]:
+                best.append(point)
+        return tuple(best)
+
+    def table(self) -> str:
+        """All points as text, one a line."""
+        lines = [self.title]
+        lines += [
+            f"  reference{f' {name}' if name else ''}: {reference.sentence}"
+            for name, reference in self.references.items()
+        ]
+        width = max([len(p.method) for p in self.points] + [6]) + 2
+        other = max([len(p.setting) for p in self.points] + [7]) + 2
+        heads = "".join(f"{name:>14}" for name in self.errors)
+        lines.append(f"  {'method':{width}}{'setting':{other}}{heads}{'ms':>10}{'calls':>11}")
+        for p in self.points:
+            cells = "".join(f"{p.errors.get(name, nan):>14.1e}" for name in self.errors)
+            text = f"  {p.method:{width}}{p.setting:{other}}{cells}{1e3 * p.seconds:>10.2f}"
+            text += f"{p.evaluations:>11}"
+            lines.append(text + (f"  {p.status}" if p.failed else ""))
+        lines += [f"  {name}: {text}" for name, text in self.errors.items()]
+        if self.left_out:
+            lines.append(f"  left out: {self.left_out}")
+        if not self.completed:
+            lines.append("  cancelled before its end")
+        return "\n".join(lines)
+
+
+nan = math.nan
+
+
+def failed(
+    method: str, setting: str, value: float, why: str, seconds: float = nan, evaluations: int = 0
+) -> Point:
+    """A point that says that a method did not get there."""
+    return Point(method, setting, value, {}, seconds, 1, evaluations, f"failed: {why}")
+
+
+def least_time(
+    work: Callable[[], T], *, runs: int = 5, budget: float = 0.5
+) -> tuple[T, float, int]:
+    """What `work` returns, the least time [s] of several runs after a warm-up, how many runs.
+
+    The warm-up counts as the one run where it alone takes longer than `budget` [s] and the work is
+    compiled already; runs end when the budget is spent.
+    """
+    start = time.perf_counter()
+    answer = work()
+    first = time.perf_counter() - start
+    if first > budget:
+        return answer, first, 1
+    least, spent, done = math.inf, 0.0, 0
+    while done < runs and spent < budget:
+        start = time.perf_counter()
+        answer = work()
+        taken = time.perf_counter() - start
+        least, spent, done = min(least, taken), spent + taken, done + 1
+    return answer, least, done
+
+
+def slope(values: Iterable[float], errors: Iterable[float]) -> float:
+    """Slope of log error against log value, by least squares; NaN with fewer than two points."""
+    pairs = [
+        (math.log(v), math.log(e))
+        for v, e in zip(values, errors, strict=True)
+        if e > 0.0 and math.isfinite(e)
+    ]
+    if len(pairs) < 2:
+        return nan
+    mean_v = sum(v for v, _ in pairs) / len(pairs)
+    mean_e = sum(e for _, e in pairs) / len(pairs)
+    over = sum((v - mean_v) * (e - mean_e) for v, e in pairs)
+    under = sum((v - mean_v) ** 2 for v, _ in pairs)
+    return over / under if under > 0.0 else nan

@@ -1,0 +1,381 @@
+"""Where methods of marching break: steps that are too long, and energy that leaks away.
+
+For each method the linear limit is the longest step at which it does not let a linear oscillation
+grow, for the stiffest static state of the scene: the eigenvalues λ of the linearised motion
+(Eq. 28, signs mended) go through the method's own amplification.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.dynamics.modes import (
+    contact_damping,
+    highest_natural_frequency,
+    loaded_directions,
+    two_body_matrix,
+)
+from bearingcore.dynamics.motion import default_step_rate
+from bearingcore.dynamics.problem import motion_problem
+from bearingcore.experiments.integrators import GENERALISED_ALPHA, METHODS
+from bearingcore.experiments.motions import BAND, at_rate
+from bearingcore.experiments.points import Reference
+from bearingcore.experiments.references import MotionReference, motion_reference
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+
+Array = NDArray[np.float64]
+
+RIGHT, LOST, WRONG, DIVERGED = "right", "amplitude lost", "wrong", "diverged"
+VERDICTS = (RIGHT, LOST, WRONG, DIVERGED)
+"""`right`: the spectrum is within RIGHT_DB. `amplitude lost`: the motion is smaller than it should
+be by more than a tenth. `wrong`: neither, out of tune or too large. `diverged`: it has grown beyond
+any bound."""
+
+RIGHT_DB, LOST_PART, GROWN = 1.0, 0.9, 100.0
+
+FIXED_STEP = tuple(name for name, method in METHODS.items() if method.fixed_step)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One method at one step.
+
+    Attributes
+    ----------
+    method, step_rate [Hz]
+        who, and how many steps a second.
+    verdict
+        one of VERDICTS.
+    spectrum_error
+        [dB], as in `references`; infinite for a motion that diverged.
+    amplitude
+        root mean square of the housing's acceleration over that of the reference.
+    """
+
+    method: str
+    step_rate: float
+    verdict: str
+    spectrum_error: float
+    amplitude: float
+
+
+@dataclass(frozen=True)
+class StabilityChart:
+    """Verdicts over methods and steps, with what linear theory foretells.
+
+    Attributes
+    ----------
+    linear_limit
+        least step rate [Hz] at which each method should be stable, 0 where any will do.
+    highest_frequency
+        [Hz] of the stiffest static state.
+    trials
+        what was found.
+    reference
+        what amplitudes and spectra were compared with.
+    completed
+        False where it was cancelled.
+    """
+
+    scene: Scene
+    linear_limit: dict[str, float]
+    highest_frequency: float
+    trials: tuple[Trial, ...]
+    reference: Reference
+    completed: bool = True
+
+    def found_limit(self, method: str) -> float:
+        """Least step rate tried [Hz] from which on the method never diverged; inf for none."""
+        limit = math.inf
+        for trial in sorted(self.trials, key=lambda t: -t.step_rate):
+            if trial.method == method:
+                if trial.verdict == DIVERGED:
+                    break
+                limit = trial.step_rate
+        return limit
+
+    def table(self) -> str:
+        """Methods down, steps across, with the linear limit beside."""
+        rates = sorted({trial.step_rate for trial in self.trials})
+        names = list(dict.fromkeys(trial.method for trial in self.trials))
+        width = max(len(name) for name in names) + 2
+        lines = [f"steps/s over the highest natural frequency of {self.highest_frequency:.0f} Hz"]
+        heads = "".join(f"{rate / self.highest_frequency:>9.1f}" for rate in rates)
+        lines.append(f"  {'method':{width}}{heads}   linear limit")
+        short = {RIGHT: "right", LOST: "lost", WRONG: "wrong", DIVERGED: "diverged"}
+        by_place = {(t.method, t.step_rate): short[t.verdict] for t in self.trials}
+        for name in names:
+            cells = "".join(f"{by_place.get((name, rate), ''):>9}" for rate in rates)
+            limit = self.linear_limit[name] / self.highest_frequency
+            lines.append(f"  {name:{width}}{cells}{limit:>15.2f}")
+        return "\n".join(lines)
+
+
+def linear_limits(scene: Scene) -> dict[str, float]:
+    """Least stable step rate [Hz] of each fixed-step method at the scene's stiffest static state.
+
+    0 for methods that are stable at any step. Damping counts: it can help or harm.
+    """
+    dofs = scene.active_dofs
+    index = [DOF_NAMES.index(name) for name in dofs]
+    state = equilibrium(scene, default_cage_angles(scene, 31), dofs)
+    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    damping = contact_damping(scene) * loaded_directions(state)
+    systems = []
+    for k in np.flatnonzero(state.converged):
+        K = two_body_matrix(state.stiffness[k][np.ix_(index, index)], scene.support.stiffness(dofs))
+        C = two_body_matrix(damping[k][np.ix_(index, index)], scene.support.damping(dofs))
+        systems.append((K / mass[:, None], C / mass[:, None]))
+    if not systems:
+        return dict.fromkeys(FIXED_STEP, math.nan)
+    # the stiffest is the one whose fastest eigenvalue is greatest
+    fastest = [np.abs(np.linalg.eigvals(_first_order(K, C))).max() for K, C in systems]
+    K, C = systems[int(np.argmax(fastest))]
+    return {name: _least_stable_rate(name, K, C, float(max(fastest))) for name in FIXED_STEP}
+
+
+def _first_order(K: Array, C: Array) -> Array:
+    m = len(K)
+    A = np.zeros((2 * m, 2 * m))
+    A[:m, m:] = np.eye(m)
+    A[m:, :m], A[m:, m:] = -K, -C
+    return A
+
+
+def amplification(method: str, K: Array, C: Array, h: float) -> Array:
+    """What one step h [s] of a fixed-step method does to the state of ẍ + C ẋ + K x = 0.
+
+    K [1/s²] and C [1/s] (m, m), divided by the masses. The state is (x, h v) or, for Verlet and
+    generalised-α, (x, h v, h² a).
+    """
+    m = len(K)
+    one, zero = np.eye(m), np.zeros((m, m))
+    k, c = h * h * K, h * C
+    if method in ("RK4", "RK4 in velocities"):
+        z = np.block([[zero, one], [-k, -c]])
+        step: NDArray[Any] = np.eye(2 * m) + z @ (
+            np.eye(2 * m) + z @ (np.eye(2 * m) / 2 + z @ (np.eye(2 * m) / 6 + z / 24))
+        )
+        return step
+    if method == "Verlet":
+        x = np.hstack([one, one, 0.5 * one])
+        foretold = np.hstack([zero, one, one])
+        a = -k @ x - c @ foretold
+        v = np.hstack([zero, one, 0.5 * one]) + 0.5 * a
+        return np.vstack([x, v, a])
+    am, af = GENERALISED_ALPHA[method]
+    gamma, beta = 0.5 - am + af, 0.25 * (1.0 - am + af) ** 2
+    # (1−am) a1 + am a + c v(af) + k x(af) = 0 with Newmark's x1 and v1
+    x0 = np.hstack([one, one, (0.5 - beta) * one])
+    v0 = np.hstack([zero, one, (1.0 - gamma) * one])
+    x_before, v_before = np.hstack([one, zero, zero]), np.hstack([zero, one, zero])
+    right = (
+        am * np.hstack([zero, zero, one])
+        + k @ ((1.0 - af) * x0 + af * x_before)
+        + c @ ((1.0 - af) * v0 + af * v_before)
+    )
+    left = (1.0 - am) * one + (1.0 - af) * (beta * k + gamma * c)
+    a = -np.asarray(np.linalg.solve(left, right), dtype=float)
+    return np.vstack([x0 + beta * a, v0 + gamma * a, a])
+
+
+def _least_stable_rate(method: str, K: Array, C: Array, fastest: float) -> float:
+    """Bisection on the spectral radius; `fastest` is the greatest |λ| [1/s]."""
+
+    def grows(h: float) -> bool:
+        radius = float(np.abs(np.linalg.eigvals(amplification(method, K, C, h))).max())
+        return radius > 1.0 + 1e-9
+
+    steps = np.geomspace(0.02, 200.0, 200) / fastest
+    first = next((i for i, h in enumerate(steps) if grows(h)), None)
+    if first is None:
+        return 0.0
+    if first == 0:
+        return math.inf
+    low, high = float(steps[first - 1]), float(steps[first])
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if grows(middle) else (middle, high)
+    return 1.0 / low
+
+
+def stability_chart(
+    scene: Scene,
+    *,
+    duration: float = 0.25,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> StabilityChart:
+    """March `scene` by every fixed-step method at steps from far too long to good.
+
+    Parameters
+    ----------
+    scene
+        what moves.
+    duration
+        [s] of motion.
+    progress, cancelled
+        see `points`.
+
+    Raises
+    ------
+    ValueError
+        for a shaft that stands still or a scene without a static state.
+    """
+    if scene.shaft_speed == 0.0:
+        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
+    problem = motion_problem(scene)
+    highest = highest_natural_frequency(scene)
+    if progress is not None:
+        progress(0.0, "reference by two families")
+    usual = default_step_rate(scene, 65536.0, highest)
+    sample_rate = max(65536.0, usual)
+    reference = motion_reference(problem, duration, sample_rate, BAND * highest)
+    limits = linear_limits(scene)
+    # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π
+    rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
+    fitting = sorted({_fitting_rate(float(rate), sample_rate) for rate in rates})
+    tasks = [(name, rate) for name in FIXED_STEP for rate in fitting]
+    trials = [
+        _trial(reference, name, rate)
+        for name, rate in in_turn(
+            tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s", progress, cancelled, begin=0.2
+        )
+    ]
+    return StabilityChart(
+        scene, limits, highest, tuple(trials), reference.reference, len(trials) == len(tasks)
+    )
+
+
+def _fitting_rate(rate: float, sample_rate: float) -> float:
+    """The nearest step rate [Hz] that fits the samples, so that errors can be taken."""
+    ratio = sample_rate / rate
+    return sample_rate / round(ratio) if ratio >= 1.0 else sample_rate * round(1.0 / ratio)
+
+
+def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
+    sample_rate = reference.sample_rate
+    with np.errstate(all="ignore"):
+        march = METHODS[name].march(reference.problem, step_rate, reference.duration, sample_rate)
+        signal = march.history[:, 5]
+        good = reference.history[:, 5]
+        amplitude = math.sqrt(float(np.mean(signal**2)) / float(np.mean(good**2)))
+        if march.failure.startswith("diverged") or not amplitude < GROWN:
+            return Trial(name, step_rate, DIVERGED, math.inf, math.inf)
+        history = at_rate(march.history, step_rate, sample_rate, len(reference.history))
+        errors = reference.errors(history)
+        amplitude = math.sqrt(float(np.mean(history[:, 5] ** 2)) / float(np.mean(good**2)))
+    decibel = errors["spectrum"]
+    verdict = LOST if amplitude < LOST_PART else WRONG
+    if decibel <= RIGHT_DB:
+        verdict = RIGHT
+    return Trial(name, step_rate, verdict, decibel, amplitude)
+
+
+# --- energy --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EnergyDrift:
+    """Energy of a motion that nothing damps, over time.
+
+    Attributes
+    ----------
+    method, setting
+        who, and steps a second [Hz] or tolerance.
+    time : (n,) [s]
+    drift : (n,)
+        energy gained since the start over the energy of the motion.
+    failure
+        empty, or why it broke off.
+    """
+
+    method: str
+    setting: float
+    time: Array
+    drift: Array
+    failure: str = ""
+
+    @property
+    def final(self) -> float:
+        """Mean drift over the last tenth; NaN for a motion that failed."""
+        return float(self.drift[-max(len(self.drift) // 10, 1) :].mean())
+
+
+def bouncing(scene: Scene) -> Scene:
+    """The scene with a sound bearing and nothing that damps."""
+    damping = {f"damping_{dof}": 0.0 for dof in scene.active_dofs}
+    return replace(scene.sound(), contact_damping=0.0).replace(**damping)
+
+
+def energy_drifts(
+    scene: Scene,
+    *,
+    duration: float = 5.0,
+    steps_a_period: float = 16.0,
+    tolerance: float = 1e-6,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> tuple[EnergyDrift, ...]:
+    """Energy drift of the scene's undamped, bouncing motion, cage held still, by each method.
+
+    The inner ring starts lifted off its static place against the load by five times the
+    compression it has there, so that balls lose contact and meet again all the time. What remains
+    of the energy shows what a method invents or swallows.
+
+    Parameters
+    ----------
+    scene
+        whose bearing, masses and support bounce.
+    duration
+        [s]; of what is kept, at most 2000 instants are returned.
+    steps_a_period
+        steps of the fixed-step methods in a period of the highest natural frequency.
+    tolerance
+        of the adaptive ones.
+    progress, cancelled
+        see `points`.
+    """
+    still = bouncing(scene)
+    highest = highest_natural_frequency(still)
+    rate = steps_a_period * highest
+    problem = motion_problem(still, still=True)
+    n = len(problem.dofs)
+    force = problem.bodies[0]
+    size = float(np.linalg.norm(force))
+    if size == 0.0:
+        raise checks.refuse("load", 0.0, "one that the free directions feel")
+    lift = -5.0 * problem.scale[0] * force / size
+    problem = motion_problem(still, still=True, offset=lift)
+    at_rest = motion_problem(still, still=True).start.reshape(1, 4, n)
+    lowest = problem.energy(_as_history(at_rest))[0]
+    names = [name for name in METHODS if not name.startswith("scipy")]
+    drifts = []
+    for name in in_turn(names, str, progress, cancelled):
+        method = METHODS[name]
+        setting = rate if method.fixed_step else tolerance
+        with np.errstate(all="ignore"):
+            march = method.march(problem, setting, duration, rate)
+            every = max(len(march.history) // 2000, 1)
+            history = march.history[::every]
+            energy = problem.energy(np.ascontiguousarray(history))
+            drift = (energy - energy[0]) / (energy[0] - lowest)
+        time = np.arange(len(history)) * every / march.step_rate
+        drifts.append(EnergyDrift(name, setting, time, drift, march.failure))
+    return tuple(drifts)
+
+
+def _as_history(states: Array) -> Array:
+    """History (n, 6, directions) without accelerations of states (n, 4, directions)."""
+    nothing = np.zeros_like(states[:, 0])
+    return np.stack(
+        [states[:, 0], states[:, 1], nothing, states[:, 2], states[:, 3], nothing], axis=1
+    )

@@ -1,0 +1,582 @@
+"""Work and precision of static equilibrium: solvers, and the number and placing of cage angles.
+
+The energy Newton is here a second time, in NumPy and over all cage angles at once: readable, and
+what the compiled one is compared with.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import trapezoid
+
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
+from bearingcore.model.defect import path_tables
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
+from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+from bearingcore.statics.passes import ball_drop, path_kinks
+
+Array = NDArray[np.float64]
+
+STATIC_ERRORS = {
+    "stiffness": "greatest error of a stiffness term over the size of the term, or of its "
+    "neighbours on the diagonal where symmetry makes it zero",
+    "load": "greatest error of a ball's load over the greatest load",
+}
+"""Errors of static states by name."""
+
+ANGLE_ERRORS = {
+    "trace": "greatest error of straight lines between the cage angles, over each curve's swing "
+    "(or 1 % of its size)",
+    "mean": "greatest error of the mean of a stiffness term, over the size of the term",
+}
+"""Errors of a choice of cage angles by name."""
+
+LEFT_OUT = (
+    "gradient descent and BFGS on the energy, which take hundreds of evaluations an angle; the "
+    "compiled Newton at looser tolerances, as its last step squares the error and nothing is saved"
+)
+
+WRONG, STRICT = 0.1, 1e-6
+"""Where a solver that was asked for the second tolerance or less calls an answer solved whose
+stiffness errs by more than the first, it has failed."""
+
+
+@dataclass(frozen=True)
+class StaticProblem:
+    """Static equilibrium of a scene at m cage angles, rotations times r_d, moments over r_d.
+
+    `c`, `s`, `d` (m, N_b): cosine, sine [-] and drop [m] of each ball; `force` (5,) [N]; `active`
+    the free directions; `numbers` cos α0, sin α0, A0, r_L, K; `guess` (5,) [m] to start from.
+    """
+
+    scene: Scene
+    angles: Array
+    c: Array
+    s: Array
+    d: Array
+    force: Array
+    active: NDArray[np.int64]
+    numbers: tuple[float, float, float, float, float]
+    guess: Array
+
+    @property
+    def load(self) -> float:
+        """Size of the load along the free directions [N]."""
+        return float(np.linalg.norm(self.force[self.active]))
+
+
+def static_problem(scene: Scene, angles: Array) -> StaticProblem:
+    """The numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
+    bearing = scene.bearing
+    phi = angles[:, None] + bearing.ball_spacing * np.arange(bearing.n_balls)
+    units = np.ones(5)
+    units[3:] = bearing.groove_center_radius
+    _, ca, sa, A0, rL, K = bearing.contact_numbers
+    force = scene.load.vector / units
+    active = np.array([DOF_NAMES.index(name) for name in scene.active_dofs])
+    guess = np.zeros(5)
+    load = float(np.linalg.norm(force[active]))
+    if load > 0.0:
+        reach = rL / ca + (load / K) ** (2.0 / 3.0)
+        guess[active] = reach * force[active] / load
+    drop = ball_drop(scene, phi, angles[:, None])
+    return StaticProblem(
+        scene, angles, np.cos(phi), np.sin(phi), drop, force, active, (ca, sa, A0, rL, K), guess
+    )
+
+
+class Contacts(NamedTuple):
+    """Energy (m,) [N·m] without the load's, forces (m, 5) [N], stiffness (m, 5, 5) [N/m], and
+    ball loads (m, N_b) [N].
+    """
+
+    energy: Any
+    force: Any
+    stiffness: Any
+    load: Any
+
+
+def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contacts:
+    """All contacts at displacements q (m, 5) [m], of the precision that q has (Eqs. 7-17)."""
+    ca, sa, A0, rL, K = problem.numbers
+    c, s, d = problem.c[rows], problem.s[rows], problem.d[rows]
+    radial = q[:, :1] * c + q[:, 1:2] * s - rL  # Equation (11)
+    axial = q[:, 2:3] + q[:, 3:4] * s - q[:, 4:] * c  # Equation (12)
+    along = A0 + radial * ca + axial * sa - d
+    across = axial * ca - radial * sa
+    guarded = np.maximum(along, 0.0)
+    A = np.sqrt(guarded**2 + across**2)  # Equation (7)
+    delta = np.maximum(A - A0, 0.0)
+    length = np.maximum(A, 1e-300)
+    eu, ew = guarded / length, across / length
+    er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
+    Q = K * delta * np.sqrt(delta)  # Equation (13)
+    k1 = 1.5 * K * np.sqrt(delta)
+    k2 = np.where(along > 0.0, Q / length, 0.0)
+    zero, one = np.zeros_like(c), np.ones_like(c)
+    R = np.stack([c, s, zero, zero, zero], axis=-1)
+    Z = np.stack([zero, zero, one, s, -c], axis=-1)
+    e = er[..., None] * R + ez[..., None] * Z
+    t = -ez[..., None] * R + er[..., None] * Z
+    force = (Q[..., None] * e).sum(axis=1)  # Equation (15)
+    stiffness = np.swapaxes(k1[..., None] * e, 1, 2) @ e  # Equation (17)
+    stiffness = stiffness + np.swapaxes(k2[..., None] * t, 1, 2) @ t
+    return Contacts(0.4 * (Q * delta).sum(axis=1), force, stiffness, Q)
+
+
+class Found(NamedTuple):
+    """Displacements (m, 5), which of them the solver calls solved, and evaluations in all."""
+
+    q: Any
+    solved: NDArray[np.bool_]
+    evaluations: int
+
+
+def energy_newton(
+    problem: StaticProblem,
+    tolerance: float,
+    *,
+    search: bool = True,
+    start: Array | None = None,
+    extended: bool = False,
+    most: int = 100,
+) -> Found:
+    """Newton's method on the energy V(q), all cage angles at once.
+
+    Parameters
+    ----------
+    problem
+        what to solve.
+    tolerance
+        of the unbalanced load over the load.
+    search
+        False takes every step whole: the plain Newton-Raphson method.
+    start : (5,) [m]
+        None takes `problem.guess`.
+    extended
+        forces and energy in 80-bit numbers; directions still in double precision, which only
+        makes them slightly wrong directions.
+    """
+    kind = np.longdouble if extended else np.float64
+    m, active = len(problem.angles), problem.active
+    q = np.zeros((m, 5), dtype=kind)
+    q[:] = problem.guess if start is None else start
+    load = problem.load or 1.0
+    F = problem.force.astype(kind)
+    todo = np.arange(m)
+    solved = np.zeros(m, dtype=bool)
+    evaluations = 0
+    spring = 1.5 * (problem.numbers[4] ** 2 * load) ** (1.0 / 3.0)  # one ball under all the load
+    shift = np.full(m, 1e-3)
+    state = contacts(problem, q)
+    evaluations += m
+    for _ in range(most):
+        g = (state.force - F)[:, active]
+        residual = np.sqrt((g**2).sum(axis=1)) / load
+        finite = np.isfinite(residual)
+        done = finite & (residual <= tolerance)
+        solved[todo[done]] = True
+        keep = finite & ~done
+        todo, g = todo[keep], g[keep]
+        if not todo.size:
+            break
+        now = q[todo]
+        H = state.stiffness[keep][:, active][:, :, active].astype(float)
+        V = state.energy[keep] - now @ F
+        # the plain method has no remedy for a direction without stiffness
+        least = np.linalg.eigvalsh(H)[:, 0]
+        greatest = np.abs(H).max(axis=(1, 2))
+        weak = least <= 1e-12 * greatest
+        if search:
+            extra = np.where(weak, shift[todo] * np.maximum(spring, greatest), 0.0)
+            shift[todo[weak]] *= 0.1
+            H = H + extra[:, None, None] * np.eye(len(active))
+        else:
+            todo, g, now, V, H = (part[~weak] for part in (todo, g, now, V, H))
+            if not todo.size:
+                break
+        p = np.zeros_like(now)
+        p[:, active] = -np.linalg.solve(H, g.astype(float)[..., None])[..., 0]
+        slope = (g * p[:, active]).sum(axis=1)
+        step = np.ones(len(todo))
+        open_ = np.arange(len(todo))
+        state = contacts(problem, now + p, todo)
+        evaluations += len(todo)
+        for _ in range(60 if search else 0):
+            trial = now[open_] + step[open_, None] * p[open_]
+            new = contacts(problem, trial, todo[open_])
+            evaluations += 0 if step[0] == 1.0 and len(open_) == len(todo) else len(open_)
+            fall = (new.energy - trial @ F) - V[open_]
+            flat = (
+                np.abs(((new.force - F) * p[open_]).sum(axis=1)) <= 0.9 * np.abs(slope[open_])
+            ) & (np.abs(fall) <= 1e-14 * (np.abs(V[open_]) + new.energy))
+            open_ = open_[~((fall <= 1e-4 * step[open_] * slope[open_]) | flat)]
+            if not open_.size:
+                break
+            step[open_] *= 0.4
+        q[todo] = now + step[:, None] * p
+        if np.any(step != 1.0):
+            state = contacts(problem, q[todo], todo)
+    return Found(q, solved, evaluations)
+
+
+def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool) -> Found:
+    """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy."""
+    from scipy.optimize import least_squares, root  # imported late: slow to import
+
+    active, load = problem.active, problem.load or 1.0
+    length = float(np.linalg.norm(problem.guess)) or 1e-6
+    q = np.zeros((len(problem.angles), 5))
+    solved = np.zeros(len(q), dtype=bool)
+    evaluations = 0
+
+    def at(u: Array, k: int) -> Contacts:
+        nonlocal evaluations
+        evaluations += 1
+        full = np.zeros((1, 5))
+        full[0, active] = u * length
+        return contacts(problem, full, slice(k, k + 1))
+
+    def unbalanced(u: Array, k: int) -> Array:
+        forces: Array = (at(u, k).force[0] - problem.force)[active] / load
+        return forces
+
+    def jacobian(u: Array, k: int) -> Array:
+        slopes: Array = at(u, k).stiffness[0][np.ix_(active, active)] * (length / load)
+        return slopes
+
+    guess = problem.guess[active] / length
+    for k in range(len(q)):
+        start = q[k - 1, active] / length if warm and k > 0 and solved[k - 1] else guess
+        if method == "least_squares":
+            tight = max(tolerance, 2.3e-16)
+            fit = least_squares(
+                unbalanced, start, jac=jacobian, args=(k,), ftol=tight, xtol=tight, gtol=tight
+            )
+            u, solved[k] = fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8)
+        else:
+            answer = root(  # type: ignore[call-overload]
+                unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
+            )
+            u, solved[k] = answer.x, answer.success
+        q[k, active] = u * length
+    return Found(q, solved, evaluations)
+
+
+def _compiled(problem: StaticProblem, tolerance: float, warm: bool) -> Found:
+    """The program's own, whose tolerance is fixed."""
+    paths = path_tables(problem.scene.defects, problem.scene.bearing)
+    arguments = (
+        problem.angles, *paths, problem.force, problem.active,
+        *problem.scene.bearing.contact_numbers,
+    )  # fmt: skip
+    if warm:
+        q, _, _, _, status, _, _, evaluations = kernels.static_states(*arguments)
+        return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
+    q, evaluations, met = kernels.static_states_cold(*arguments)
+    return Found(q, np.full(len(q), met), int(evaluations))
+
+
+Solver = Callable[[StaticProblem, float], Found]
+
+_TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+_FEW = (1e-2, 1e-4, 1e-8, 1e-12)
+
+SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
+    "compiled, warm start": (partial(_compiled, warm=True), (kernels.RESIDUAL_AIM,)),
+    "compiled, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
+    "energy Newton, NumPy": (energy_newton, _TOLERANCES),
+    "plain Newton, NumPy": (partial(energy_newton, search=False), _TOLERANCES),
+    "plain Newton from zero": (partial(energy_newton, search=False, start=np.zeros(5)), (1e-6,)),
+    "scipy hybr": (partial(_by_scipy, method="hybr", warm=False), _FEW),
+    "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _FEW),
+    "scipy lm": (partial(_by_scipy, method="lm", warm=False), _FEW),
+    "scipy least squares": (partial(_by_scipy, method="least_squares", warm=False), _FEW),
+}
+"""Ways to solve, by name, with the tolerances at which each is measured."""
+
+
+@dataclass(frozen=True)
+class StaticReference:
+    """Stiffness (m, 5, 5) and ball loads (m, N_b) on which two families agree.
+
+    `known` (m,): angles at which there is one equilibrium and it was proven.
+    """
+
+    stiffness: Array
+    load: Array
+    known: NDArray[np.bool_]
+    reference: Reference
+
+
+def static_reference(problem: StaticProblem) -> StaticReference:
+    """Minima of the energy in extended precision, and roots of the forces in double precision.
+
+    The energy is convex, so that a residual of r times the load bounds the error by r·|F| over the
+    least stiffness. Angles where the least stiffness is zero have no unique answer.
+    """
+    exact, seconds, _ = least_time(
+        lambda: energy_newton(problem, 1e-17, extended=True), runs=1, budget=0.0
+    )
+    other = _by_scipy(problem, 1e-12, "hybr", warm=False)
+    at = contacts(problem, exact.q)
+    residual = np.sqrt((((at.force - problem.force)[:, problem.active]) ** 2).sum(axis=1))
+    active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
+    least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
+    greatest = np.abs(at.stiffness.astype(float)[active]).max(axis=(1, 2))
+    with np.errstate(invalid="ignore"):
+        known = (residual <= 1e-15 * problem.load) & (least > 1e-10 * greatest)
+    stiffness, load = at.stiffness.astype(float), at.load.astype(float)
+    both = known & other.solved
+    agreement = (
+        static_errors(problem, other.q[both], stiffness[both], load[both], both)
+        if both.any()
+        else dict.fromkeys(STATIC_ERRORS, math.nan)
+    )
+    alone = int((known & ~other.solved).sum())
+    note = f"{int(known.sum())} of {len(known)} cage angles have one equilibrium"
+    if alone:
+        note += f"; at {alone} of them MINPACK found none, and the proof is the residual alone"
+    reference = Reference(
+        ("energy Newton in 80-bit numbers", "MINPACK hybr on the forces"),
+        agreement,
+        bool(known.any()) and agreement["stiffness"] < 1e-6,
+        seconds,
+        note,
+    )
+    return StaticReference(stiffness, load, known, reference)
+
+
+def static_errors(
+    problem: StaticProblem, q: Array, stiffness: Array, load: Array, rows: Any
+) -> dict[str, float]:
+    """Errors of displacements q (m, 5) against stiffness and loads, names of STATIC_ERRORS."""
+    found = contacts(problem, q, rows)
+    size = np.abs(stiffness).max(axis=0)
+    diagonal = np.diagonal(size)
+    size = np.maximum(size, 1e-6 * np.sqrt(diagonal[:, None] * diagonal))
+    size = np.where(size > 0.0, size, 1.0)
+    return {
+        "stiffness": float((np.abs(found.stiffness - stiffness) / size).max()),
+        "load": float(np.abs(found.load - load).max() / load.max()),
+    }
+
+
+def statics_experiment(
+    scene: Scene,
+    *,
+    n_angles: int = 121,
+    solvers: Sequence[str] | None = None,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> Experiment:
+    """Error against cost of ways to solve the static equilibrium over a period of cage angles.
+
+    Parameters
+    ----------
+    scene
+        what to solve.
+    n_angles
+        equally spaced cage angles in a ball spacing.
+    solvers
+        names out of SOLVERS; None takes all.
+    progress, cancelled
+        see `points`.
+    """
+    names = tuple(SOLVERS) if solvers is None else tuple(solvers)
+    for name in names:
+        checks.choice("solver", name, tuple(SOLVERS))
+    problem = static_problem(scene, default_cage_angles(scene, n_angles))
+    if progress is not None:
+        progress(0.0, "reference by two families")
+    reference = static_reference(problem)
+    for name in names:
+        if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
+            SOLVERS[name][0](problem, 0.0)  # so that nothing is compiled while time is taken
+    tasks = [(name, tolerance) for name in names for tolerance in SOLVERS[name][1]]
+    points = []
+    for name, tolerance in in_turn(
+        tasks, lambda task: f"{task[0]}, {task[1]:.0e}", progress, cancelled, begin=0.2
+    ):
+        points.append(_measured(problem, reference, name, tolerance))
+    return Experiment(
+        "statics",
+        f"Static equilibrium in {', '.join(scene.active_dofs)}, {len(problem.angles)} cage angles",
+        STATIC_ERRORS,
+        "evaluations of all contacts at one cage angle",
+        {"": reference.reference},
+        tuple(points),
+        LEFT_OUT,
+        completed=len(points) == len(tasks),
+    )
+
+
+def _measured(
+    problem: StaticProblem, reference: StaticReference, name: str, tolerance: float
+) -> Point:
+    with np.errstate(all="ignore"):
+        found, seconds, runs = least_time(lambda: SOLVERS[name][0](problem, tolerance))
+    known = reference.known
+    missing = int((known & ~found.solved).sum())
+    errors: dict[str, float] = {}
+    status = RIGHT
+    if missing:
+        status = f"failed: no answer at {missing} of {int(known.sum())} cage angles"
+    elif known.any():
+        errors = static_errors(
+            problem, found.q[known].astype(float), reference.stiffness[known],
+            reference.load[known], known,
+        )  # fmt: skip
+        if tolerance <= STRICT and not errors["stiffness"] <= WRONG:
+            status = "failed: a wrong answer that it calls solved"
+    return Point(
+        name, f"tolerance {tolerance:.0e}", tolerance, errors, seconds, runs, found.evaluations,
+        status,
+    )  # fmt: skip
+
+
+# --- number and placing of cage angles ------------------------------------------------------------
+
+
+PLACINGS = ("equally spaced", "equally spaced and edges", "placed at events")
+"""Ways to choose cage angles."""
+
+
+def angles_experiment(
+    scene: Scene,
+    curves: str = "stiffness",
+    *,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> Experiment:
+    """Error against cost of cage angles: equally spaced, with nodes at edges, and placed.
+
+    Parameters
+    ----------
+    scene
+        whose curves are drawn.
+    curves
+        "load", "stiffness" or "modes": see `plan.cage_angles`. The mean is that of the
+        same curves.
+    progress, cancelled
+        see `points`.
+    """
+    checks.choice("curves", curves, CURVES)
+    if progress is not None:
+        progress(0.0, "reference by two families")
+    period = default_cage_angles(scene, 2)
+    first, last = float(period[0]), float(period[-1])
+    truth = _DenseTruth(scene, curves, first, last)
+    kinks = path_kinks(scene, first, last)
+
+    def equal(n: float) -> tuple[Array, int]:
+        return np.linspace(first, last, round(n)), round(n)
+
+    def with_edges(n: float) -> tuple[Array, int]:
+        angles = np.unique(np.concatenate([np.linspace(first, last, round(n)), kinks]))
+        return angles, len(angles)
+
+    def placed(budget: float) -> tuple[Array, int]:
+        nodes = place(scene, curves, budget)
+        return nodes.angles, nodes.solved
+
+    counts = tuple(float(2**k + 1) for k in range(4, 12))
+    budgets = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
+    choices: tuple[tuple[str, Callable[[float], tuple[Array, int]], tuple[float, ...]], ...] = (
+        tuple(zip(PLACINGS, (equal, with_edges, placed), (counts, counts, budgets), strict=True))
+    )
+    tasks = [(name, choose, value) for name, choose, values in choices for value in values]
+    points = []
+    for name, choose, value in in_turn(
+        tasks, lambda task: f"{task[0]}, {task[2]:g}", progress, cancelled, begin=0.2
+    ):
+
+        def work(
+            choose: Callable[[float], tuple[Array, int]] = choose, value: float = value
+        ) -> tuple[Array, Array, int]:
+            angles, solved = choose(value)
+            return angles, curves_of(equilibrium(scene, angles), curves), solved
+
+        (angles, values, solved), seconds, runs = least_time(work)
+        words = f"budget {value:g}" if name.startswith("placed") else f"{len(angles)} angles"
+        if name.startswith("placed"):
+            words += f", {len(angles)} angles"
+        points.append(
+            Point(name, words, value, truth.errors(angles, values), seconds, runs, solved)
+        )
+    return Experiment(
+        "angles",
+        f"Cage angles for curves of {curves} over {math.degrees(last - first):.4g}°",
+        ANGLE_ERRORS,
+        "cage angles solved",
+        {"": truth.reference},
+        tuple(points),
+        "cubic curves between angles: no better than lines at a corner or a root",
+        completed=len(points) == len(tasks),
+    )
+
+
+class _DenseTruth:
+    """Curves on a dense grid with a node at every edge, and their means by another quadrature."""
+
+    def __init__(self, scene: Scene, curves: str, first: float, last: float) -> None:
+        # the compiled solver's curves against those of the NumPy one: the same model, other code
+        began = default_cage_angles(scene, 1001)
+        dense = place(scene, curves, 3e-4).angles
+        self.angles = np.unique(
+            np.concatenate([np.linspace(first, last, 16001), dense, 0.5 * (dense[1:] + dense[:-1])])
+        )
+        self.values = curves_of(equilibrium(scene, self.angles), curves)
+        self.scale = swings(self.values)
+        self.size = np.nanmax(np.abs(self.values), axis=0)
+        self.size = np.maximum(self.size, self.scale)
+        known = np.isfinite(self.values).all(axis=1)
+        self.complete = bool(known.all())
+        self.mean = trapezoid(self.values, self.angles, axis=0) / (last - first)
+        # midpoints of equal intervals, never at an edge: another rule, other angles
+        n = 2**14
+        middle = first + (np.arange(n) + 0.5) * (last - first) / n
+        other = curves_of(equilibrium(scene, middle), curves).mean(axis=0)
+        problem = static_problem(scene, began)
+        twin = energy_newton(problem, 1e-12)
+        same = equilibrium(scene, began)
+        both = same.converged & twin.solved
+        units = np.ones(5)
+        units[3:] = scene.bearing.groove_center_radius
+        mine = same.stiffness[both] / (units[:, None] * units)
+        size = np.abs(mine).max(axis=0, initial=0.0) if both.any() else np.ones((5, 5))
+        diagonal = np.diagonal(size)
+        size = np.maximum(size, 1e-6 * np.sqrt(diagonal[:, None] * diagonal)) + 1e-300
+        theirs = contacts(problem, twin.q[both], both).stiffness
+        agreement = {
+            "trace": float((np.abs(mine - theirs) / size).max(initial=0.0)),
+            "mean": float((np.abs(other - self.mean) / self.size).max()),
+        }
+        self.reference = Reference(
+            ("compiled Newton on a dense grid", "NumPy Newton; midpoint rule for the mean"),
+            agreement,
+            agreement["trace"] < 1e-6 and (not self.complete or agreement["mean"] < 1e-4),
+            math.nan,
+            "" if self.complete else "some cage angles have no equilibrium; no mean there",
+        )
+
+    def errors(self, angles: Array, values: Array) -> dict[str, float]:
+        """Of lines between the angles, and of the trapezoidal rule's mean."""
+        lines = np.stack(
+            [np.interp(self.angles, angles, values[:, i]) for i in range(values.shape[1])], axis=1
+        )
+        with np.errstate(invalid="ignore"):
+            trace = float(np.nanmax(np.abs(lines - self.values) / self.scale))
+        mean = trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
+        return {"trace": trace, "mean": float((np.abs(mean - self.mean) / self.size).max())}

@@ -1,0 +1,329 @@
+"""The bearing: its geometry, its kinematics and the frequencies at which it announces defects.
+
+Quantity                                    | Symbol | Name                     | Unit
+------------------------------------------- | ------ | ------------------------ | ---------
+number of balls                             | N_b    | n_balls                  |
+ball diameter                               | D_b    | ball_diameter            | m
+pitch diameter                              | D_p    | pitch_diameter           | m
+unloaded contact angle                      | α0     | contact_angle            | rad
+radius on which inner groove centres lie    | r_d    | groove_center_radius     | m
+unloaded distance of the groove centres     | A0     | groove_center_distance   | m
+radial clearance                            | r_L    | radial_clearance         | m
+load-deflection factor of a ball            | K      | load_deflection_factor   | N/m^1.5
+outer, inner raceway radius (groove bottom) | R_o, R_i | outer_, inner_raceway_radius | m
+inner, outer groove radius, if known        | r_i, r_o | inner_, outer_groove_radius | m
+Young's modulus and Poisson's ratio, if known | E, ν | youngs_modulus, poisson  | Pa,
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Self
+
+from bearingcore.common import checks
+from bearingcore.model import drawing
+from bearingcore.model.hertz import RaceContact, race_contact
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A single-row ball bearing as the contact model sees it (SI units, angles in rad).
+
+    Parameters
+    ----------
+    n_balls
+        number of balls N_b.
+    ball_diameter, pitch_diameter
+        D_b and D_p [m].
+    contact_angle
+        unloaded contact angle α0 [rad], at least 0 and at most 80°.
+    groove_center_radius
+        radius r_d [m] of the circle on which the inner groove's centres of curvature lie: the
+        lever with which a tilt of the ring moves a ball's contact along z (Eq. 12).
+    groove_center_distance
+        distance A0 [m] between the groove centres of an unloaded ball (Eqs. 9, 10).
+    radial_clearance
+        r_L [m], on top of the contact angle (Eq. 11).
+    load_deflection_factor
+        K [N/m^1.5] of both contacts of a ball in series (Eq. 13).
+    outer_raceway_radius, inner_raceway_radius
+        radii R_o and R_i [m] at the bottom of the grooves; defects are cut there (Eq. 6).
+    inner_groove_radius, outer_groove_radius, youngs_modulus, poisson
+        r_i, r_o [m], E [Pa] and ν where the drawing is known, all four of them: contact pressure
+        needs them. `from_drawing` derives K, A0, r_d, R_o and R_i from them, `replace` again.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+
+    Source: Petersen, Howard & Prime (2014), Sections 2.1 and 2.3.
+    """
+
+    n_balls: int
+    ball_diameter: float
+    pitch_diameter: float
+    contact_angle: float
+    groove_center_radius: float
+    groove_center_distance: float
+    radial_clearance: float
+    load_deflection_factor: float
+    outer_raceway_radius: float
+    inner_raceway_radius: float
+    inner_groove_radius: float | None = None
+    outer_groove_radius: float | None = None
+    youngs_modulus: float | None = None
+    poisson: float | None = None
+
+    def __post_init__(self) -> None:
+        def keep(name: str, value: float) -> None:
+            object.__setattr__(self, name, value)
+
+        keep("n_balls", checks.whole_number("n_balls", self.n_balls, at_least=1, at_most=500))
+        for name in (
+            "ball_diameter",
+            "pitch_diameter",
+            "groove_center_radius",
+            "groove_center_distance",
+            "load_deflection_factor",
+            "outer_raceway_radius",
+            "inner_raceway_radius",
+        ):
+            keep(name, checks.number(name, getattr(self, name), above=0.0))
+        keep("contact_angle", drawing.check_contact_angle(self.contact_angle))
+        keep(
+            "radial_clearance",
+            checks.number("radial_clearance", self.radial_clearance, at_least=0.0, unit="m"),
+        )
+        if self.ball_diameter >= self.pitch_diameter:
+            raise checks.refuse(
+                "ball_diameter",
+                self.ball_diameter,
+                f"below the pitch_diameter of {self.pitch_diameter:g} m",
+            )
+        if self.n_balls > 1:
+            gap = self.pitch_diameter * math.sin(math.pi / self.n_balls)
+            if gap < self.ball_diameter:
+                raise checks.refuse(
+                    "n_balls",
+                    self.n_balls,
+                    "so few that balls do not overlap: their centres would be "
+                    f"{gap:g} m apart, the ball_diameter is {self.ball_diameter:g} m",
+                )
+        if not self.inner_raceway_radius < self.outer_raceway_radius:
+            raise checks.refuse(
+                "inner_raceway_radius",
+                self.inner_raceway_radius,
+                f"below the outer_raceway_radius of {self.outer_raceway_radius:g} m",
+            )
+        if self.is_drawn:
+            for race in ("inner", "outer"):
+                name = f"{race}_groove_radius"
+                keep(name, drawing.check_groove(race, getattr(self, name), self.ball_diameter))
+            keep("youngs_modulus", drawing.check_youngs_modulus(self.youngs_modulus))
+            keep("poisson", drawing.check_poisson(self.poisson))
+
+    @classmethod
+    def from_drawing(
+        cls,
+        n_balls: int,
+        ball_diameter: float,
+        pitch_diameter: float,
+        inner_groove_radius: float,
+        outer_groove_radius: float,
+        contact_angle: float | None = None,
+        diametral_clearance: float | None = None,
+        youngs_modulus: float = 210e9,
+        poisson: float = 0.3,
+        groove_center_radius: float | None = None,
+    ) -> Self:
+        """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
+
+        Parameters
+        ----------
+        n_balls
+            N_b.
+        ball_diameter, pitch_diameter
+            D_b, D_p [m].
+        inner_groove_radius, outer_groove_radius
+            r_i, r_o [m], above D_b/2 and at most 0.6 D_b.
+        contact_angle, diametral_clearance
+            α0 [rad] and s [m], at least one of them, as they describe the same freedom.
+            Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
+            the angle that it stands for, `seated()` the same bearing told by that angle.
+            Angle alone: r_L = 0; `diametral_play` is the clearance that it stands for.
+            Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
+        youngs_modulus, poisson
+            E [Pa] and ν of balls and rings; steel by default.
+        groove_center_radius
+            r_d [m]; None: D_p/2 + (r_i − D_b/2) cos α0.
+
+        Raises
+        ------
+        ValueError
+            for a drawing that cannot be built, with the numbers.
+
+        Examples
+        --------
+        >>> import math
+        >>> bearing = Bearing.from_drawing(
+        ...     9, 7.94e-3, 39.04e-3, 4.13e-3, 4.21e-3, diametral_clearance=10e-6
+        ... )
+        >>> round(math.degrees(bearing.free_contact_angle), 2)
+        9.07
+        """
+        fields = drawing.fields(
+            ball_diameter=ball_diameter,
+            pitch_diameter=pitch_diameter,
+            inner_groove_radius=inner_groove_radius,
+            outer_groove_radius=outer_groove_radius,
+            contact_angle=contact_angle,
+            diametral_clearance=diametral_clearance,
+            youngs_modulus=youngs_modulus,
+            poisson=poisson,
+        )
+        if groove_center_radius is not None:
+            fields["groove_center_radius"] = groove_center_radius
+        return cls(n_balls=n_balls, **fields)
+
+    def replace(self, **changes: Any) -> Self:
+        """A bearing with fields changed. Of a drawn one, what follows from the drawing follows.
+
+        A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
+        its proportion to it; one named in `changes` is taken as it is.
+        """
+        changed = dataclasses.replace(self, **changes)
+        if not (self.is_drawn and changed.is_drawn):
+            return changed
+        before, after = self._derived(), changed._derived()
+        for name in drawing.Derived._fields:
+            old, was, now = getattr(self, name), getattr(before, name), getattr(after, name)
+            if name not in changes and now != was:
+                changes[name] = now if old == was else old * (now / was)
+        return dataclasses.replace(self, **changes)
+
+    def _derived(self) -> drawing.Derived:
+        return drawing.derive(**{name: getattr(self, name) for name in drawing.DIMENSIONS})
+
+    @property
+    def is_drawn(self) -> bool:
+        """True where the bearing carries its groove radii and material."""
+        return any(getattr(self, name) is not None for name in drawing.OPTIONAL_FIELDS)
+
+    def race_contact(self, race: str) -> RaceContact:
+        """Hertzian contact of a ball with a race, "outer" or "inner".
+
+        ValueError where the bearing does not carry its drawing.
+        """
+        checks.choice("race", race, ("outer", "inner"))
+        name = f"{race}_groove_radius"
+        radius = getattr(self, name)
+        if radius is None or self.youngs_modulus is None or self.poisson is None:
+            raise checks.refuse(name, radius, "a number, where contact pressure is asked for")
+        return race_contact(
+            race,
+            self.ball_diameter,
+            self.pitch_diameter,
+            radius,
+            self.contact_angle,
+            self.youngs_modulus,
+            self.poisson,
+        )
+
+    @property
+    def diametral_play(self) -> float:
+        """How far the inner ring moves sideways from contact to contact [m], grooves opposite.
+
+        2 (A0 (1 − cos α0) + r_L): the clearance that a contact angle and a clearance on top of it
+        stand for together.
+        """
+        # 1 − cos α0 without cancellation
+        return (
+            4.0 * self.groove_center_distance * math.sin(0.5 * self.contact_angle) ** 2
+            + 2.0 * self.radial_clearance
+        )
+
+    @property
+    def free_contact_angle(self) -> float:
+        """Contact angle α_f [rad] of the bearing pushed along the shaft until the balls touch.
+
+        cos α_f = cos α0 − r_L/A0. ValueError where the clearance lets the ring slip through.
+        """
+        cosine = math.cos(self.contact_angle) - self.radial_clearance / self.groove_center_distance
+        if cosine < 0.0:
+            most = self.groove_center_distance * math.cos(self.contact_angle)
+            raise checks.refuse(
+                "radial_clearance",
+                self.radial_clearance,
+                f"at most {most:g} m, or the ring slips through along the shaft",
+            )
+        # half-angle form: sharp where α_f is small
+        return 2.0 * math.asin(math.sqrt(0.25 * self.diametral_play / self.groove_center_distance))
+
+    def seated(self) -> Self:
+        """The same bearing told by its free contact angle, without clearance on top.
+
+        Its axial origin lies where the balls touch, A0 (sin α_f − sin α0) further along z: at the
+        same loads δz is smaller by that and all else is equal. Two things are not the same, as
+        both hang on α0 and not on the angle under load: a defect lowers the ball along the unloaded
+        line of contact, here at α_f; and the cage turns a little faster.
+        """
+        return dataclasses.replace(
+            self, contact_angle=self.free_contact_angle, radial_clearance=0.0
+        )
+
+    @property
+    def ball_radius(self) -> float:
+        """Ball radius r_b [m]."""
+        return 0.5 * self.ball_diameter
+
+    @property
+    def ball_spacing(self) -> float:
+        """Angle between neighbouring balls, 2π/N_b [rad] (Eq. 4)."""
+        return 2.0 * math.pi / self.n_balls
+
+    @cached_property
+    def contact_numbers(self) -> tuple[int, float, float, float, float, float]:
+        """N_b, cos α0, sin α0, A0, r_L, K: what the contact kernels need, in their order."""
+        ca, sa = math.cos(self.contact_angle), math.sin(self.contact_angle)
+        A0, rL, K = (
+            self.groove_center_distance,
+            self.radial_clearance,
+            self.load_deflection_factor,
+        )
+        return self.n_balls, ca, sa, A0, rL, K
+
+    @cached_property
+    def _ratio(self) -> float:
+        """D_b cos α0 / D_p, the number that all kinematics hang on."""
+        return self.ball_diameter * math.cos(self.contact_angle) / self.pitch_diameter
+
+    @property
+    def cage_ratio(self) -> float:
+        """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3)."""
+        return 0.5 * (1.0 - self._ratio)
+
+    def cage_speed(self, shaft_speed: float) -> float:
+        """Cage speed ω_c [rad/s] at a shaft speed ω_s [rad/s] (Eq. 3)."""
+        return self.cage_ratio * shaft_speed
+
+    def ftf(self, shaft_speed: float) -> float:
+        """Fundamental train (cage) frequency f_c [Hz] at a shaft speed [rad/s]."""
+        return self.cage_speed(shaft_speed) / (2.0 * math.pi)
+
+    def bpfo(self, shaft_speed: float) -> float:
+        """Ball-pass frequency of the outer race, N_b f_c [Hz], shaft speed in rad/s (Eq. 5)."""
+        return self.n_balls * self.ftf(shaft_speed)
+
+    def bpfi(self, shaft_speed: float) -> float:
+        """Ball-pass frequency of the inner race, N_b (f_s − f_c) [Hz], shaft speed in rad/s."""
+        return self.n_balls * (shaft_speed / (2.0 * math.pi) - self.ftf(shaft_speed))
+
+    def bsf(self, shaft_speed: float) -> float:
+        """Ball spin frequency, f_s D_p/(2 D_b) (1 − (D_b cos α0/D_p)²) [Hz], speed in rad/s."""
+        shaft_frequency = shaft_speed / (2.0 * math.pi)
+        lever = self.pitch_diameter / (2.0 * self.ball_diameter)
+        return lever * shaft_frequency * (1.0 - self._ratio**2)

@@ -1,0 +1,32 @@
+"""Static load on the inner ring (Eq. 2)."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+
+
+@dataclass(frozen=True)
+class Load:
+    """Static load on the inner ring (Eq. 2): forces [N] and moments [N·m]. Gravity-like: fy < 0."""
+
+    fx: float = 0.0
+    fy: float = 0.0
+    fz: float = 0.0
+    mx: float = 0.0
+    my: float = 0.0
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            value = checks.number(field.name, getattr(self, field.name))
+            object.__setattr__(self, field.name, value)
+
+    @property
+    def vector(self) -> NDArray[np.float64]:
+        """(Fx, Fy, Fz, Mx, My), shape (5,) [N, N·m]."""
+        return np.array([self.fx, self.fy, self.fz, self.mx, self.my])

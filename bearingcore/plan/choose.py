@@ -1,0 +1,69 @@
+"""The cheapest settings that keep a scene's picture inside an error budget.
+
+Model no more than a scene needs: only directions that can move, cage angles at events and where a
+curve bends, the longest step that will do, and instead of a transient the periodic orbit where it
+is proven stable. A plan says what was chosen, the error to expect and what it costs.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.model.scene import Scene, check_dofs
+from bearingcore.plan.cage_angles import CURVES
+from bearingcore.plan.curves import plan_curves
+from bearingcore.plan.motions import plan_motion
+from bearingcore.plan.plans import (
+    BUDGETS,
+    VIEWS,
+    Plan,
+)
+
+Array = NDArray[np.float64]
+
+
+def plan(
+    scene: Scene,
+    view: str,
+    error_budget: float | None = None,
+    *,
+    duration: float = 1.4,
+    sample_rate: float = 65536.0,
+    dofs: Iterable[str] | None = None,
+    step_rate: float | None = None,
+    march: bool = False,
+) -> Plan:
+    """The cheapest way to compute a view of a scene within an error budget.
+
+    Parameters
+    ----------
+    scene, view
+        what to show of what: see VIEWS.
+    error_budget
+        None takes that of BUDGETS.
+    duration, sample_rate
+        [s], [Hz] of motions.
+    dofs, step_rate, march
+        overrule the plan: directions, steps a second [Hz], a march where an orbit would do. The
+        predicted error is then that of what was asked for.
+
+    Raises
+    ------
+    ValueError
+        for unknown views, a budget that is not positive, or what `simulate` refuses.
+    """
+    checks.choice("view", view, VIEWS)
+    budget = checks.number(
+        "error_budget", BUDGETS[view] if error_budget is None else error_budget, above=0.0
+    )
+    began = time.perf_counter()
+    if dofs is not None:
+        scene = scene.replace(dofs=check_dofs(dofs))
+    if view in CURVES:
+        return plan_curves(scene, view, budget, began)
+    return plan_motion(scene, view, budget, began, duration, sample_rate, step_rate, march)

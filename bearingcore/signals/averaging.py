@@ -1,0 +1,222 @@
+"""What a signal does on average while one ball follows another: averages over ball passes.
+
+An outer-race defect meets ball after ball, N_b f_c times a second. What repeats with the balls adds
+up over the passes and everything else, noise above all, averages out.
+
+Quantity                                         | Symbol  | Name      | Unit
+------------------------------------------------ | ------- | --------- | -------------
+ball-pass frequency as it is, slip and all       | f       | frequency | Hz
+mean Fourier coefficients of a pass, at n f      | D_n     | harmonics | of the signal
+mean of their squared sizes, pass by pass        | ⟨|·|²⟩  | power     | its square
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+
+FEWEST_PASSES = 6
+"""Below this an average says nothing about its own scatter."""
+
+MOST_PASSES = 400
+"""Later passes are left out: cages do not keep their speed so long."""
+
+SAMPLES_A_CYCLE = 6.0
+"""Samples in a cycle of the highest frequency, before a signal is cut into passes."""
+
+
+@dataclass(frozen=True)
+class BallPasses:
+    """Fourier coefficients of a signal at the harmonics 1 … N of its ball-pass frequency.
+
+    Attributes
+    ----------
+    frequency
+        f [Hz], ball passes a second.
+    n_passes
+        how many were averaged.
+    harmonics : (N, d)
+        mean coefficient of each harmonic and direction; twice its size is the amplitude.
+    power : (N, d)
+        mean squared size of the coefficients of single passes.
+    noise_power : (d,)
+        what broad-band noise adds to `power`, estimated from the quietest stretches of the
+        spectrum; 0 for a simulated motion.
+    prominence
+        how far the ball-pass lines stand above those of other frequencies close by, in standard
+        deviations of the latter; infinite for a simulated motion.
+    """
+
+    frequency: float
+    n_passes: int
+    harmonics: NDArray[np.complex128]
+    power: NDArray[np.float64]
+    noise_power: NDArray[np.float64]
+    prominence: float = math.inf
+
+    @property
+    def scatter(self) -> NDArray[np.float64]:
+        """Variance (N, d) of `harmonics`, from the differences between passes."""
+        around = self.power - np.abs(self.harmonics) ** 2
+        return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
+
+    @property
+    def density(self) -> NDArray[np.float64]:
+        """Power spectral density (N, d) [(unit)²/Hz] at the harmonics, spread between them."""
+        return np.asarray(2.0 * self.power / self.frequency)
+
+    def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
+        """The mean pass as n samples (n, d), of the harmonics from `lowest` [Hz] on."""
+        kept = self.harmonics * (self.harmonic_frequency >= lowest)[:, None]
+        full = np.zeros((n // 2 + 1, kept.shape[1]), dtype=complex)
+        count = min(len(kept), n // 2)
+        full[1 : count + 1] = kept[:count]
+        return np.asarray(np.fft.irfft(full, n, axis=0) * n)
+
+    @property
+    def harmonic_frequency(self) -> NDArray[np.float64]:
+        """(N,) [Hz]"""
+        return np.asarray(self.frequency * np.arange(1, len(self.harmonics) + 1), dtype=float)
+
+
+def coefficients(passes: NDArray[np.float64], count: int) -> NDArray[np.complex128]:
+    """Coefficients (passes, count, d) at the harmonics 1 … count of signals (passes, n, d)."""
+    return np.fft.rfft(passes, axis=1)[:, 1 : count + 1] / passes.shape[1]
+
+
+def average_passes(
+    signal: NDArray[np.float64],
+    sample_rate: float,
+    nominal: float,
+    slip: float,
+    lowest: float,
+    highest: float,
+    widest: float,
+) -> BallPasses:
+    """Find the ball-pass frequency near `nominal` and average the signal over its passes.
+
+    Parameters
+    ----------
+    signal : (n, d)
+    sample_rate, nominal
+        [Hz]
+    lowest, highest, widest
+        [Hz]: the frequency is searched by its harmonics from `lowest` to `highest`; harmonics up
+        to `widest` are kept; what lies well below `lowest` is filtered out.
+    slip
+        how far off nominal the frequency may be, as a fraction of it.
+
+    Raises
+    ------
+    ValueError
+        where the signal holds fewer than FEWEST_PASSES ball passes.
+    """
+    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
+    from scipy.signal import butter, sosfiltfilt
+
+    cut = 0.3 * lowest
+    margin = math.ceil(1.5 * nominal / cut)
+    least = (FEWEST_PASSES + 2 * margin + 1) / (nominal * (1.0 - slip))
+    if len(signal) / sample_rate < least:
+        raise checks.refuse(
+            "signal",
+            f"of {len(signal) / sample_rate:.3g} s",
+            f"at least {least:.3g} s, {FEWEST_PASSES + 2 * margin + 1} ball passes",
+        )
+    if sample_rate < 2.5 * widest * (1.0 - 1e-9):  # 2.5 · 0.4 may be more than 1 in its last digit
+        raise checks.refuse("sample_rate", sample_rate, f"at least {2.5 * widest:.0f} Hz")
+    kept = min(len(signal), math.ceil((MOST_PASSES + 2 * margin + 1) * sample_rate / nominal))
+    signal = signal[:kept] - signal[:kept].mean(axis=0)
+    pass_up = butter(4, cut, "highpass", fs=sample_rate, output="sos")
+    signal = sosfiltfilt(pass_up, signal, axis=0)
+    floor = _noise_density(signal, sample_rate, lowest)
+    frequency, prominence = _ball_pass_frequency(
+        signal, sample_rate, nominal, slip, lowest, highest
+    )
+    signal, sample_rate = _upsampled(signal, sample_rate, widest)
+    # the filter rings at both ends of the signal: the passes there are left out
+    n_passes = math.floor((len(signal) - 1) / sample_rate * frequency) - 2 * margin
+    n = math.ceil(max(sample_rate, 4.0 * widest) / frequency)
+    time = (margin + np.arange(n_passes * n) / n) / frequency
+    curve = make_interp_spline(np.arange(len(signal)) / sample_rate, signal, k=5)
+    count = math.floor(widest / frequency)
+    each = coefficients(curve(time).reshape(n_passes, n, signal.shape[1]), count)
+    return BallPasses(
+        frequency,
+        n_passes,
+        each.mean(axis=0),
+        (np.abs(each) ** 2).mean(axis=0),
+        0.5 * floor * frequency,
+        prominence,
+    )
+
+
+def _upsampled(
+    signal: NDArray[np.float64], sample_rate: float, highest: float
+) -> tuple[NDArray[np.float64], float]:
+    """The signal with so many samples a cycle that a spline follows it."""
+    from scipy.signal import resample_poly
+
+    factor = math.ceil(SAMPLES_A_CYCLE * highest / sample_rate)
+    if factor <= 1:
+        return signal, sample_rate
+    return np.asarray(resample_poly(signal, factor, 1, axis=0), dtype=float), factor * sample_rate
+
+
+def _noise_density(
+    signal: NDArray[np.float64], sample_rate: float, lowest: float
+) -> NDArray[np.float64]:
+    """Density (d,) [(unit)²/Hz] of broad-band noise: the quiet tenth of the smoothed spectrum."""
+    from scipy.signal import welch
+
+    segment = min(len(signal), max(64, round(8.0 * sample_rate / lowest)))
+    frequency, density = welch(np.ascontiguousarray(signal.T), fs=sample_rate, nperseg=segment)
+    inside = (frequency > lowest) & (frequency < 0.45 * sample_rate)
+    if not inside.any():
+        return np.zeros(signal.shape[1])
+    return np.asarray(np.quantile(density[:, inside], 0.1, axis=1))
+
+
+def _ball_pass_frequency(
+    signal: NDArray[np.float64],
+    sample_rate: float,
+    nominal: float,
+    slip: float,
+    lowest: float,
+    highest: float,
+) -> tuple[float, float]:
+    """The frequency whose harmonics stand highest, and how far they stand out."""
+    from scipy.fft import next_fast_len
+
+    n = len(signal)
+    size = next_fast_len(4 * n)
+    transform = np.fft.rfft(signal * np.hanning(n)[:, None], size, axis=0)
+    # each direction and frequency counts by its line's height, not by its power: the strongest
+    # resonance would else speak alone
+    height = np.abs(transform).sum(axis=1)
+    step = sample_rate / size
+    order = np.arange(
+        max(1, math.ceil(lowest / nominal)), math.floor(highest / (nominal * (1.0 + slip))) + 1
+    )
+
+    def comb(frequencies: NDArray[np.float64]) -> NDArray[np.float64]:
+        return height[np.rint(frequencies[:, None] * (order / step)).astype(int)].sum(axis=1)
+
+    # a tenth of a line's width at the highest harmonic
+    spacing = 0.2 * sample_rate / n / order[-1]
+    trials = nominal + spacing * np.arange(
+        -math.ceil(slip * nominal / spacing), math.ceil(slip * nominal / spacing) + 1
+    )
+    heights = comb(trials)
+    best = int(heights.argmax())
+    fine = trials[best] + spacing * np.linspace(-1.0, 1.0, 41)
+    finely = comb(fine)
+    near = finely >= finely.max() - 1e-3 * abs(finely.max())
+    spread = 1.4826 * float(np.median(np.abs(heights - np.median(heights))))
+    prominence = float(heights[best] - np.median(heights)) / max(spread, 1e-300)
+    return float(fine[near].mean()), prominence

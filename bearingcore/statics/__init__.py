@@ -1,0 +1,1 @@
+"""The bearing at rest: equilibrium, stiffness maps, what a load asks of the contacts."""

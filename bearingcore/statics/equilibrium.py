@@ -1,0 +1,232 @@
+"""Static equilibrium over cage angles: load distribution and the 5×5 stiffness (Eqs. 7-17)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.model.defect import path_tables
+from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
+from bearingcore.statics.load_capacity import runs_away
+
+STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
+"""Names of the 15 independent terms of the symmetric 5×5 stiffness matrix, row by row."""
+
+TERM_INDICES = {
+    f"k_{a}{b}": (i, i + k) for i, a in enumerate(DOF_NAMES) for k, b in enumerate(DOF_NAMES[i:])
+}
+"""Row and column of each stiffness term."""
+
+ANGLES_A_PERIOD = 121
+
+REASONS = {
+    kernels.CONVERGED: "converged",
+    kernels.NOTHING_TOUCHES: (
+        "nothing touches: no load acts along the free directions, so no ball is pressed and the "
+        "ring's place within its clearance is not determined"
+    ),
+    kernels.FREE_DIRECTION: "the ring can move without resistance along {free}",
+    kernels.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
+    kernels.NOT_CONVERGED: "not converged: relative residual {residual:.1e}",
+}
+"""What each status means."""
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Static equilibrium of a scene at n cage angles. NaN stands where there is no answer.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was solved, and the free directions.
+    cage_angles : (n,) [rad]
+    displacement : (n, 5) [m, rad]
+        of the inner ring along x, y, z and about x, y (Eq. 16); 0 in directions that are held,
+        NaN in those that nothing resists.
+    ball_load : (n, N_b) [N]
+        Q_j (Eq. 13).
+    stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
+        K_b (Eq. 17), all five directions, also those that are held.
+    loaded_balls : (n,)
+        how many balls carry load.
+    status : (n,)
+        codes of `kernels`; `reason(i)` puts them into words.
+    residual : (n,)
+        size of the unbalanced load over the size of the load, moments over r_d; to the load counts
+        what the held directions take. Converged is 1e-9 or less, or what the digits of a
+        displacement allow where a very light load meets very stiff balls.
+    iterations, evaluations : (n,)
+        Newton steps, and how often the energy was evaluated.
+    state : (n, 5) [m]
+        the last displacement reached, tilts times r_d, whatever became of it.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    cage_angles: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+    ball_load: NDArray[np.float64]
+    stiffness: NDArray[np.float64]
+    loaded_balls: NDArray[np.int64]
+    status: NDArray[np.int8]
+    residual: NDArray[np.float64]
+    iterations: NDArray[np.int64]
+    evaluations: NDArray[np.int64]
+    state: NDArray[np.float64] = field(repr=False)
+
+    @cached_property
+    def converged(self) -> NDArray[np.bool_]:
+        """(n,) True where there is one equilibrium and it was found."""
+        return self.status == kernels.CONVERGED
+
+    @cached_property
+    def ball_angle(self) -> NDArray[np.float64]:
+        """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4)."""
+        n_balls = self.scene.bearing.n_balls
+        offsets = self.scene.bearing.ball_spacing * np.arange(n_balls)
+        return (self.cage_angles[:, None] + offsets) % (2.0 * math.pi)
+
+    @cached_property
+    def contact_angle(self) -> NDArray[np.float64]:
+        """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
+        paths = path_tables(self.scene.defects, self.scene.bearing)
+        n_balls, ca, sa, A0, rL, _ = self.scene.bearing.contact_numbers
+        angles = kernels.contact_angles(
+            self.cage_angles, *paths, self.state, n_balls, ca, sa, A0, rL
+        )
+        angles[self.status >= kernels.NOT_CARRIED] = math.nan
+        return angles
+
+    def term(self, name: str) -> NDArray[np.float64]:
+        """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        if name not in TERM_INDICES:
+            raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
+        i, j = TERM_INDICES[name]
+        return self.stiffness[:, i, j]
+
+    def reason(self, i: int) -> str:
+        """In words, what became of cage angle i."""
+        code = int(self.status[i])
+        free = [
+            name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
+        ]
+        return REASONS[code].format(free=", ".join(free), residual=self.residual[i])
+
+
+def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
+    """N equally spaced cage angles [rad] over one period of the scene's curves, ends included.
+
+    The period is a ball spacing, as the balls are alike. A defect of the inner race turns with the
+    shaft and breaks it: its curves are given over the cage angle in which the shaft turns once.
+    """
+    if any(defect.race == "inner" for defect in scene.defects):
+        return np.linspace(0.0, 2.0 * math.pi * scene.bearing.cage_ratio, 8 * (n - 1) + 1)
+    return np.linspace(0.0, scene.bearing.ball_spacing, n)
+
+
+def equilibrium(
+    scene: Scene,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+) -> Equilibrium:
+    """Static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
+
+    Parameters
+    ----------
+    scene
+        what to solve.
+    cage_angles : (n,)
+        [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
+        order are cheapest; the answer does not depend on the order. The shaft, and with it an
+        inner-race defect, has turned ω_s/ω_c times as far.
+    dofs
+        free directions, names out of x, y, z, rx, ry; None takes the scene's. Loads along
+        directions that are held are carried by what holds them.
+
+    Returns
+    -------
+    Equilibrium
+        with a status for each cage angle. That there is no unique answer is a status too, not an
+        error: see `Equilibrium.reason`.
+
+    Raises
+    ------
+    ValueError
+        for cage angles that are not finite or unknown names in `dofs`.
+    """
+    if cage_angles is None:
+        angles = default_cage_angles(scene)
+    else:
+        angles = checks.finite("cage_angles", cage_angles, "rad")
+    free = scene.active_dofs if dofs is None else check_dofs(dofs)
+    active = np.array([DOF_NAMES.index(name) for name in free])
+    bearing = scene.bearing
+    units = np.ones(5)
+    units[3:] = bearing.groove_center_radius
+    q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
+        angles,
+        *path_tables(scene.defects, bearing),
+        scene.load.vector / units,
+        active,
+        *bearing.contact_numbers,
+    )
+    displacement = q / units
+    failed = np.flatnonzero(status)
+    if failed.size:
+        _explain(scene, angles, active, q, status, stiffness, displacement, failed)
+        gone = status >= kernels.NOT_CARRIED
+        loads[gone] = math.nan
+        loaded[gone] = 0
+        loose = status == kernels.NOTHING_TOUCHES
+        loads[loose] = 0.0
+        loaded[loose] = 0
+        nowhere = gone | loose
+        displacement[nowhere] = math.nan
+        stiffness[nowhere] = math.nan
+    stiffness *= units[:, None] * units
+    return Equilibrium(
+        scene=scene,
+        dofs=free,
+        cage_angles=angles,
+        displacement=displacement,
+        ball_load=loads,
+        stiffness=stiffness,
+        loaded_balls=loaded,
+        status=status,
+        residual=residual,
+        iterations=iterations,
+        evaluations=evaluations,
+        state=q,
+    )
+
+
+def _explain(
+    scene: Scene,
+    angles: NDArray[np.float64],
+    active: NDArray[np.int64],
+    q: NDArray[np.float64],
+    status: NDArray[np.int8],
+    stiffness: NDArray[np.float64],
+    displacement: NDArray[np.float64],
+    failed: NDArray[np.int64],
+) -> None:
+    """Find the true reason of each failure: the free directions, or a load nothing can carry."""
+    bearing = scene.bearing
+    load = scene.load.vector[active].copy()
+    load[active >= 3] /= bearing.groove_center_radius
+    for k in failed:
+        if status[k] == kernels.FREE_DIRECTION:
+            K = stiffness[k][np.ix_(active, active)]
+            values, vectors = np.linalg.eigh(K)
+            soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
+            displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
+        elif status[k] == kernels.NOT_CONVERGED and runs_away(scene, angles[k], active, load):
+            status[k] = kernels.NOT_CARRIED

@@ -1,0 +1,260 @@
+"""Stiffness and loaded balls over the extent of a defect and the cage angle (Figs. 5 and 6)."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.model.bearing import Bearing
+from bearingcore.model.defect import TWO_PI, Defect, path_tables
+from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
+from bearingcore.statics.equilibrium import REASONS, STIFFNESS_TERMS, default_cage_angles
+from bearingcore.statics.load_capacity import runs_away
+
+Array = NDArray[np.float64]
+
+GREATEST_EXTENT = math.radians(90.0)
+"""How far maps go unless told otherwise, as the paper's Figs. 5 and 6 do."""
+
+
+@dataclass(frozen=True)
+class Maps:
+    """Static answers over m extents of a scene's first defect and n cage angles.
+
+    NaN stands where there is no answer.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was solved, and the free directions. The extent of its first defect does not count.
+    extents : (m,) [rad]
+    cage_angles : (n,) [rad]
+    stiffness : (15, m, n) [N/m, N/rad, N·m/rad]
+        the terms of K_b (Eq. 17) in the order of `STIFFNESS_TERMS`; see `term`.
+    loaded_balls : (m, n)
+        how many balls carry load.
+    greatest_load : (m, n) [N]
+        load of the ball that carries most.
+    status : (m, n)
+        codes of `kernels`; `reason(i, k)` puts them into words.
+    residual : (m, n)
+        size of the unbalanced load over the size of the load, moments over r_d.
+    solved, evaluations
+        how many points were solved rather than known from the extent before, where all balls had
+        sunk as deep, and how often the energy was evaluated.
+    refusals : (m,)
+        why a scene with this extent cannot be; empty where it can.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    extents: Array
+    cage_angles: Array
+    stiffness: Array
+    loaded_balls: NDArray[np.int64]
+    greatest_load: Array
+    status: NDArray[np.int8]
+    residual: Array
+    solved: int
+    evaluations: int
+    refusals: tuple[str, ...]
+
+    @cached_property
+    def converged(self) -> NDArray[np.bool_]:
+        """(m, n) True where there is one equilibrium and it was found."""
+        return self.status == kernels.CONVERGED
+
+    def term(self, name: str) -> Array:
+        """(m, n) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        if name not in STIFFNESS_TERMS:
+            raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
+        return self.stiffness[STIFFNESS_TERMS.index(name)]
+
+    @cached_property
+    def mean_loaded_balls(self) -> Array:
+        """(m,) loaded balls, averaged over the cage angles that have an answer; NaN without."""
+        known = self.converged.sum(axis=1)
+        balls = np.where(self.converged, self.loaded_balls, 0).sum(axis=1)
+        return np.where(known > 0, balls / np.maximum(known, 1), math.nan)
+
+    def reason(self, i: int, k: int) -> str:
+        """In words, what became of extent i and cage angle k."""
+        if self.status[i, k] == kernels.REFUSED:
+            return self.refusals[i]
+        return REASONS[int(self.status[i, k])].format(
+            free="some direction", residual=self.residual[i, k]
+        )
+
+
+def stiffness_maps(
+    scene: Scene,
+    extents: ArrayLike | None = None,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+) -> Maps:
+    """Stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
+
+    The answers are those of `equilibrium` for `scene.replace(extent=...)`, several times faster:
+    points at which all balls have sunk as deep as at the extent before are known already.
+
+    Parameters
+    ----------
+    scene
+        what to solve; its other defects stay as they are.
+    extents : (m,)
+        [rad], 0 to 2π; None takes 91 from 0 to 90 degrees.
+    cage_angles : (n,)
+        [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
+    dofs
+        free directions, names out of x, y, z, rx, ry; None takes the scene's.
+
+    Returns
+    -------
+    Maps
+        with a status for each point. That there is no answer, or that defects of this extent
+        cannot stand together, is a status and not an error.
+
+    Raises
+    ------
+    ValueError
+        for extents or cage angles that are not finite or not allowed, or unknown names in `dofs`.
+    """
+    if extents is None:
+        sizes = np.linspace(0.0, GREATEST_EXTENT, 91)
+    else:
+        sizes = checks.finite("extents", extents, "rad")
+        if not np.all((sizes >= 0.0) & (sizes <= TWO_PI)):
+            raise checks.refuse("extents", extents, "0 to 2π [rad]")
+    if cage_angles is None:
+        angles = default_cage_angles(scene)
+    else:
+        angles = checks.finite("cage_angles", cage_angles, "rad")
+    free = scene.active_dofs if dofs is None else check_dofs(dofs)
+    active = np.array([DOF_NAMES.index(name) for name in free])
+    bearing = scene.bearing
+    units = np.ones(5)
+    units[3:] = bearing.groove_center_radius
+
+    first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
+    paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
+    shape = sizes.size, angles.size
+    status = np.full(shape, kernels.OPEN, dtype=np.int8)
+    refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
+    status[refused] = kernels.REFUSED
+    stiffness = np.full((15, *shape), math.nan)
+    loaded = np.zeros(shape, dtype=np.int64)
+    greatest, residual = np.full(shape, math.nan), np.full(shape, math.nan)
+    q = np.zeros((angles.size, 5))
+    drops = np.full((angles.size, bearing.n_balls), math.nan)
+    load = scene.load.vector / units
+
+    def solve(begin: int, end: int) -> tuple[int, int]:
+        return kernels.static_maps(
+            angles, paths.rows, paths.counts, paths.tables, load, active, *bearing.contact_numbers,
+            units, begin, end, q, drops, stiffness, loaded, greatest, status, residual,
+        )  # fmt: skip
+
+    # Whether a load can be carried hangs on the cage angle alone, and to find out that it cannot
+    # takes long: the first row tells which cage angles the others need not try.
+    start = int(np.argmin(refused)) if not refused.all() else sizes.size
+    begun = min(start + 1, sizes.size)
+    solved, evaluations = solve(start, begun)
+    gone = _run_away(scene, angles, active, load, status[start:begun])
+    status[:, gone] = np.where(refused[:, None], kernels.REFUSED, kernels.NOT_CARRIED)
+    more, calls = solve(begun, sizes.size)
+    gone = _run_away(scene, angles, active, load, status)
+    status[:, gone] = np.where(
+        status[:, gone] == kernels.NOT_CONVERGED, kernels.NOT_CARRIED, status[:, gone]
+    )
+    return Maps(
+        scene=scene,
+        dofs=free,
+        extents=sizes,
+        cage_angles=angles,
+        stiffness=stiffness,
+        loaded_balls=loaded,
+        greatest_load=greatest,
+        status=status,
+        residual=residual,
+        solved=solved + more,
+        evaluations=evaluations + calls,
+        refusals=paths.refusals,
+    )
+
+
+def _run_away(
+    scene: Scene,
+    angles: Array,
+    active: NDArray[np.int64],
+    load: Array,
+    status: NDArray[np.int8],
+) -> NDArray[np.int64]:
+    """Indices of the cage angles without an answer at which nothing can carry the load."""
+    failed = np.flatnonzero((status == kernels.NOT_CONVERGED).any(axis=0))
+    gone = [k for k in failed if runs_away(scene, float(angles[k]), active, load[active])]
+    return np.array(gone, dtype=np.int64)
+
+
+@dataclass(frozen=True)
+class _Paths:
+    """What `kernels.static_maps` needs to know of the defects of every row."""
+
+    rows: Array
+    counts: NDArray[np.int64]
+    tables: Array
+    refusals: tuple[str, ...]
+
+
+@lru_cache(maxsize=4)
+def _paths(
+    first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
+) -> _Paths:
+    """Paths of the ball over the defects, the first of them with each of the extents.
+
+    A few are kept, as with several defects or floors that are not flat they cost more than the
+    maps, and do not change while only the load does.
+    """
+    sizes = np.array(extents)
+    columns = len(kernels.PATH_COLUMNS)
+    if not others and first.floor is None:
+        # one row of numbers fits all: only the extent differs
+        row = dataclasses.replace(first, extent=math.pi).edge_row(bearing)
+        rows = np.tile(row, (sizes.size, 1, 1))
+        rows[:, 0, _HALF_EXTENT] = 0.5 * sizes
+        rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
+        counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
+        return _Paths(rows, counts, np.zeros(0), ("",) * sizes.size)
+    found: list[tuple[Array, Array]] = []
+    refusals = []
+    for extent in extents:
+        defects = (dataclasses.replace(first, extent=extent), *others)
+        try:
+            # past its cache, which this would fill with what nobody asks for again
+            found.append(path_tables.__wrapped__(defects, bearing))
+            refusals.append("")
+        except ValueError as error:
+            found.append((np.zeros((0, columns)), np.zeros(0)))
+            refusals.append(str(error))
+    counts = np.array([len(rows) for rows, _ in found], dtype=np.int64)
+    all_rows = np.zeros((sizes.size, max(counts, default=0), columns))
+    size = 0
+    for i, (rows, table) in enumerate(found):
+        all_rows[i, : len(rows)] = rows
+        all_rows[i, : len(rows), _TABLE_START] += size
+        size += table.size
+    tables = np.concatenate([*(table for _, table in found), np.zeros(0)])
+    return _Paths(all_rows, counts, tables, tuple(refusals))
+
+
+_HALF_EXTENT, _FLOOR_ANGLE, _TABLE_START = (
+    kernels.PATH_COLUMNS.index(name)
+    for name in ("half_extent", "angle_from_edge_to_floor", "table_start")
+)

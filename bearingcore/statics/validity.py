@@ -1,0 +1,333 @@
+"""Where a scene leaves what the model holds for: numbers, limits, and a sentence each.
+
+Quantity                                    | Symbol | Unit
+------------------------------------------- | ------ | -----
+contact pressure in the middle              | p      | Pa
+half width of the contact across the groove | a      | m
+angle of the groove's shoulder              | θ_s    | rad
+density of the balls                        | ρ      | kg/m³
+centrifugal force of a ball                 | F_c    | N
+compression of a ball, distance of the groove centres | δ, A0 | m
+
+What the model leaves out and what is looked at here:
+
+- plastic flow: contact pressure against 4.2 GPa, the static limit of ISO 76 for ball bearings
+  (a dent of 1/10,000 of the ball diameter). Corners of a defect press harder than this says;
+- the end of the groove: contact angle and half the contact ellipse against the shoulder;
+- the balls' inertia: centrifugal force against contact load. Gyroscopic moments, which go with it,
+  and the shock of a ball that meets the far edge of a defect are left out too;
+- the size of the contact: Hertz takes it for small beside the ball;
+- stale stiffness: a load-deflection factor that does not go with the drawing;
+- coarse time steps: steps while a ball passes a defect.
+
+Not looked at: lubricant film, friction, temperature, fits, rings that bend, a cage that slips.
+Balls sunk deep into a defect, which the printed Eq. 8 mistakes for loaded ones, need no warning:
+the kernels tell them apart exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.model.hertz import in_series
+from bearingcore.model.scene import Scene
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.passes import STEPS_A_PASSAGE
+
+STATIC_PRESSURE = 4.2e9
+"""Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
+
+STEEL_DENSITY = 7850.0
+"""Density of the balls [kg/m³]."""
+
+CENTRIFUGAL_SHARE = {"most": 0.1, "least": 1.0}
+"""Centrifugal force over contact load up to which it may be left out. On the most loaded ball a
+tenth already shifts loads and angles; the least loaded one it may lift off the inner race."""
+
+GREATEST_COMPRESSION = 0.2
+"""Compression over distance of the groove centres. The contact's half width is 1.24 r_b √(δ/A0)
+within 4 % for all usual grooves, here 0.55 ball radii: 34° to either side."""
+
+STIFFNESS_MISMATCH = 0.01
+"""Part by which the load-deflection factor may differ from what the drawing gives."""
+
+
+def usual_shoulder_height(contact_angle: float) -> float:
+    """Height of a groove's shoulders over its bottom, in ball diameters, at α0 [rad]: assumed.
+
+    0.2 for deep grooves, rising evenly to 0.3 at 40°: of the shoulder that carries, as shoulder
+    diameters in catalogues say.
+    """
+    return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One number of a scene beside what it should not pass.
+
+    Attributes
+    ----------
+    name
+        what is looked at.
+    value, limit [unit]
+        value is NaN where it is not known.
+    unit
+        SI; empty for a ratio or a count.
+    crossed
+        True where the model no longer holds. False where the value is not known.
+    sentence
+        the same in words, with the number.
+    """
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    crossed: bool
+    sentence: str
+
+
+def limits(
+    scene: Scene,
+    state: Equilibrium | None = None,
+    *,
+    step_rate: float | None = None,
+    shoulder_height: float | None = None,
+) -> tuple[Limit, ...]:
+    """What the model leaves out of `scene`, each with its number, its limit and a sentence.
+
+    Parameters
+    ----------
+    scene
+        what to look at.
+    state
+        its static equilibrium, if it is there already; None computes one period of cage angles.
+        Loads and angles are the greatest over its cage angles.
+    step_rate
+        steps a second [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves them out.
+    shoulder_height
+        of the grooves, over their bottom, in ball diameters, above 0 and at most 0.5; None:
+        `usual_shoulder_height`.
+
+    Returns
+    -------
+    tuple of Limit
+        in the order of the list at the head of the module. Steps appear only with a step rate, a
+        defect and a turning shaft.
+
+    Raises
+    ------
+    ValueError
+        for a shoulder height or step rate that is not possible, or a `state` of another scene.
+    """
+    if shoulder_height is None:
+        shoulder_height = usual_shoulder_height(scene.bearing.contact_angle)
+    height = checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
+    if state is None:
+        state = equilibrium(scene)
+    elif state.scene != scene:
+        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    loads = state.ball_load[_known(state)]
+    heaviest = float(loads.max()) if loads.size else math.nan
+    found = [
+        _pressure(scene, "inner", heaviest),
+        _pressure(scene, "outer", heaviest),
+        _shoulder(scene, state, height),
+        *_centrifugal(scene, state, heaviest),
+        _compression(scene, heaviest),
+        _stiffness(scene),
+    ]
+    if step_rate is not None:
+        rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+        found.append(_steps(scene, rate))
+    return tuple(limit for limit in found if limit is not None)
+
+
+def _known(state: Equilibrium) -> NDArray[np.bool_]:
+    """Cage angles at which the balls' loads are known, also where the ring is free to move."""
+    return np.isfinite(state.ball_load.sum(axis=1))
+
+
+def _unknown(name: str, limit: float, unit: str, why: str) -> Limit:
+    return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
+
+
+NO_DRAWING = "the groove radii of this bearing are not known"
+NO_STATE = "no cage angle has a static equilibrium"
+
+
+def _pressure(scene: Scene, race: str, load: float) -> Limit:
+    """Greatest pressure between the most loaded ball and a race."""
+    name = f"contact pressure, {race} race"
+    if not scene.bearing.is_drawn:
+        return _unknown(name, STATIC_PRESSURE, "Pa", NO_DRAWING)
+    if math.isnan(load):
+        return _unknown(name, STATIC_PRESSURE, "Pa", NO_STATE)
+    p = float(scene.bearing.race_contact(race).greatest_pressure(load))
+    crossed = p > STATIC_PRESSURE
+    sentence = (
+        f"The most loaded ball presses on the {race} race with {p / 1e9:.2f} GPa (load "
+        f"{load:.4g} N), {'above' if crossed else 'below'} the 4.2 GPa that ISO 76 allows"
+        + (": it dents the race, and elastic contact no longer holds." if crossed else ".")
+    )
+    return Limit(name, p, STATIC_PRESSURE, "Pa", crossed, sentence)
+
+
+def _shoulder(scene: Scene, state: Equilibrium, height: float) -> Limit:
+    """Contact angle of loaded balls, with half the contact ellipse where it is known.
+
+    The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
+    arccos(1 − h/r_b) (Harris, truncated contact ellipse).
+    """
+    name = "contact angle at the shoulder"
+    bearing = scene.bearing
+    limit = math.acos(1.0 - 2.0 * height)
+    kept = _known(state)
+    loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
+    carries = loads > 0.0
+    if not carries.any():
+        return _unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
+    reach, angles = angles[carries], angles[carries]
+    if bearing.is_drawn:
+        half = [
+            bearing.race_contact(race).semi_axes(loads[carries])[0] for race in ("inner", "outer")
+        ]
+        spread = np.arcsin(np.minimum(np.maximum(*half) / bearing.ball_radius, 1.0))
+        reach = angles + spread
+    worst = int(np.argmax(reach))
+    value = float(reach[worst])
+    crossed = value > limit
+    at = math.degrees(angles[worst])
+    told = f"a contact angle of {at:.1f}°"
+    if bearing.is_drawn:
+        told += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
+    else:
+        told += " (half the contact ellipse comes on top, not known without groove radii)"
+    sentence = (
+        f"The contact reaches {math.degrees(value):.1f}° from the bottom of the groove, "
+        f"{told}; a shoulder {height:.2g} ball diameters high stands at {math.degrees(limit):.1f}°"
+        + (": the ball rides over its edge." if crossed else ".")
+    )
+    return Limit(name, value, limit, "rad", crossed, sentence)
+
+
+def centrifugal_force(scene: Scene) -> float:
+    """Centrifugal force F_c = m ω_c² D_p/2 [N] of a steel ball on the pitch circle."""
+    bearing = scene.bearing
+    mass = STEEL_DENSITY * math.pi / 6.0 * bearing.ball_diameter**3
+    return mass * scene.cage_speed**2 * 0.5 * bearing.pitch_diameter
+
+
+def _centrifugal(scene: Scene, state: Equilibrium, heaviest: float) -> tuple[Limit, Limit]:
+    """Centrifugal force against the load of the most loaded and of the least loaded ball.
+
+    Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
+    the second takes the least loaded of those that carry, at the median cage angle.
+    """
+    force = centrifugal_force(scene)
+    loads = state.ball_load[_known(state)]
+    lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
+    lightest = lightest[np.isfinite(lightest)]
+    median = float(np.median(lightest)) if lightest.size else math.nan
+    most = _share(
+        "most loaded ball",
+        force,
+        heaviest,
+        CENTRIFUGAL_SHARE["most"],
+        "the model leaves it out, and here it shifts loads and contact angles",
+    )
+    least = _share(
+        "least loaded ball",
+        force,
+        median,
+        CENTRIFUGAL_SHARE["least"],
+        "it lifts that ball off the inner race, and the ball may skid",
+    )
+    return most, least
+
+
+def _share(which: str, force: float, load: float, limit: float, so_what: str) -> Limit:
+    name = f"centrifugal force, {which}"
+    if not load > 0.0:
+        return _unknown(name, limit, "", "no ball is known to carry load")
+    share = force / load
+    crossed = share > limit
+    sentence = (
+        f"A steel ball's centrifugal force of {force:.3g} N is {_percent(share)} of the "
+        f"{load:.4g} N on the {which}"
+        + (f": {so_what}." if crossed else f", below the {100.0 * limit:.0f} % that matter.")
+    )
+    return Limit(name, share, limit, "", crossed, sentence)
+
+
+def _percent(share: float) -> str:
+    return "less than 0.01 %" if 0.0 < share < 1e-4 else f"{100.0 * share:.3g} %"
+
+
+def _compression(scene: Scene, load: float) -> Limit:
+    """Compression of the most loaded ball against the distance of the groove centres."""
+    name = "compression against groove centre distance"
+    if math.isnan(load):
+        return _unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
+    bearing = scene.bearing
+    compression = (load / bearing.load_deflection_factor) ** (2.0 / 3.0)
+    share = compression / bearing.groove_center_distance
+    crossed = share > GREATEST_COMPRESSION
+    sentence = (
+        f"The most loaded ball is compressed by {compression * 1e6:.3g} µm, {_percent(share)} "
+        f"of the {bearing.groove_center_distance * 1e6:.4g} µm between the groove centres"
+        + (
+            f": above {100.0 * GREATEST_COMPRESSION:.0f} % grooves so close around the ball touch "
+            "it far up their sides, and Hertz's small contact no longer holds."
+            if crossed
+            else f"; up to {100.0 * GREATEST_COMPRESSION:.0f} % the contact is small beside the "
+            "ball, as Hertz asks."
+        )
+    )
+    return Limit(name, share, GREATEST_COMPRESSION, "", crossed, sentence)
+
+
+def _stiffness(scene: Scene) -> Limit | None:
+    """Load-deflection factor against that of the drawing; None without a drawing."""
+    bearing = scene.bearing
+    if not bearing.is_drawn:
+        return None
+    drawn = in_series(
+        *(bearing.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
+    )
+    off = abs(bearing.load_deflection_factor / drawn - 1.0)
+    crossed = off > STIFFNESS_MISMATCH
+    sentence = (
+        f"The load-deflection factor of {bearing.load_deflection_factor / 1e6:.0f} MN/m^1.5 is "
+        f"{_percent(off)} off the {drawn / 1e6:.0f} MN/m^1.5 that the drawing gives"
+        + (
+            ": pressures and contact ellipses belong to the drawing, displacements to the factor."
+            if crossed
+            else "."
+        )
+    )
+    name = "load-deflection factor against the drawing"
+    return Limit(name, off, STIFFNESS_MISMATCH, "", crossed, sentence)
+
+
+def _steps(scene: Scene, step_rate: float) -> Limit | None:
+    """Time steps while a ball passes the shortest defect; None where none is passed."""
+    if not scene.defects or scene.cage_speed == 0.0:
+        return None
+    across = min(
+        defect.extent / abs(1.0 - defect.turn_ratio(scene.bearing)) for defect in scene.defects
+    )
+    passing = across / scene.cage_speed
+    steps = passing * step_rate
+    crossed = steps < STEPS_A_PASSAGE * (1.0 - 1e-9)
+    sentence = (
+        f"A ball passes the defect in {passing * 1e3:.3g} ms, which are {steps:.0f} time steps at "
+        f"{step_rate:g} Hz; {STEPS_A_PASSAGE:.0f} or more keep its edges in the motion"
+        + (": here steps can jump over them." if crossed else ".")
+    )
+    return Limit("time steps in a defect", steps, STEPS_A_PASSAGE, "", crossed, sentence)

@@ -1,0 +1,192 @@
+"""Each answer is computed once, whoever asks."""
+
+import math
+import threading
+import time
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import (
+    MOST_STEPS,
+    SHORTEST,
+    ComputedOnce,
+    Results,
+    Settings,
+    orbits,
+)
+from bearing_explorer.state.reference import Reference
+
+from bearingcore import Scene, equilibrium, presets
+from bearingcore.dynamics.orbit import NOT_CONVERGED
+
+
+def test_threads_that_ask_together_share_one_computation() -> None:
+    calls = []
+
+    def slow(key: int) -> int:
+        calls.append(key)
+        time.sleep(0.05)
+        return 10 * key
+
+    once = ComputedOnce(slow, 4)
+    answers: list[int] = []
+    threads = [threading.Thread(target=lambda: answers.append(once(7))) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert answers == [70] * 8
+    assert calls == [7]
+
+
+def test_the_least_used_leaves_first() -> None:
+    calls = []
+    once = ComputedOnce(lambda key: calls.append(key) or key, 2)
+    for key in (1, 2, 1, 3, 1, 2):
+        assert once(key) == key
+    assert calls == [1, 2, 3, 2]
+
+
+def test_what_is_kept_counts_as_what_was_computed() -> None:
+    calls = []
+    once = ComputedOnce(lambda key: calls.append(key) or key, 2)
+    for key in (1, 2, 3):
+        once.keep(10 * key, key)
+    once.keep(0, 3)
+    assert [once.knows(key) for key in (1, 2, 3)] == [False, True, True]
+    assert once(3) == 30
+    assert not calls
+
+
+def test_a_failure_reaches_everyone_and_is_not_kept() -> None:
+    answers = iter([ValueError("no"), 5])
+
+    def sometimes() -> int:
+        answer = next(answers)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+
+    once = ComputedOnce(sometimes, 2)
+    with pytest.raises(ValueError, match="no"):
+        once()
+    assert once() == 5
+
+
+def test_equal_scenes_share_their_answers() -> None:
+    scene = presets["fan-rig"]
+    one, two = Results(scene), Results(scene.replace(fy=scene.load.fy))
+    assert one.equilibrium is two.equilibrium
+    assert one.sound_equilibrium is Results(scene.replace(extent=0.5)).sound_equilibrium
+
+
+def test_settings_say_how_fine() -> None:
+    results = Results(presets["fan-rig"], 0.1, Settings(n_cage_angles=31))
+    assert results.equilibrium.cage_angles.size == 31
+    np.testing.assert_allclose(results.now.cage_angles, [0.1])
+
+
+def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
+    fast = presets["fan-rig"].replace(race="inner", extent=math.radians(0.2), shaft_speed=600.0)
+    motion = Results(fast).motion
+    assert motion.time.size * motion.step_rate / motion.sample_rate <= 1.001 * MOST_STEPS
+    assert SHORTEST <= motion.time[-1] < 1.4
+    with pytest.raises(ValueError, match="steps a second"):
+        _ = Results(fast.replace(extent=1e-5)).motion
+    usual = Results(presets["fan-rig"]).motion
+    assert usual.time[-1] == pytest.approx(1.4, rel=1e-3)
+
+
+def test_what_is_pinned_stands_in_for_the_sound_bearing() -> None:
+    scene, other = presets["fan-rig"], presets["liew-lim"].replace(n_balls=9)
+    results = Results(scene, 0.1, pinned=Reference(other, "mine"))
+    first, last, n = results.stretch
+    angles = np.linspace(first, last, n)
+    np.testing.assert_array_equal(
+        results.sound_equilibrium.term("k_yy"), equilibrium(other, angles).term("k_yy")
+    )
+    assert results.sound_now.scene == other
+    around = results.sound_all_around.cage_angles
+    assert around[-1] == pytest.approx(2.0 * np.pi / 9)
+    assert results.sound_modes.cage_angles[-1] == last
+    alone = Results(scene, 0.1)
+    assert alone.beside == scene.sound()
+    assert alone.sound_all_around is alone.sound_equilibrium
+
+
+def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> None:
+    other = presets["liew-lim"].replace(stiffness_z=None)
+    results = Results(presets["fan-rig"], 0.1, pinned=Reference(other, "mine"))
+    for name in ("sound_modes", "sound_late_spectra"):
+        with pytest.raises(ValueError, match=r"pinned “mine” cannot be shown.*stiffness_z"):
+            getattr(results, name)
+    assert np.isfinite(results.modes.frequency).all()
+
+
+def test_the_sound_spectrum_is_begun_beside_the_other_and_computed_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scenes: list[tuple[str, bool]] = []
+    together = threading.Barrier(2, timeout=30.0)
+
+    def slow(scene: Scene, how: object) -> dict:
+        scenes.append((threading.current_thread().name, bool(scene.defects)))
+        together.wait()
+        return {}
+
+    monkeypatch.setattr("bearing_explorer.compute.results.late_spectra", ComputedOnce(slow, 8))
+    results = Results(presets["fan-rig"])
+    results.begin(frozenset({"late_spectra", "modes"}))
+    assert scenes == []
+    results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
+    assert results.late_spectra == results.sound_late_spectra == {}
+    assert sorted(defects for _, defects in scenes) == [False, True]
+    results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
+    assert len(scenes) == 2
+    assert any(name.startswith("beside") and not defects for name, defects in scenes)
+
+
+def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
+    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi)
+    hasty, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
+    assert hasty is not None
+    assert patient is not None
+    assert hasty.status == patient.status == NOT_CONVERGED
+    assert hasty.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
+    usual = presets["fan-rig"]
+    found = Results(usual, moving=True).orbit
+    assert found is not None
+    assert found.stable
+    assert Results(usual).orbit is found
+
+
+def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi, depth=49e-6)
+    results = Results(hopeless)
+    asked: list[None] = []
+
+    def overtaken() -> bool:
+        asked.append(None)
+        return len(asked) > 40
+
+    results.seek_orbit(overtaken)
+    assert len(asked) <= 43
+    assert not orbits.knows(hopeless, results._marching)
+    results.seek_orbit(lambda: False)
+    monkeypatch.setattr("bearing_explorer.compute.results.core.orbit", None)
+    assert results.orbit is not None
+    assert results.orbit.status == NOT_CONVERGED
+    assert results.orbit.right_hand_side_calls > 100 * len(asked)
+
+
+@pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])
+def test_bands_of_frequencies_are_looked_at_coarsely_while_a_hand_moves(name: str) -> None:
+    scene = presets[name].replace(extent=math.radians(38.0))
+    moving, rested = Results(scene, moving=True), Results(scene)
+    assert rested.band_modes is rested.modes
+    assert moving.band_modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
+    exact = rested.modes.bands()
+    for label, band in moving.band_modes.bands().items():
+        assert band == pytest.approx(exact[label], rel=0.03)

@@ -1,0 +1,195 @@
+"""Light pictures in turn on the event loop, others in threads."""
+
+import asyncio
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from bearing_explorer.compute.scheduler import LIGHT, LIGHT_THOUGHT, Turns
+
+from tests.bearing_explorer.loops import run
+
+
+def work(seconds: float) -> str:
+    """Keep a core busy; where that was."""
+    end = time.thread_time() + seconds
+    while time.thread_time() < end:
+        pass
+    return threading.current_thread().name
+
+
+def test_what_was_light_is_done_on_the_event_loop_next_time() -> None:
+    async def session() -> list[bool]:
+        here = threading.current_thread().name
+        turns = Turns()
+        return [
+            await turns.run(kind, work, seconds) == here
+            for kind, seconds in (
+                ("one", 0.0),  # nobody knows what it costs
+                ("one", 0.0),
+                ("two", 0.0),  # another kind
+                ("one", 1.5 * LIGHT),  # it was light
+                ("one", 0.0),  # it was not
+                ("one", 0.0),
+            )
+        ]
+
+    assert run(session()) == [False, True, False, True, False, True]
+
+
+def test_waiting_for_others_does_not_make_a_picture_heavy() -> None:
+    async def session() -> bool:
+        turns = Turns()
+        await turns.run("kind", time.sleep, 3.0 * LIGHT)
+        return turns.is_light("kind")
+
+    assert run(session())
+
+
+def test_sessions_take_turns_and_between_two_the_loop_hears_what_was_said() -> None:
+    order: list[str] = []
+
+    async def draw(name: str) -> None:
+        turns = Turns()
+        await turns.run(name, work, 0.0)
+        ready.append(name)
+        await all_ready.wait()
+        for _ in range(3):
+            await turns.run(name, order.append, name)
+
+    async def listen() -> None:
+        while len(order) < 9:
+            order_seen.append(len(order))
+            await asyncio.sleep(0.0)
+
+    async def live() -> None:
+        drawing = [asyncio.ensure_future(draw(name)) for name in "abc"]
+        while len(ready) < 3:
+            await asyncio.sleep(0.001)
+        all_ready.set()
+        await asyncio.gather(listen(), *drawing)
+
+    ready: list[str] = []
+    order_seen: list[int] = []
+    all_ready = asyncio.Event()
+    run(live())
+    rounds = [set(order[k : k + 3]) for k in (0, 3, 6)]
+    assert rounds == [set("abc")] * 3
+    assert set(order_seen) >= set(range(9)), "the loop went round between any two pictures"
+
+
+def test_how_long_pictures_take_is_known_however_long_they_waited() -> None:
+    async def session() -> list[float]:
+        turns = [Turns() for _ in range(4)]
+        for one in turns:
+            await one.run("kind", work, 0.0)
+            one.worked = 0.0
+        await asyncio.gather(*(one.run("kind", time.sleep, 0.1) for one in turns))
+        alone = [one.worked for one in turns]
+        await turns[0].run_slow(time.sleep, 0.1)
+        return [*alone, turns[0].worked]
+
+    *alone, twice = run(session())
+    assert all(0.1 <= one < 0.35 for one in alone), "the last waited for 0.3 s beside"
+    assert twice >= 0.2
+
+
+def test_light_thoughts_let_all_pictures_pass_and_heavy_ones_stay_in_threads() -> None:
+    order: list[str] = []
+
+    def note(name: str) -> str:
+        order.append(name)
+        return threading.current_thread().name
+
+    async def live() -> None:
+        here = threading.current_thread().name
+        turns = [Turns() for _ in range(4)]
+        with ThreadPoolExecutor(1, "thought") as threads:
+            for one in turns:  # nobody knows what they cost
+                assert await one.run("kind", work, 0.0) != here
+                assert (await one.think(threads, "kind", work, 0.0)).startswith("thought")
+            doing = [one.run("kind", note, f"picture {n}") for n, one in enumerate(turns[1:])]
+            doing.insert(2, turns[0].think(threads, "kind", note, "thought"))
+            assert set(await asyncio.gather(*doing)) == {here}
+            assert order[-1] == "thought"
+
+            assert (await turns[1].think(threads, None, work, 0.0)).startswith("thought")
+            await turns[1].think(threads, "kind", work, 2.0 * LIGHT_THOUGHT)
+            heavy = await turns[1].think(threads, "kind", work, 0.0)
+            assert heavy.startswith("thought")
+
+            # known results are found at once; that does not make the others light
+            await turns[2].think(threads, "kind", work, 8.0 * LIGHT_THOUGHT)
+            await turns[2].think(threads, "kind", work, 0.0)
+            assert (await turns[2].think(threads, "kind", work, 0.0)).startswith("thought")
+
+    run(live())
+
+
+def test_a_thought_has_its_turn_however_many_pictures_wait(monkeypatch) -> None:
+    monkeypatch.setattr("bearing_explorer.compute.scheduler.PATIENCE", 0.02)
+    stop = False
+
+    async def drag(turns: Turns) -> None:
+        while not stop:
+            await turns.run("kind", work, 0.002)
+
+    async def live() -> str:
+        nonlocal stop
+        turns = [Turns() for _ in range(3)]
+        with ThreadPoolExecutor(1, "thought") as threads:
+            for one in turns:
+                await one.run("kind", work, 0.0)
+                await one.think(threads, "kind", work, 0.0)
+            hands = [asyncio.ensure_future(drag(one)) for one in turns]
+            where = await turns[0].think(threads, "kind", work, 0.0)
+            stop = True
+            await asyncio.gather(*hands)
+            return "here" if where == threading.current_thread().name else where
+
+    assert run(live()) == "here"
+
+
+def test_a_thought_that_was_overtaken_in_the_line_never_begins() -> None:
+    began: list[int] = []
+
+    async def live() -> None:
+        turns, other = Turns(), Turns()
+        with ThreadPoolExecutor(1) as threads:
+            await turns.think(threads, "kind", work, 0.0)
+            await other.run("kind", work, 0.0)
+            picture = asyncio.ensure_future(other.run("kind", work, 0.01))
+            thought = asyncio.ensure_future(turns.think(threads, "kind", began.append, 1))
+            await asyncio.sleep(0.0)
+            thought.cancel()
+            await picture
+            await turns.think(threads, "kind", began.append, 2)
+
+    run(live())
+    assert began == [2]
+
+
+def test_failures_come_through_and_the_next_has_its_turn() -> None:
+    def fail() -> None:
+        raise RuntimeError("a bug")
+
+    async def session() -> bool:
+        turns = Turns()
+        for _ in range(2):  # in a thread and on the loop
+            with pytest.raises(RuntimeError, match="a bug"):
+                await turns.run("kind", fail)
+            await turns.run("kind", work, 0.0)
+        return await turns.run("kind", work, 0.0) == threading.current_thread().name
+
+    assert run(session())
+
+
+def test_kinds_are_not_remembered_for_ever() -> None:
+    async def session() -> int:
+        turns = Turns()
+        for number in range(200):
+            await turns.run(number, work, 0.0)
+        return len(turns._cost)
+
+    assert run(session()) < 100

@@ -1,0 +1,423 @@
+"""A measurement of one's own: brought in pieces, judged, asked about; and simulated ones."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import math
+import struct
+import zlib
+
+import numpy as np
+import pytest
+from bearing_explorer.measurement.form import FormError, guess, understood
+from bearing_explorer.measurement.session import MOST_NUMBERS, Measurement, read_file, simulated
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE, Upload, shown_name
+from scipy.io import savemat, wavfile
+
+from bearingcore import presets, read_table
+from tests.bearing_explorer.loops import run
+from tests.bearing_explorer.measuring import measuring, signal
+from tests.bearingcore.diagnosis.test_sizing import file_from_elsewhere
+
+RIG = presets["fan-rig"]
+NOISE = np.random.default_rng(2).standard_normal((2000, 2))
+
+
+def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:
+    time = np.arange(len(columns)) / rate
+    rows = [",".join(f"{v:.6g}" for v in (t, *row)) for t, row in zip(time, columns, strict=True)]
+    return "\n".join([heading, *rows] if heading else rows).encode()
+
+
+def wav_of(columns: np.ndarray, rate: int = 8000) -> bytes:
+    file = io.BytesIO()
+    wavfile.write(file, rate, columns.astype(np.float32))
+    return file.getvalue()
+
+
+def mat_of(**variables: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    savemat(file, variables)
+    return file.getvalue()
+
+
+async def settled(measurement: Measurement) -> None:
+    while measurement._tasks:
+        await asyncio.sleep(0.005)
+
+
+async def bring(measurement: Measurement, name: str, content: bytes) -> None:
+    """As the browser does: the pieces that are asked for, one after the other."""
+    wanted: list[tuple[int, int]] = []
+    measurement.want = lambda begin, of: wanted.append((begin, of))
+    measurement.asked({"file": {"name": name, "size": len(content)}})
+    while wanted:
+        begin, of = wanted.pop()
+        measurement.asked({"piece": content[begin : begin + PIECE], "of": of})
+    await settled(measurement)
+
+
+def brought(name: str, content: bytes, before: Measured | None = None) -> Measurement:
+    async def all_of_it() -> Measurement:
+        made = measuring(before)
+        await bring(made, name, content)
+        return made
+
+    return run(all_of_it())
+
+
+# -- good files ------------------------------------------------------------------------------------
+
+
+def test_a_file_from_elsewhere_is_understood_without_a_word():
+    """A motion by DOP853 in g, clock 0.1 % off, offset, drift, hum: columns and rate are found."""
+    truth, content = file_from_elsewhere()
+    made = brought("rig.csv", content)
+    assert not made.state.bad
+    assert made.state.values["unit"] == "m/s²"  # the headings do not tell it
+    assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
+    measured = made.measured
+    assert measured is not None
+    assert measured.directions == ("x", "y")
+    assert measured.recording.sample_rate == pytest.approx(16_000.0 * 6 / 5 * 1.001, rel=1e-6)
+    assert measured.shaft_speed == pytest.approx(RIG.shaft_speed)  # the sliders', until told
+    assert "type in the measured one" in made.state.words
+
+    async def told() -> None:
+        made.asked({"form": {**made.state.values, "unit": "g", "shaft_speed": "720 rpm"}})
+        await settled(made)
+
+    run(told())
+    assert made.measured is not None
+    assert made.measured.shaft_speed == pytest.approx(truth.shaft_speed)
+    ratio = made.measured.recording.acceleration / measured.recording.acceleration
+    np.testing.assert_allclose(ratio, 9.80665)
+
+
+def test_large_files_come_in_pieces_that_the_websocket_takes():
+    columns = np.random.default_rng(0).standard_normal((400_000, 2))
+    content = wav_of(columns, 51_200)
+    assert len(content) > 3 * PIECE
+    made = brought("long.wav", content)
+    assert made.measured is not None
+    np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
+    assert made.state.scaled
+    assert made.state.values["sample_rate"] == "51200"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "expected"),
+    [
+        ("a.csv", csv_of(NOISE, "time [s],ax [g],ay [g]"), ("1", "2", "g", "10000", "7 Hz")),
+        ("a.csv", csv_of(NOISE, "t,vertical (m/s^2),hor"), ("2", "1", "m/s²", "10000", "7 Hz")),
+        ("a.csv", csv_of(NOISE[:, :1], "time,sensor_g"), ("", "1", "g", "10000", "7 Hz")),
+        ("a.wav", wav_of(NOISE), ("0", "1", "m/s²", "8000", "7 Hz")),
+        ("a.wav", wav_of(NOISE[:, 0]), ("", "0", "m/s²", "8000", "7 Hz")),
+        (
+            "a.mat",
+            mat_of(X097_DE_time=NOISE[:, :1], X097RPM=np.array([[1797.0]]), fs=np.array([[12e3]])),
+            ("", "0", "m/s²", "12000", "1797 rpm"),
+        ),
+        (
+            "a.mat",
+            mat_of(DE=NOISE[:, :1], FE=NOISE[:, 1:], BA=NOISE[:, :1], sr=np.array([[12e3]])),
+            ("", "0", "m/s²", "12000", "7 Hz"),
+        ),
+    ],
+)
+def test_guesses(name, content, expected):
+    form = guess(read_table(name, content), 7.0)
+    keys = ("x", "y", "unit", "sample_rate", "shaft_speed")
+    assert tuple(form[key] for key in keys) == expected
+
+
+def test_what_the_file_does_not_tell_is_asked_for():
+    before = signal()
+    made = brought("two.mat", mat_of(a=NOISE), before)
+    assert made.measured is before
+    assert made.state.bad
+    assert "sample rate is missing" in made.state.refused["sample_rate"]
+    assert "Hz" in made.state.words
+    assert [value for value, _ in made.state.columns] == ["", "0", "1"]
+
+    async def told() -> None:
+        made.asked({"form": {**made.state.values, "sample_rate": "12 800"}})
+        await settled(made)
+
+    run(told())
+    assert made.measured is not None
+    assert made.measured.recording.sample_rate == 12_800.0
+    assert not made.state.bad
+    assert not made.state.refused
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "told"),
+    [
+        ("sample_rate", "", "is missing"),
+        ("sample_rate", "fast", "must be a number, not “fast”"),
+        ("sample_rate", "-5", "possible: 10 to 1e+07 Hz"),
+        ("sample_rate", "nan", "possible"),
+        ("shaft_speed", "1e9", "not possible"),
+        ("shaft_speed", "0", "not possible"),
+        ("shaft_speed", "rpm", "is missing"),
+        ("full_scale", "0", "possible"),
+        ("unit", "furlongs", "m/s² or g"),
+        ("x", "2", "same column"),
+        ("y", "99", "no such column"),
+        ("y", "-1", "no such column"),
+        ("x", "3", "same number throughout"),
+    ],
+)
+def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
+    columns = np.hstack([NOISE, np.ones((len(NOISE), 1))])
+    made = brought("a.csv", csv_of(columns, "time,x,y,still"))
+    before = made.measured
+    assert before is not None
+
+    async def asked() -> None:
+        made.asked({"form": {**made.state.values, field: text}})
+        await settled(made)
+
+    run(asked())
+    assert made.measured is before
+    assert made.state.bad
+    assert told in made.state.words
+    assert any(told in sentence for sentence in made.state.refused.values())
+    assert made.state.words.endswith(".")
+
+
+@pytest.mark.parametrize(
+    ("text", "hertz"),
+    [("25", 25.0), ("25,5 Hz", 25.5), ("1797 rpm", 29.95), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
+)
+def test_shaft_speeds_are_read_with_their_units(text, hertz):
+    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
+    asked = understood(table, {**guess(table, 7.0), "shaft_speed": text})
+    assert asked.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
+
+
+def test_neither_direction_is_no_measurement():
+    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
+    with pytest.raises(FormError, match="at least one direction"):
+        understood(table, {**guess(table, 7.0), "x": "", "y": ""})
+
+
+def test_more_numbers_than_a_session_keeps_are_left_out():
+    rows = MOST_NUMBERS // 2 + 1000
+    content = wav_of(np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32))
+    assert len(content) < MOST_BYTES
+    found = read_file("long.wav", content, 7.0)
+    assert found.table.columns.size == MOST_NUMBERS
+    assert "Only the first" in found.cut
+    assert found.asked is not None
+    assert found.asked.recording.sample_rate == 8000.0
+
+
+# -- bad files -------------------------------------------------------------------------------------
+
+
+def bomb() -> bytes:
+    """A MATLAB file of half a MB that unpacks to half a GB."""
+    packer = zlib.compressobj(9)
+    packed = b"".join(packer.compress(bytes(2**20)) for _ in range(512)) + packer.flush()
+    return b"MATLAB 5.0".ljust(124) + b"\x00\x01IM" + struct.pack("<II", 15, len(packed)) + packed
+
+
+def with_nan() -> bytes:
+    lines = csv_of(NOISE, "time,x,y").decode().splitlines()
+    lines[900] = "0.0899,nan,inf"
+    return "\n".join(lines).encode()
+
+
+BAD = {
+    "empty": ("e.csv", b"", "is empty"),
+    "blank": ("b.csv", b"\n \n\n", "holds lines of numbers"),
+    "words": ("w.csv", b"hello world\nhow are you", "a table of numbers"),
+    "picture": ("p.csv", b"\x89PNG\r\n\x1a\n" + bytes(5000), "text with numbers (CSV), WAV"),
+    "one gap": ("g.csv", csv_of(NOISE[:, :1]) + b"\n0.3,oops", "'0.3,oops'; allowed: numbers"),
+    "ragged": ("r.csv", csv_of(NOISE) + b"\n1,2", "3 columns as in the first"),
+    "short": ("s.csv", csv_of(NOISE[:100]), "at least 256 samples"),
+    "wide": ("v.csv", csv_of(np.ones((300, 80))), "at most 64"),
+    "not finite": ("n.csv", with_nan(), "not a finite number in 1 samples"),
+    "still": ("k.csv", csv_of(np.ones((2000, 2)), "time,x,y"), "same number throughout"),
+    "broken wav": ("b.wav", wav_of(NOISE)[:20], "a whole WAV file"),
+    "false wav": ("f.wav", b"RIFF" + bytes(3000), "a whole WAV file"),
+    "broken mat": ("b.mat", mat_of(a=NOISE)[:9000], "a whole MATLAB file"),
+    "new mat": ("h.mat", b"\x89HDF\r\n\x1a\n" + bytes(999), "version 7.3; save it with '-v7'"),
+    "bomb": ("z.mat", bomb(), "once unpacked"),
+    "text mat": ("t.mat", mat_of(a=np.array(["some words"])), "vector or matrix of real numbers"),
+}
+
+
+@pytest.mark.parametrize(("name", "content", "told"), BAD.values(), ids=BAD)
+def test_a_bad_file_gets_a_sentence_and_leaves_all_as_it_was(name, content, told):
+    before = signal()
+    made = brought(name, content, before)
+    assert made.measured is before
+    assert made.state.bad
+    assert not made.state.busy
+    assert told in made.state.words
+    assert name in made.state.words
+    assert made.state.words.endswith("The signal before it stays.")
+    assert not made.state.columns
+
+
+def test_a_huge_file_is_refused_before_it_is_sent():
+    made = measuring()
+    wanted: list[int] = []
+    made.want = lambda begin, of: wanted.append(begin)
+    made.asked({"file": {"name": "h.csv", "size": MOST_BYTES + 1}})
+    assert "at most 24 MB" in made.state.words
+    assert not wanted
+
+
+@pytest.mark.parametrize("piece", ["text", None, b"", bytes(PIECE + 1), bytes(101), {"a": 1}])
+def test_pieces_that_cannot_be_of_the_file_end_it(piece):
+    made = measuring(before := signal())
+    made.asked({"file": {"name": "a.csv", "size": 100}})
+    made.asked({"piece": piece, "of": 1})
+    assert made.state.bad
+    assert "did not arrive whole" in made.state.words
+    assert made.measured is before
+    made.asked({"piece": bytes(10), "of": 1})  # nobody asked for it
+    assert made.measured is before
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        7,
+        "file",
+        [],
+        {},
+        {"file": 3},
+        {"file": {}},
+        {"file": {"name": None, "size": "9"}},
+        {"file": {"name": "a", "size": True}},
+        {"file": {"name": "a", "size": -3}},
+        {"form": {"x": [1]}},
+        {"form": 3},
+        {"simulate": {}},
+        {"simulate": {"noise": [], "machine": {}}},
+        {"simulate": {"noise": "20", "machine": "another"}},
+        {"piece": b"abc"},
+        {"piece": b"abc", "of": 0},
+        {"piece": b"abc", "of": [1]},
+    ],
+)
+def test_nonsense_from_the_browser_changes_nothing(message):
+    made = measuring(before := signal())
+    made.asked(message)
+    assert made.measured is before
+    assert not made._tasks
+
+
+def test_names_of_files_are_shown_in_short_and_without_tricks():
+    assert shown_name("  a \n b\x00\u202e.csv ") == "a b.csv"
+    assert shown_name("") == "The file"
+    long = shown_name("x" * 300 + "-end.csv")
+    assert len(long) <= LONGEST_NAME
+    assert long.endswith("-end.csv")
+    assert Upload("<b>", 5).name == "<b>"  # the page writes it as text
+
+
+def test_what_was_asked_last_wins():
+    async def two() -> Measurement:
+        made = measuring()
+        first, second = csv_of(NOISE, "time,x,y"), csv_of(NOISE[:1000], "time,x,y")
+        made.asked({"file": {"name": "first.csv", "size": len(first)}})
+        made.asked({"piece": first, "of": 1})  # is being read ...
+        made.asked({"file": {"name": "second.csv", "size": len(second)}})
+        made.asked({"piece": first, "of": 1})  # late
+        made.asked({"piece": second, "of": 2})
+        await settled(made)
+        return made
+
+    made = run(two())
+    assert made.measured is not None
+    assert made.measured.recording.name == "second.csv"
+    assert made.state.words.startswith("second.csv")
+
+
+def test_a_form_changed_meanwhile_does_not_stop_a_file_on_its_way():
+    async def both() -> Measurement:
+        made = measuring()
+        await bring(made, "first.csv", csv_of(NOISE, "time,x,y"))
+        second = csv_of(NOISE[:1000], "time,x,y")
+        made.asked({"file": {"name": "second.csv", "size": len(second)}})
+        made.asked({"form": {**made.state.values, "unit": "g"}})
+        await settled(made)
+        made.asked({"piece": second, "of": 2})
+        await settled(made)
+        return made
+
+    made = run(both())
+    assert made.measured is not None
+    assert made.measured.recording.name == "second.csv"
+
+
+def test_after_the_session_nothing_is_taken():
+    async def late() -> Measurement:
+        made = measuring()
+        content = csv_of(NOISE, "time,x,y")
+        made.asked({"file": {"name": "late.csv", "size": len(content)}})
+        made.asked({"piece": content, "of": 1})
+        made.stop()
+        await settled(made)
+        return made
+
+    assert run(late()).measured is None
+
+
+# -- simulated measurements ------------------------------------------------------------------------
+
+
+def test_a_simulated_measurement_has_its_noise_and_knows_its_truth():
+    quiet = simulated(RIG, math.inf, False, 1)
+    noisy = simulated(RIG, 20.0, False, 1)
+    assert quiet.true_extent == RIG.defects[0].extent
+    clean, with_noise = quiet.recording.acceleration, noisy.recording.acceleration
+    ratio = np.std(with_noise - clean, axis=0) / np.sqrt(np.mean(clean**2, axis=0))
+    assert ratio == pytest.approx([0.1, 0.1], rel=0.03)
+    assert quiet.recording.duration * RIG.bearing.bpfo(RIG.shaft_speed) > 50.0
+
+
+def test_a_different_machine_is_not_the_scene_but_has_its_defect():
+    same, other, third = (
+        simulated(RIG, math.inf, different, seed)
+        for different, seed in ((False, 5), (True, 5), (True, 6))
+    )
+    assert same.true_extent == other.true_extent == third.true_extent
+    spectra = [made.spectrum("y", 32.0).density for made in (same, other, third)]
+    for one, two in ((0, 1), (0, 2), (1, 2)):
+        assert np.abs(np.log(spectra[one] / spectra[two])).mean() > 0.1
+
+
+def test_an_inner_race_defect_can_be_simulated_but_its_extent_is_not_to_be_found():
+    assert simulated(RIG.replace(race="inner"), 20.0, True, 1).true_extent is None
+
+
+@pytest.mark.parametrize("scene", [RIG.replace(dofs=("z",), fz=10.0), RIG.replace(fy=0.0)])
+def test_scenes_that_do_not_move_are_refused_in_a_sentence(scene):
+    with pytest.raises(ValueError, match="Not possible"):
+        simulated(scene, math.inf, False, 1)
+
+
+def test_the_button_simulates_the_scene_beside():
+    async def pressed() -> Measurement:
+        made = measuring()
+        made._editor.set({"extent_deg": 30.0})
+        made.asked({"simulate": {"noise": "40", "machine": "same"}})
+        assert made.state.busy
+        await settled(made)
+        return made
+
+    made = run(pressed())
+    assert made.measured is not None
+    assert made.measured.true_extent == pytest.approx(math.radians(30.0))
+    assert "balls pass" in made.state.words
+    assert not made.state.columns

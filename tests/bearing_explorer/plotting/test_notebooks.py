@@ -1,0 +1,28 @@
+"""The notebooks run as they stand, and are kept without what they put out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+FOLDER = Path(__file__).resolve().parents[3] / "assets" / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+
+
+def test_there_are_notebooks() -> None:
+    assert [path.stem for path in NOTEBOOKS] == ["first-steps", "size-of-a-defect"]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs_and_shows_what_it_says(path: Path) -> None:
+    notebook = nbformat.read(path, as_version=4)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert not any(cell.outputs or cell.execution_count for cell in code), "kept with outputs"
+    NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    for cell in code:
+        last = cell.source.strip().splitlines()[-1]
+        if last.startswith("plotting."):
+            assert any("text/html" in output.get("data", {}) for output in cell.outputs), last

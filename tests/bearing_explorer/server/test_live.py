@@ -1,0 +1,91 @@
+"""Newest inputs win; a failure does not stop the worker."""
+
+import asyncio
+
+from bearing_explorer.server.live import LatestWins, in_thread, one_message, send_at_once
+
+from tests.bearing_explorer.loops import run
+
+
+def test_inputs_overtaken_while_at_work_are_dropped() -> None:
+    worked: list[int] = []
+
+    async def drag() -> None:
+        free = asyncio.Event()
+
+        async def work(value: int) -> None:
+            worked.append(value)
+            await free.wait()
+
+        worker = LatestWins(work)
+        for value in range(50):
+            worker.submit(value)
+            await asyncio.sleep(0)
+        assert worker.waiting
+        assert not worker.idle
+        free.set()
+        while not worker.idle:
+            await asyncio.sleep(0)
+
+    run(drag())
+    assert worked == [0, 49], "what was overtaken must not be drawn, the last position must"
+
+
+def test_the_worker_survives_a_failure_and_says_so() -> None:
+    worked: list[int] = []
+    failures: list[str] = []
+
+    async def failed(error: Exception) -> None:
+        failures.append(str(error))
+
+    async def drag() -> None:
+        async def work(value: int) -> None:
+            if value == 1:
+                raise RuntimeError("the first scene is broken")
+            worked.append(value)
+
+        worker = LatestWins(work, failed=failed)
+        for value in (1, 2):
+            worker.submit(value)
+            while not worker.idle:
+                await asyncio.sleep(0.001)
+
+    run(drag())
+    assert worked == [2]
+    assert failures == ["the first scene is broken"]
+
+
+def test_a_stopped_worker_takes_nothing_more() -> None:
+    worked: list[int] = []
+
+    async def drag() -> None:
+        async def work(value: int) -> None:
+            worked.append(value)
+
+        worker = LatestWins(work)
+        worker.stop()
+        worker.submit(1)
+        await asyncio.sleep(0.01)
+
+    run(drag())
+    assert worked == []
+
+
+def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
+    import threading
+
+    async def where() -> tuple[str, str]:
+        return threading.current_thread().name, await in_thread(
+            lambda: threading.current_thread().name
+        )
+
+    here, there = run(where())
+    assert here != there
+    assert there.startswith("compute")
+
+
+def test_without_a_session_there_is_nothing_to_send_to() -> None:
+    assert send_at_once(None) == 0
+    changes: list[int] = []
+    run(one_message(None, lambda: changes.append(1)))
+    assert changes == [1]

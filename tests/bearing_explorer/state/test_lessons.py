@@ -1,0 +1,589 @@
+"""Lessons: what they claim is what the core computes; what is wrong with a file is said."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bearing_explorer.__main__ import options
+from bearing_explorer.compute.results import Results
+from bearing_explorer.page import SECTIONS, TABS
+from bearing_explorer.session import Explorer
+from bearing_explorer.state import lessons
+from bearing_explorer.state.lessons import (
+    Fault,
+    Lesson,
+    LessonError,
+    Part,
+    lessons_in,
+    own_folder,
+    read_lesson,
+)
+from bearing_explorer.state.scene_editor import SceneEditor
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bearingcore import (
+    DOF_NAMES,
+    EDGES,
+    STIFFNESS_TERMS,
+    Equilibrium,
+    Scene,
+    Spectrum,
+    equilibrium,
+    modes,
+    orbit,
+    presets,
+    simulate,
+    spectrum,
+)
+from tests import naive
+
+FILES = sorted(own_folder().glob("*.md"))
+FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
+RATE = 65536.0
+
+
+# --- what the lessons claim -----------------------------------------------------------------------
+
+
+def over_spacing(scene: Scene, n: int = 721) -> Equilibrium:
+    return equilibrium(scene, np.linspace(0.0, scene.bearing.ball_spacing, n))
+
+
+@cache
+def loads(scene: Scene) -> Equilibrium:
+    return over_spacing(scene)
+
+
+def fan(extent_deg: float = 12.9, **fields: float) -> Scene:
+    return FAN.replace(extent=math.radians(extent_deg), **fields)
+
+
+def liew_lim(extent_deg: float = 40.0, **fields: float) -> Scene:
+    return LIEW_LIM.replace(extent=math.radians(extent_deg), **fields)
+
+
+def below(scene: Scene, beside: int = 0) -> float:
+    """Load [N] of the ball at 270°, or of the one `beside` it, as one stands there."""
+    found = equilibrium(scene, [0.5 * scene.bearing.ball_spacing])
+    middle = int(np.argmin(np.abs(found.ball_angle[0] - 1.5 * math.pi)))
+    return float(found.ball_load[0, middle + beside])
+
+
+def sunk(scene: Scene) -> float:
+    """How far [µm] the ring is down as a ball stands at 270°."""
+    found = equilibrium(scene, [0.5 * scene.bearing.ball_spacing])
+    return -1e6 * float(found.displacement[0, 1])
+
+
+def drop_in_the_middle(extent_deg: float) -> float:
+    """How far [µm] a ball sinks in the middle of a defect of the fan rig."""
+    path = fan(extent_deg).defect.path(np.array([1.5 * math.pi]), FAN.bearing)
+    return 1e6 * float(path[0])
+
+
+@cache
+def fewest(edge: str) -> tuple[float, float]:
+    """Extents [deg] at which fewest balls carry load and k_yy is least, on average."""
+    extents = np.arange(59.0, 67.01, 0.25)
+    found = [over_spacing(liew_lim(x, edge=edge), 361) for x in extents]
+    balls = [e.loaded_balls[:-1].mean() for e in found]
+    stiffness = [e.term("k_yy")[:-1].mean() for e in found]
+    return float(extents[np.argmin(balls)]), float(extents[np.argmin(stiffness)])
+
+
+def way_in(edge: str) -> float:
+    """How far [deg] inside the edge a ball has sunk by what it was pressed together."""
+    return 0.5 * (fewest(edge)[0] - 60.0)
+
+
+@cache
+def bands(extent_deg: float) -> dict[str, tuple[float, float]]:
+    return modes(fan(extent_deg)).bands()
+
+
+@cache
+def of_motion(extent_deg: float, step_rate: float | None = None) -> Spectrum:
+    motion = simulate(fan(extent_deg), 1.4, RATE, step_rate=step_rate)
+    return spectrum(motion.outer_acceleration, motion.sample_rate)
+
+
+def peak(extent_deg: float, dof: int) -> tuple[float, float]:
+    """Frequency [Hz] and level [dB] of the highest peak from 0.3 to 2.1 kHz."""
+    frequency, density = of_motion(extent_deg)
+    band = (frequency >= 300.0) & (frequency <= 2100.0)
+    at = int(np.argmax(np.where(band, density[:, dof], 0.0)))
+    return float(frequency[at]), 10.0 * math.log10(density[at, dof])
+
+
+def step_error(step_rate: float) -> float:
+    """Greatest error [dB] of the spectra from 0.3 to 2.1 kHz."""
+    frequency, density = of_motion(12.9, step_rate)
+    band = (frequency >= 300.0) & (frequency <= 2100.0)
+    right = of_motion(12.9, 8.0 * RATE).density[band]
+    return float(np.abs(10.0 * np.log10(density[band] / right)).max())
+
+
+def greatest_coupling(extent_deg: float) -> float:
+    return float(np.abs(loads(liew_lim(extent_deg)).term("k_xy")).max())
+
+
+def between(values: np.ndarray) -> tuple[float, float]:
+    return float(np.min(values)), float(np.max(values))
+
+
+def radial_parts(extent_deg: float) -> tuple[float, float]:
+    """Sum [kN] of the radial parts of all ball loads."""
+    found = loads(liew_lim(extent_deg))
+    radial = found.ball_load * np.cos(found.contact_angle)
+    return between(1e-3 * np.nansum(radial, axis=1))
+
+
+def passage(extent_deg: float) -> float:
+    """Time [ms] between a ball entering and the next that leaves."""
+    spacing = math.degrees(FAN.bearing.ball_spacing)
+    return 1e3 * math.radians(extent_deg % spacing) / FAN.cage_speed
+
+
+def crushed(scene: Scene) -> float:
+    """What the printed formula lets a ball carry at most [kN], started from the right answer."""
+    angles = np.arange(120) * (scene.bearing.ball_spacing / 120)
+    ours = equilibrium(scene, angles)
+    lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
+    greatest = 0.0
+    for angle, moved in zip(angles[::4], ours.displacement[::4], strict=True):
+        q = naive.newton(scene, angle, moved * lever).q
+        greatest = max(greatest, float(naive.printed(scene, angle, q).ball_load.max()))
+    return 1e-3 * greatest
+
+
+SOUND = fan(0.0)
+E = math.radians
+
+#: what a lesson says, word for word, with every number in it computed here
+CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
+    "01": [
+        ("with 100 N", (-SOUND.load.fy,)),
+        ("There are 14 balls", (SOUND.bearing.n_balls,)),
+        ("Only 4 or 5 of the 14 carry anything", (*between(loads(SOUND).loaded_balls), 14)),
+        ("a ball at the very bottom carries 39 n", (below(SOUND),)),
+        ("sinks by 6.7 µm", (sunk(SOUND),)),
+        ("first 3 µm are the clearance", (1e6 * SOUND.bearing.radial_clearance,)),
+        ("7 balls share and the greatest load is 31 N",
+         (loads(fan(0.0, radial_clearance=0.0)).loaded_balls.max(),
+          loads(fan(0.0, radial_clearance=0.0)).ball_load.max())),
+        ("with 20 µm two or three balls are left to carry all of it, up to 61 N each",
+         (20, loads(fan(0.0, radial_clearance=20e-6)).ball_load.max())),
+        ("268 N instead of 312 N",
+         (loads(fan(0.0, fy=-800.0)).ball_load.max(), 8 * round(below(SOUND)))),
+    ],
+    "02": [
+        ("12.9° long, 50 µm deep", (math.degrees(FAN.defect.extent), 1e6 * FAN.defect.depth)),
+        ("The ball at 270°", (math.degrees(FAN.defect.center),)),
+        ("pressed together by 3.7 µm, the ring follows it by 1.2 µm",
+         (sunk(SOUND) - 3.0, sunk(fan()) - sunk(SOUND))),
+        ("About 5 µm are enough", (sunk(fan()) - 3.0,)),
+        ("4 µm leave it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(SOUND))),
+        ("5 µm leave it nothing, and 500 µm change nothing further", (5, 500)),
+        ("45 N each instead of 29 N", (below(fan(), 1), below(SOUND, 1))),
+        ("Eq. 6; where the quarter comes from is a question for lesson 6", (6, 6)),
+        ("at 5° the ball meets the other edge after 42 µm", (5, drop_in_the_middle(5.0))),
+        ("only from 5.5° on it comes down to 50 µm", (5.5, drop_in_the_middle(5.5))),
+    ],
+    "03": [
+        ("the same 2 kN as before", (-1e-3 * LIEW_LIM.load.fy,)),
+        ("5°, 40°, 70°", (5, 40, 70)),
+        ("make up 2 kn", (2,)),
+        ("add up to about 2.6 kN; at 70° to 3.1–3.5 kN",
+         (radial_parts(0.0)[0], 70, *radial_parts(70.0))),
+        ("none 829 N", (loads(liew_lim(0.0)).ball_load.max(),)),
+        *((f"{x}° {said} kN", (x, 1e-3 * loads(liew_lim(x)).ball_load.max()))
+          for x, said in ((5, "1.01"), (40, "1.39"), (70, "1.56"))),
+        ("pressed 1.9 times as hard as the bottom ever was",
+         (loads(liew_lim(70.0)).ball_load.max() / loads(liew_lim(0.0)).ball_load.max(),)),
+        ("shorter than the 30° between two balls", (math.degrees(LIEW_LIM.bearing.ball_spacing),)),
+        ("From 30° on", (30,)),
+    ],
+    "04": [
+        ("no defect, and 40° again", (40,)),
+        ("stays within 243–245 MN/m",
+         between(1e-6 * loads(liew_lim(0.0)).term("k_yy"))),
+        ("with the defect, 109–179 MN/m", between(1e-6 * loads(liew_lim()).term("k_yy"))),
+        ("five directions, five loads, 25 terms", (len(DOF_NAMES) ** 2,)),
+        ("so 15 are different", (len(STIFFNESS_TERMS),)),
+        ("at most 0.8 MN/m. With the defect it reaches 9.6 MN/m, eleven times as much",
+         (1e-6 * greatest_coupling(0.0), 1e-6 * greatest_coupling(40.0))),
+        ("the balls stand at 30°", (math.degrees(LIEW_LIM.bearing.contact_angle),)),
+    ],
+    "05": [
+        ("at 5° and let the extent grow slowly from 0° to 90°", (5, 0, 90)),
+        ("The balls are 30° apart", (math.degrees(LIEW_LIM.bearing.ball_spacing),)),
+        ("at 30° of extent halfway, at a cage angle of 15°; at 60° with a ball at either end, "
+         "at 0°; and at 90° halfway again", (30, 15, 60, 0, 90)),
+    ],
+    "06": [
+        ("64°, or 62°?", (64, 62)),
+        ("an extent of about 64°", (64,)),
+        ("three balls 30° apart take up 60°. Why not 60°?",
+         (math.degrees(LIEW_LIM.bearing.ball_spacing), 60, 60)),
+        ("sunk by the 20 µm",
+         (1e6 * LIEW_LIM.replace(edge="chord", extent=E(60.0)).defect.path(
+             np.array([E(240.0 + way_in("chord"))]), LIEW_LIM.bearing)[0],)),
+        ("Eq. 6 as published", (6,)),
+        ("a factor of 0.25 under the root", (0.25,)),
+        ("is 0.87° and the place is 61.75°", (way_in("chord"), fewest("chord")[0])),
+        ("= 1.75°, and the fewest balls are at 63.5°",
+         (way_in("published"), fewest("published")[0])),
+        ("(exact) gives 62°", (fewest("exact")[0],)),
+        ("at 63.75°, 61.75° and 62°", tuple(fewest(edge)[1] for edge in EDGES)),
+        ("so the sentence says 63° and 62°", (63, 62)),
+    ],
+    "07": [
+        ("from 0° over 12.9° to 38.6°", (0, 12.9, 38.6)),
+        *((f"{label} {x1} {y1}", (*numbers, *bands(x)["x1"], *bands(x)["y1"]))
+          for label, numbers, x, x1, y1 in (
+              ("none", (), 0.0, "365–436 Hz", "670–679 Hz"),
+              ("12.9°", (12.9,), 12.9, "365–480 Hz", "615–678 Hz"),
+              ("38.6°", (38.6,), 38.6, "476–571 Hz", "532–616 Hz"))),
+    ],
+    "08": [
+        ("to 12.9°, then to 38.6°", (12.9, 38.6)),
+        ("The balls are 25.7° apart", (math.degrees(FAN.bearing.ball_spacing),)),
+        ("38.6° is 12.9° and one spacing more",
+         (12.9 + math.degrees(FAN.bearing.ball_spacing), 12.9)),
+        ("which is 12.45 ms and 12.44 ms", (passage(12.9), passage(38.6))),
+        ("along y moves from 672 Hz down to 608 Hz", (peak(12.9, 1)[0], peak(38.6, 1)[0])),
+        ("the highest peak grows by 14 dB", (peak(38.6, 0)[1] - peak(12.9, 0)[1],)),
+    ],
+    "09": [
+        ("500 µm down", (500,)),
+        ("lets it carry 56 kN", (crushed(liew_lim(depth=500e-6)),)),
+        ("the greatest load is 1.39 kN", (1e-3 * loads(liew_lim()).ball_load.max(),)),
+        ("At 30 Hz", (30,)),
+        ("grows by a factor of 1.35",
+         (orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).largest_multiplier,)),
+        ("At 7 Hz it shrinks to 0.34",
+         (FAN.shaft_speed / (2.0 * math.pi), orbit(FAN).largest_multiplier)),
+        ("With 4096 steps a second the spectrum is wrong by 16 dB", (4096, step_error(4096.0))),
+        ("with 16 384 by 0.3 dB", (16, 384, step_error(16384.0))),
+        ("with 65 536 by less than 0.001 dB", (65, 536, 0.001 * (step_error(RATE) < 0.001))),
+    ],
+}  # fmt: skip
+
+
+class Words(HTMLParser):
+    """The words of some HTML without its formulas, one space between them."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self._found: list[str] = []
+        self._formula = False
+        self.feed(html)
+        self.text = re.sub(r"\s+", " ", " ".join(self._found)).strip()
+        self.text = re.sub(r" ([.,;:?)])", r"\1", self.text).replace("( ", "(")
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self._formula = self._formula or tag == "math"
+
+    def handle_endtag(self, tag: str) -> None:
+        self._formula = self._formula and tag != "math"
+
+    def handle_data(self, data: str) -> None:
+        if not self._formula:
+            self._found.append(data)
+
+
+def lesson_of(path: Path) -> Lesson:
+    return read_lesson(path.read_text(encoding="utf-8"), TABS)
+
+
+def words_of(lesson: Lesson) -> str:
+    parts = " ".join(f"{part.heading} {part.html}" for part in lesson.parts)
+    return Words(f"{lesson.title} {parts}").text
+
+
+def decimals(text: str) -> int:
+    return len(text.partition(".")[2])
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_every_number_of_a_lesson_is_what_the_core_computes(path: Path) -> None:
+    said = words_of(lesson_of(path)).lower()
+    left = said
+    for claim, computed in CLAIMS[path.stem[:2]]:
+        assert claim.lower() in said, f"the lesson no longer says {claim!r}"
+        left = left.replace(claim.lower(), " ")
+        numbers = re.findall(r"\d+(?:\.\d+)?", claim)
+        assert len(numbers) == len(computed), claim
+        for number, value in zip(numbers, computed, strict=True):
+            off = abs(float(number) - float(value))
+            assert off <= 0.5001 * 10.0 ** -decimals(number), f"{claim}: computed {value:.6g}"
+    unchecked = re.findall(r".{0,20}\d.{0,20}", left)
+    assert not unchecked, "numbers that nothing here checks"
+
+
+def test_what_lessons_say_in_words() -> None:
+    deep = [fan(depth=d * 1e-6) for d in (5.0, 50.0, 500.0)]
+    assert [below(scene) for scene in deep] == [0.0, 0.0, 0.0]
+    np.testing.assert_allclose([below(scene, 1) for scene in deep], below(deep[0], 1), rtol=1e-9)
+    assert between(loads(fan(0.0, radial_clearance=20e-6)).loaded_balls) == (2, 3)
+    assert loads(fan(0.0, radial_clearance=0.0)).loaded_balls.min() == 7
+    assert loads(fan(0.0, fy=-800.0)).loaded_balls.min() > loads(SOUND).loaded_balls.max()
+    # 2: from 5.5° on the floor is reached, and at 5.4° it is not
+    assert drop_in_the_middle(5.4) < 49.9
+    # 3: up to 30° blue lies on grey at times, beyond it never
+    for extent_deg, times in ((29.0, True), (31.0, False)):
+        damaged, sound = loads(liew_lim(extent_deg)), loads(liew_lim(0.0))
+        same = np.abs(damaged.ball_load - sound.ball_load).max(axis=1) < 1e-6
+        assert same.any() == times
+    # 4
+    damaged, sound = loads(liew_lim()), loads(liew_lim(0.0))
+    assert greatest_coupling(40.0) / greatest_coupling(0.0) == pytest.approx(11.0, abs=0.5)
+    assert min(np.abs(found.term("k_xry")).min() for found in (damaged, sound)) > 0.5e6
+    tied = [f"k_{a}{b}" for a in "xy" for b in ("z", "rx", "ry")]
+    assert all(not loads(fan()).term(term).any() for term in tied)
+    # 6
+    assert way_in("published") == pytest.approx(2.0 * way_in("chord"), rel=0.01)
+    found = {edge: Results(liew_lim(edge=edge)).maps for edge in EDGES}
+    least = {
+        e: math.degrees(m.extents[np.nanargmin(m.mean_loaded_balls)]) for e, m in found.items()
+    }
+    assert least == pytest.approx({"published": 63.0, "chord": 62.0, "exact": 62.0})
+    # 7, 8
+    assert passage(12.9) == pytest.approx(passage(38.6), abs=0.02)
+    # 9
+    shallow, deeper = loads(liew_lim()), loads(liew_lim(depth=500e-6))
+    np.testing.assert_allclose(deeper.ball_load, shallow.ball_load, rtol=1e-9, atol=1e-9)
+    assert orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).residual < 1e-9
+    nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
+    assert not nothing.converged.any()
+    assert naive.newton(SOUND, 0.0, np.zeros(5)).failure == "singular matrix"
+
+
+@pytest.mark.parametrize("halfway", [False, True])
+def test_lines_of_the_maps_cross_where_the_lesson_says(halfway: bool) -> None:
+    """Balls inside the defect change by two at once at the corners of the diamonds."""
+    angle = E(15.0) if halfway else 0.0
+    balls = angle + np.arange(12) * E(30.0)
+    away = np.abs((balls - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi)
+    corners = (30.0, 90.0) if halfway else (60.0,)
+    for corner in corners:
+        inside = [int((away < 0.5 * E(corner + more)).sum()) for more in (-0.1, 0.1)]
+        assert inside[1] - inside[0] == 2
+    drop = liew_lim(corners[0] + 8.0).defect.path(balls, LIEW_LIM.bearing)
+    assert (drop > 0.0).sum() == (2 if halfway else 3)
+
+
+# --- files ----------------------------------------------------------------------------------------
+
+
+def test_the_lessons_that_come_along_are_in_order() -> None:
+    found = lessons_in(own_folder(), TABS)
+    assert [lesson.sentence for lesson in found if isinstance(lesson, Fault)] == []
+    assert 8 <= len(found) <= 10
+    for lesson in found:
+        assert isinstance(lesson, Lesson)
+        assert [part.heading for part in lesson.parts] == ["Question", "Drag", "Look", "Answer"]
+        assert lesson.drag
+        assert lesson.watch
+        told = json.dumps(lesson.for_browser(0))
+        assert len(told) < 20_000
+        editor = SceneEditor("6205")
+        lesson.begin(editor)
+        assert editor.preset == lesson.preset
+        assert {name: editor.values[name] for name in lesson.values} == lesson.values
+
+
+GOOD = """+++
+title = "A title"
+tab = "load"
+preset = "fan-rig"
+drag = ["fy_n"]
+watch = ["bearing"]
+
+[scene]
+extent_deg = 64
+edge = "chord"
++++
+## Question
+Words, [a button](set:extent_deg=62&edge=exact) and [another](show:maps).
+
+$$Q = K\\delta^{3/2}$$
+## Answer
+So $x < y$ it is.
+"""
+
+
+def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
+    lesson = read_lesson(GOOD, TABS)
+    assert (lesson.title, lesson.tab, lesson.drag, lesson.watch) == (
+        "A title", "load", ("fy_n",), ("bearing",),
+    )  # fmt: skip
+    editor = SceneEditor("liew-lim")
+    lesson.begin(editor)
+    assert editor.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
+    question, answer = lesson.parts
+    buttons = ElementTree.fromstring(f"<div>{question.html}</div>").iter("button")
+    assert [json.loads(button.attrib["data-ask"]) for button in buttons] == [
+        {"choose": {"edge": "exact"}, "typed": {"extent_deg": 62.0}},
+        {"show": "maps"},
+    ]
+    assert "<math" in question.html
+    assert 'display="block"' in question.html
+    assert "<mo>&lt;</mo>" in answer.html
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "words"),
+    [
+        ("+++\ntitle", "title", 1, "begins with a line +++"),
+        ("+++\n##", "##", 17, "a second line +++ is missing"),
+        ('"A title"', "A title", 2, "the head is not TOML"),
+        ('title = "A title"', "", 1, "the head has no title"),
+        ('"load"', '"lode"', 3, "“lode” is not a tab; there are load, stiffness"),
+        ('"fan-rig"', '"fan"', 4, "“fan” is not a preset; there are"),
+        ('["fy_n"]', '"fy_n"', 5, "drag should be a list of texts"),
+        ('["fy_n"]', '["fy"]', 5, "“fy” is not a control beside the figures"),
+        ('["bearing"]', '["maps"]', 6, "“maps” is not a figure of this tab; there are bearing"),
+        ("[scene]", "[seen]", 8, "“seen” is not known"),
+        ("extent_deg = 64", "extent_deg = 640", 9, "640° is out of range: extent goes from 0"),
+        ("extent_deg = 64", "extent = 64", 9, "“extent” is no number or choice of the page; was"),
+        ('"chord"', '"sharp"', 10, "edge is “sharp”; there are published, chord, exact"),
+        ("## Question", "Question", 12, "parts begin with"),
+        ("## Answer", "Answer", 12, "two parts at least"),
+        ("So $x < y$ it is.", "", 16, "this part is empty"),
+        ("set:extent_deg=62", "set:extent_deg=6200", 13, "6200° is out of range"),
+        ("show:maps", "show:map", 13, "“map” is not a tab"),
+        ("show:maps", "ftp://a/b", 13, "links go to set:, show: or https:"),
+        ("3/2}", "3/2", 15, "its braces do not match"),
+        ("So $x", "So\n$\\href{https://a}{x}$ $x", 18, "holds what a formula may not"),
+    ],
+)
+def test_what_is_wrong_with_a_file_is_said_with_its_line(
+    tmp_path: Path, old: str, new: str, line: int, words: str
+) -> None:
+    assert old in GOOD
+    (tmp_path / "01-wrong.md").write_text(GOOD.replace(old, new, 1), encoding="utf-8")
+    (fault,) = lessons_in(tmp_path, TABS)
+    assert isinstance(fault, Fault)
+    assert fault.sentence.startswith(f"01-wrong.md, line {line}: ")
+    assert words in fault.sentence
+    assert fault.sentence.endswith(".")
+
+
+def test_a_teachers_folder_is_read_anew_when_a_file_changes(tmp_path: Path) -> None:
+    (tmp_path / "02-b.md").write_text(GOOD, encoding="utf-8")
+    (tmp_path / "01-a.md").write_bytes(GOOD.encode("utf-8").replace(b"Words", b"W\xe9rds"))
+    (tmp_path / "notes.txt").write_text("not a lesson", encoding="utf-8")
+    bad, good = lessons_in(tmp_path, TABS)
+    assert bad == Fault("01-a.md", "01-a.md, line 13: this is not text in UTF-8.")
+    assert isinstance(good, Lesson)
+    (tmp_path / "01-a.md").write_text(GOOD.replace("A title", "Mended"), encoding="utf-8")
+    mended, _ = lessons_in(tmp_path, TABS)
+    assert isinstance(mended, Lesson)
+    assert mended.title == "Mended"
+    (tmp_path / "03-c.md").write_bytes(b"x" * (lessons.LONGEST_FILE + 1))
+    assert "longer than" in str(lessons_in(tmp_path, TABS)[2])
+
+
+def test_a_folder_without_lessons_is_one_fault(tmp_path: Path) -> None:
+    for folder, words in ((tmp_path, "holds no file"), (tmp_path / "none", "cannot be read")):
+        (fault,) = lessons_in(folder, TABS)
+        assert isinstance(fault, Fault)
+        assert words in fault.sentence
+
+
+def test_a_teachers_folder_on_the_page(tmp_path: Path) -> None:
+    (tmp_path / "1.md").write_text(GOOD, encoding="utf-8")
+    (tmp_path / "2.md").write_text(GOOD.replace("show:maps", "show:nothing"), encoding="utf-8")
+    assert options(["--lessons", str(tmp_path)]).lessons == tmp_path
+    explorer = Explorer(SECTIONS, lessons=lessons_in(tmp_path, TABS))
+    panel = explorer.lesson
+    assert [title for title, _ in panel.titles] == ["A title", "2.md"]
+    assert panel.titles[1][1].startswith("2.md, line 13: “nothing” is not a tab")
+    asked: list[object] = []
+    explorer._asked = asked.append  # type: ignore[method-assign]
+    explorer.draw = lambda: None  # type: ignore[method-assign]
+    for nonsense in (None, "0", {"lesson": 1}, {"lesson": 7}, {"lesson": -1}, {"lesson": "0"}):
+        explorer._lesson_asked(nonsense)
+        assert panel.lesson == {}
+        assert explorer.scene == FAN
+    explorer._lesson_asked({"mark": 1, "lesson": 0})
+    assert panel.lesson["title"] == "A title"
+    assert explorer.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
+    assert asked[-1] == {"mark": 1, "lesson": 0}
+    explorer._lesson_asked({"show": "maps"})
+    assert explorer._shown == "maps"
+    assert explorer.scene.defect.edge == "chord"
+
+
+# --- strangers ------------------------------------------------------------------------------------
+
+HOSTILE = [
+    "<script>alert(1)</script>",
+    "<img src=x onerror=alert(1)>",
+    "![x](https://example.org/x.png)",
+    "[x](javascript:alert(1))",
+    "[x](data:text/html,<script>alert(1)</script>)",
+    '[x](show:maps"onclick="alert(1))',
+    "$\\text{<script>alert(1)</script>}$",
+    "$\\href{javascript:alert(1)}{x}$",
+    "$\\text{&lt;script&gt;alert(1)&lt;/script&gt;}$",
+    "<https://example.org/><iframe src='https://example.org'>",
+    "## <b onmouseover=alert(1)>Heading",
+]
+ELEMENTS = {
+    *("p", "em", "strong", "code", "pre", "ol", "ul", "li", "h3", "h4", "h5", "h6", "blockquote"),
+    *("table", "thead", "tbody", "tr", "th", "td", "br", "hr", "a", "button"),
+    *lessons._MATHML_ELEMENTS.split(),
+}
+ATTRIBUTES = {
+    *("href", "title", "target", "rel", "type", "class", "data-ask", "style", "start"),
+    *lessons._MATHML_ATTRIBUTES.split(),
+}
+
+
+class Judge(HTMLParser):
+    """Finds what a lesson may never hold."""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        assert tag in ELEMENTS, tag
+        for name, value in attrs:
+            assert name in ATTRIBUTES, name
+            assert name != "href" or str(value).startswith(("https://", "http://")), value
+            assert name != "style" or re.fullmatch(r"text-align:\s*\w+", str(value)), value
+
+
+def judge(text: str) -> None:
+    parts: tuple[Part, ...] = ()
+    line = 1
+    try:
+        parts = read_lesson(text, TABS).parts
+    except LessonError as error:
+        line = error.line
+    assert 1 <= line <= text.count("\n") + 2
+    for part in parts:
+        Judge().feed(part.html)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_nothing_a_stranger_writes_becomes_a_script(hostile: str) -> None:
+    judge(GOOD.replace("Words", hostile))
+    judge(GOOD.replace("Words", f"\n\n{hostile}\n\n"))
+    judge(GOOD.replace("A title", hostile.replace('"', "'")))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.text(st.sampled_from("<>[]()$\\{}_^&;:=\"'#|-*`!a1 \n/+é\0"), max_size=120))
+def test_any_text_is_a_lesson_or_refused(text: str) -> None:
+    judge(text)
+    judge(GOOD.replace("Words", text))
+    judge(GOOD.replace("extent_deg = 64", text))

@@ -1,0 +1,82 @@
+"""From what a person gives to a Scene, and what is refused on the way."""
+
+import math
+
+import pytest
+from bearing_explorer.state.quantities import QUANTITIES, limits_of, read, scene_with, values_of
+from bearing_explorer.state.scene_editor import SceneEditor
+
+from bearingcore import presets
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_a_preset_survives_the_way_to_the_page_and_back(name: str) -> None:
+    scene = presets[name]
+    again = scene_with(scene, values_of(scene), edge=scene.defects[0].edge)
+    assert again.load == scene.load
+    assert again.defect.extent == pytest.approx(scene.defect.extent, rel=1e-12)
+    assert again.defect.depth == pytest.approx(scene.defect.depth, rel=1e-12)
+    assert again.shaft_speed == pytest.approx(scene.shaft_speed, rel=1e-11)
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_the_sliders_reach_what_a_preset_starts_with(name: str) -> None:
+    values, limits = values_of(presets[name]), limits_of(presets[name])
+    assert set(values) == set(limits) == set(QUANTITIES)
+    for quantity, value in values.items():
+        if not math.isnan(value):
+            assert limits[quantity].least <= value <= limits[quantity].most, quantity
+        assert 0 < limits[quantity].step < limits[quantity].most - limits[quantity].least
+
+
+def test_loads_fit_the_bearing() -> None:
+    assert limits_of(presets["fan-rig"])["fy_n"].most < limits_of(presets["liew-lim"])["fy_n"].most
+
+
+@pytest.mark.parametrize(
+    ("given", "value"), [("40", 40.0), (" 12,5 ", 12.5), (7, 7.0), ("1e1", 10.0), ("0", 0.0)]
+)
+def test_numbers_are_read_as_people_write_them(given: object, value: float) -> None:
+    assert read("extent_deg", given, limits_of(presets["fan-rig"])) == value
+
+
+def test_a_true_minus_sign_is_a_minus_sign() -> None:
+    assert read("fy_n", "−50", limits_of(presets["fan-rig"])) == -50.0
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ("400", "400° is out of range: extent goes from 0 to 360°."),
+        ("-1", "−1° is out of range: extent goes from 0 to 360°."),
+        ("abc", "“abc” is not a number: extent goes from 0 to 360°."),
+        ("nan", "“nan” is not a number: extent goes from 0 to 360°."),
+        (math.inf, "“inf” is not a number: extent goes from 0 to 360°."),
+        ("", "A number is missing: extent goes from 0 to 360°."),
+        (None, "“None” is not a number: extent goes from 0 to 360°."),
+        ([1, 2], "“[1, 2]” is not a number: extent goes from 0 to 360°."),
+    ],
+)
+def test_what_is_refused_gets_a_sentence(given: object, sentence: str) -> None:
+    with pytest.raises(ValueError, match=r"extent goes from") as refusal:
+        read("extent_deg", given, limits_of(presets["fan-rig"]))
+    assert str(refusal.value) == sentence
+
+
+def test_units_stand_where_they_belong() -> None:
+    scene = scene_with(
+        presets["fan-rig"],
+        {**values_of(presets["fan-rig"]), "extent_deg": 90.0, "depth_um": 80.0, "mx_nm": 2.0},
+        edge="exact",
+    )
+    assert scene.defect.extent == pytest.approx(math.pi / 2)
+    assert scene.defect.depth == pytest.approx(80e-6)
+    assert scene.load.mx == 2.0
+    assert scene.defect.edge == "exact"
+
+
+@pytest.mark.parametrize("value", [5e-324, -5e-324, 1e-310, 1e308])
+def test_limits_hold_numbers_that_computers_hardly_hold(value: float) -> None:
+    editor = SceneEditor("fan-rig")
+    editor.set({"shaft_speed_hz": value, "poisson": value})
+    assert all(limits.least < limits.most for limits in editor.limits.values())

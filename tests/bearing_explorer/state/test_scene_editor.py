@@ -1,0 +1,299 @@
+"""What a person builds on the page, and what is refused on the way."""
+
+import math
+import re
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from bearing_explorer.state.scene_editor import LARGEST_FILE, MOST_DEFECTS, SceneEditor, read_file
+
+from bearingcore import MeasuredFloor, RoughFloor, presets
+from bearingcore.statics.passes import ball_drop
+
+
+@pytest.fixture
+def editor() -> SceneEditor:
+    return SceneEditor("fan-rig")
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_a_preset_is_taken_as_it_is(name: str) -> None:
+    editor = SceneEditor(name)
+    assert editor.scene == presets[name]
+    assert not editor.changed
+    state = editor.state()
+    for quantity, value in state["values"].items():
+        limit = state["limits"][quantity]
+        assert value is None or limit["least"] <= value <= limit["most"], quantity
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_moving_one_number_moves_nothing_else(name: str) -> None:
+    editor = SceneEditor(name)
+    refused, changed = editor.set({"outer_mass": 3.25})
+    assert (refused, changed) == ({}, {"outer_mass": 3.25})
+    assert editor.scene == presets[name].replace(outer_mass=3.25)
+
+
+@pytest.mark.parametrize(
+    ("control", "value", "field", "si"),
+    [
+        ("n_balls", 11, "n_balls", 11),
+        ("pitch_diameter_mm", 47.5, "pitch_diameter", 47.5e-3),
+        ("contact_angle_deg", 20, "contact_angle", math.radians(20)),
+        ("groove_center_distance_um", 180, "groove_center_distance", 180e-6),
+        ("radial_clearance_um", 12, "radial_clearance", 12e-6),
+        ("load_deflection_factor", 9000, "load_deflection_factor", 9e9),
+        ("inner_raceway_radius_mm", 18, "inner_raceway_radius", 18e-3),
+    ],
+)
+def test_dimensions_reach_the_bearing(
+    editor: SceneEditor, control: str, value: float, field: str, si: float
+) -> None:
+    refused, _ = editor.set({control: value})
+    assert refused == {}
+    assert getattr(editor.scene.bearing, field) == pytest.approx(si, rel=1e-12)
+    assert editor.changed
+
+
+def test_a_bearing_that_cannot_be_built_is_refused_in_the_words_of_the_page(
+    editor: SceneEditor,
+) -> None:
+    before = editor.scene
+    refused, changed = editor.set({"ball_diameter_mm": 11.0})
+    assert list(refused) == ["ball_diameter_mm"]
+    assert "number of balls is 14" in refused["ball_diameter_mm"]
+    assert "_" not in refused["ball_diameter_mm"]
+    assert changed == {}
+    assert editor.scene is before
+    assert editor.values["ball_diameter_mm"] == 8.0
+
+
+def test_a_drawing_gives_what_follows_from_it(editor: SceneEditor) -> None:
+    assert editor.choose({"numbers": "drawing"}) == {}
+    drawn = editor.scene.bearing
+    assert drawn.is_drawn
+    assert drawn.groove_center_distance == pytest.approx(50e-6)
+    hidden = editor.state()["hidden"]
+    assert "load_deflection_factor" in hidden
+    assert "inner_groove_radius_mm" not in hidden
+    refused, changed = editor.set({"inner_groove_radius_mm": 4.2})
+    assert refused == {}
+    assert editor.scene.bearing.groove_center_distance == pytest.approx(225e-6)
+    assert editor.scene.bearing.load_deflection_factor < drawn.load_deflection_factor
+    assert changed["groove_center_distance_um"] == pytest.approx(225.0)
+    refused, _ = editor.set({"inner_groove_radius_mm": 3.9})
+    assert "inner groove radius" in refused["inner_groove_radius_mm"]
+    editor.choose({"numbers": "direct"})
+    assert not editor.scene.bearing.is_drawn
+    assert editor.scene.bearing.groove_center_distance == pytest.approx(225e-6)
+
+
+def test_grooves_go_with_their_ball() -> None:
+    editor = SceneEditor("6205")
+    before = editor.scene.bearing
+    refused, changed = editor.set({"ball_diameter_mm": 9.0})
+    after = editor.scene.bearing
+    assert refused == {}
+    for race in ("inner", "outer"):
+        name = f"{race}_groove_radius"
+        assert getattr(after, name) / after.ball_diameter == pytest.approx(
+            getattr(before, name) / before.ball_diameter
+        )
+        assert changed[f"{name}_mm"] == pytest.approx(1e3 * getattr(after, name))
+        limit = editor.limits[f"{name}_mm"]
+        assert limit.least < 1e3 * getattr(after, name) < limit.most
+
+
+def test_what_is_typed_past_a_slider_stretches_it(editor: SceneEditor) -> None:
+    refused, _ = editor.set({"extent_deg": "300"})
+    assert refused == {}
+    assert editor.scene.defect.extent == pytest.approx(math.radians(300.0))
+    assert editor.limits["extent_deg"].most == 360.0
+    refused, _ = editor.set({"fy_n": "-3000"})
+    assert refused == {}
+    assert editor.limits["fy_n"].least <= -3000.0
+    refused, _ = editor.set({"extent_deg": "400"})
+    assert "out of range" in refused["extent_deg"]
+    assert editor.scene.defect.extent == pytest.approx(math.radians(300.0))
+
+
+def test_an_optional_number_may_be_left_open(editor: SceneEditor) -> None:
+    assert editor.state()["values"]["contact_damping"] is None
+    editor.set({"contact_damping": "250"})
+    assert editor.scene.contact_damping == 250.0
+    refused, _ = editor.set({"contact_damping": ""})
+    assert refused == {}
+    assert editor.scene.contact_damping is None
+    refused, _ = editor.set({"stiffness_x": ""})
+    assert "missing" in refused["stiffness_x"]
+
+
+def test_defects_are_added_chosen_moved_and_removed(editor: SceneEditor) -> None:
+    first = editor.scene.defect
+    assert editor.choose({"defect": "add"}) == {}
+    assert editor.selected == 1
+    assert editor.scene.defects[0] == first
+    assert editor.scene.defects[1].center == pytest.approx(math.pi / 2)  # opposite the first
+    editor.choose({"race": "inner"})
+    editor.set({"extent_deg": 20, "center_deg": 45})
+    assert [d.race for d in editor.scene.defects] == ["outer", "inner"]
+    assert editor.scene.defects[0] == first
+    assert editor.scene.defects[1].extent == pytest.approx(math.radians(20))
+    editor.choose({"defect": "0"})
+    assert editor.values["extent_deg"] == pytest.approx(12.9)
+    assert editor.state()["choices"]["race"] == "outer"
+    assert editor.state()["defects"]["names"] == ["outer race at 270°", "inner race at 45°"]
+    editor.choose({"defect": "remove"})
+    assert len(editor.scene.defects) == 1
+    assert editor.scene.defect.race == "inner"
+    editor.choose({"defect": "remove"})
+    assert len(editor.defects) == 1, "the last one stays: its sliders do"
+
+
+def test_the_list_of_defects_ends(editor: SceneEditor) -> None:
+    for _ in range(MOST_DEFECTS - 1):
+        assert editor.choose({"defect": "add"}) == {}
+    assert len(editor.scene.defects) == MOST_DEFECTS
+    assert "at most" in editor.choose({"defect": "add"})["defect"]
+    edges = sorted((d.center - 0.5 * d.extent, d.center + 0.5 * d.extent) for d in editor.defects)
+    assert all(end < start for (_, end), (start, _) in pairwise(edges))
+
+
+def test_a_full_race_has_no_room_for_another_defect(editor: SceneEditor) -> None:
+    editor.set({"extent_deg": 360})
+    assert "no room" in editor.choose({"defect": "add"})["defect"]
+    assert len(editor.defects) == 1
+
+
+def test_defects_that_run_together_keep_to_what_the_core_allows(editor: SceneEditor) -> None:
+    editor.choose({"defect": "add"})
+    editor.choose({"floor": "rough"})
+    before = editor.scene
+    refused, _ = editor.set({"center_deg": 268})
+    assert "flat floors where defects touch" in refused["center_deg"]
+    assert editor.scene == before
+    editor.choose({"floor": "flat"})
+    assert editor.set({"center_deg": 262})[0] == {}
+    editor.choose({"edge": "exact"})
+    assert {d.edge for d in editor.scene.defects} == {"exact"}
+
+
+def test_a_rough_floor_is_the_same_surface_for_the_same_seed(editor: SceneEditor) -> None:
+    editor.set({"rms_height_um": 7.0})
+    assert editor.scene.defect.floor is None, "a flat floor has no roughness"
+    editor.choose({"floor": "rough"})
+    editor.set({"correlation_length_um": 150, "seed": 3})
+    assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
+    assert "seed" not in editor.state()["hidden"]
+    assert "whole number" in editor.set({"seed": 2.5})[0]["seed"]
+    editor.choose({"floor": "flat"})
+    assert editor.scene == presets["fan-rig"]
+    editor.choose({"floor": "rough"})
+    assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
+
+
+def test_a_floor_finer_than_can_be_computed_is_refused(editor: SceneEditor) -> None:
+    editor.choose({"floor": "rough"})
+    assert editor.set({"correlation_length_um": "1", "extent_deg": "360"})[0] == {}
+    refused, _ = editor.set({"outer_raceway_radius_mm": "9000"})
+    assert "correlation length" in refused["outer_raceway_radius_mm"]
+
+
+def test_a_floor_comes_from_a_file(editor: SceneEditor) -> None:
+    editor.choose({"floor": "measured"})
+    assert editor.scene.defect.floor is None
+    assert "No file yet" in editor.state()["floor"]["words"]
+    angles = np.linspace(250.0, 280.0, 61)
+    depths = 40.0 * np.sin(np.pi * (angles - 250.0) / 30.0)
+    text = "angle;depth\n" + "\n".join(f"{a};{d}" for a, d in zip(angles, depths, strict=True))
+    editor.take_file("wear.csv", text)
+    assert isinstance(editor.scene.defect.floor, MeasuredFloor)
+    assert editor.values["extent_deg"] == pytest.approx(30.0)
+    assert editor.values["depth_um"] == pytest.approx(40.0)
+    assert editor.values["center_deg"] == pytest.approx(265.0)
+    assert editor.state()["floor"] == {"shown": True, "words": "wear.csv: 61 points", "bad": False}
+    drop = ball_drop(editor.scene, np.radians([265.0]))
+    assert 0.0 < drop[0] <= 40e-6
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "2 to"),
+        ("1 2\n3 x\n", "line 2"),
+        ("1 2\n1 3\n", "different angles"),
+        ("1 -2\n2 3\n", "at least 0"),
+        ("1 nan\n2 3\n", "finite"),
+        ("0 10\n500 10\n", "within one turn"),
+        ("1 1\n" * LARGEST_FILE, "longer than"),
+        ("1 9000\n30 9000\n", "ball radius"),
+        ("\x00\xff", "line|pairs"),
+    ],
+)
+def test_a_file_that_is_no_floor_is_refused_in_words(
+    editor: SceneEditor, text: str, words: str
+) -> None:
+    before = editor.scene
+    editor.take_file("x" * 300, text)
+    assert editor.scene == before
+    floor = editor.state()["floor"]
+    assert floor["bad"]
+    assert len(floor["words"]) < 300
+    assert re.search(words, floor["words"]), floor["words"]
+
+
+def test_read_file_never_raises() -> None:
+    for text in ("", "1", "1 2 3", "1e400 2\n3 4", "a\nb\nc", "1 2\n" * 3):
+        found, wrong = read_file(text)
+        assert found is None
+        assert wrong.endswith(".")
+
+
+def test_directions_are_forced_and_given_back(editor: SceneEditor) -> None:
+    editor.choose({"dofs": "y x z"})
+    assert editor.scene.active_dofs == ("x", "y", "z")
+    assert editor.state()["choices"]["dofs"] == "x y z"
+    assert "at least one" in editor.choose({"dofs": ""})["dofs"]
+    assert editor.scene.active_dofs == ("x", "y", "z")
+    editor.choose({"dofs": "auto"})
+    assert editor.scene == presets["fan-rig"]
+
+
+def test_the_contact_law_is_chosen(editor: SceneEditor) -> None:
+    editor.choose({"law": "no tension"})
+    assert editor.scene.contact_law == "no tension"
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [
+        {"race": "middle"},
+        {"edge": ["exact"]},
+        {"floor": {"rough": 1}},
+        {"law": None},
+        {"numbers": "guess"},
+        {"defect": "-1"},
+        {"defect": "7"},
+        {"defect": "9" * 5000},
+        {"defect": "²"},
+        {"defect": 1},
+        {"dofs": 5},
+        {"preset": "../x"},
+    ],
+)
+def test_strangers_choices_change_nothing(editor: SceneEditor, choice: dict) -> None:
+    editor.choose(choice)
+    assert editor.scene == presets["fan-rig"]
+    assert editor.selected == 0
+
+
+def test_the_focus_passes_over_defects_that_are_none(editor: SceneEditor) -> None:
+    editor.choose({"defect": "add"})
+    editor.choose({"defect": "0"})
+    editor.set({"depth_um": 0})
+    assert editor.focus == 0
+    editor.choose({"defect": "1"})
+    assert editor.focus == 0, "it is the only one that the scene has"
+    assert editor.scene.defects[editor.focus].center == pytest.approx(math.pi / 2)

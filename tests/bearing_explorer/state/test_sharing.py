@@ -1,0 +1,144 @@
+"""A session and the bar above its controls: asked for it happens; strangers change nothing."""
+
+import asyncio
+from collections.abc import Callable
+
+import pytest
+from bearing_explorer.session import Explorer
+
+from bearingcore import Scene, presets
+from tests.bearing_explorer.loops import run
+from tests.bearing_explorer.test_explorer import SECTIONS
+
+
+@pytest.fixture
+def answers(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
+    """What the bar was given."""
+    given: list[dict] = []
+    monkeypatch.setattr(
+        "bearing_explorer.widgets.share.ShareBar.answer", lambda self, **news: given.append(news)
+    )
+    monkeypatch.setattr(
+        "bearing_explorer.widgets.controls.Controls.tell", lambda self, **news: None
+    )
+    return given
+
+
+def session(*acts: Callable[[Explorer], None], address: str = "") -> Explorer:
+    """A session in which each act was drawn before the next."""
+
+    async def live() -> Explorer:
+        explorer = Explorer(SECTIONS, address=address)
+        for act in (Explorer.draw, *acts):
+            act(explorer)
+            while explorer._tasks or not explorer._worker.idle:
+                await asyncio.sleep(0.002)
+        return explorer
+
+    return run(live())
+
+
+def asking(mark: int, **message: object) -> Callable[[Explorer], None]:
+    return lambda explorer: explorer._share_asked({"mark": mark, **message})
+
+
+def test_the_address_is_told_when_the_hand_lets_go(answers: list[dict]) -> None:
+    seen: list[str] = []
+
+    def look(explorer: Explorer) -> None:
+        seen.append(explorer.share.state["address"])
+
+    session(
+        lambda e: e._asked({"mark": 1, "set": {"depth_um": 60}}),
+        look,
+        lambda e: e._asked({"mark": 2, "set": {"depth_um": 70}}),
+        look,
+        lambda e: e._asked({"mark": 3, "set": {}, "released": True}),
+        look,
+        lambda e: e._tab_asked({"show": "two"}),
+        look,
+    )
+    assert seen == [
+        "v=1&preset=fan-rig",
+        "v=1&preset=fan-rig",
+        "v=1&preset=fan-rig&depth_um=70",
+        "v=1&preset=fan-rig&depth_um=70&tab=two",
+    ]
+
+
+def test_undo_is_drawn_and_answered(answers: list[dict]) -> None:
+    explorer = session(
+        lambda e: e._asked({"mark": 1, "typed": {"depth_um": 60}}),
+        asking(2, undo=True),
+    )
+    assert explorer.scene == presets["fan-rig"]
+    assert explorer._views["one"][0].drawn[-1] == presets["fan-rig"].defect.depth  # type: ignore
+    assert explorer._drawn_mark == 2
+    again = session(
+        lambda e: e._asked({"mark": 1, "typed": {"depth_um": 60}}),
+        asking(2, undo=True),
+        asking(3, redo=True),
+    )
+    assert again.values["depth_um"] == 60
+    assert again.share.state["undo"]
+    assert not again.share.state["redo"]
+
+
+def test_an_address_is_drawn_first(answers: list[dict]) -> None:
+    explorer = session(address="v=1&preset=6205&depth_um=80&tab=two")
+    assert explorer._shown == "two"
+    assert explorer.scene == presets["6205"].replace(depth=80 * 1e-6)
+    assert explorer.controls.state["values"]["depth_um"] == 80
+    elsewhere = session(address="v=1&tab=nowhere")
+    assert elsewhere._shown == "one"
+
+
+def test_a_file_is_opened_and_a_scene_pinned(answers: list[dict]) -> None:
+    text = presets["6205"].to_toml()
+    explorer = session(
+        asking(1, pin={"name": "before", "text": "v=1&preset=liew-lim"}),
+        asking(2, file={"name": "x.toml", "text": text}),
+        asking(3, want="toml"),
+    )
+    assert explorer.scene == presets["6205"]
+    assert explorer.inputs.pinned is not None
+    assert explorer.inputs.results.beside == presets["liew-lim"]
+    assert Scene.from_toml(answers[0]["file"]["text"]) == presets["6205"]
+    assert explorer._drawn_mark == 3
+
+
+def test_one_report_at_a_time(answers: list[dict]) -> None:
+    def ask_twice(explorer: Explorer) -> None:
+        for _ in range(2):
+            explorer._share_asked({"report": "http://localhost:5006/"})
+
+    session(ask_twice)
+    assert [list(news) for news in answers] == [["report"]]
+    assert "http://localhost:5006/?v=1&amp;preset=fan-rig" in answers[0]["report"]["html"]
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        5,
+        [],
+        {},
+        {"mark": "x", "undo": True},
+        {"mark": 1, "undo": 1, "redo": "yes"},
+        {"mark": 2, "open": {"name": "x", "text": "v=1&n_balls=1e99"}},
+        {"mark": 2, "open": {"name": ["x"], "text": {}}},
+        {"mark": 2, "file": {"name": "x", "text": "[" * 100_000}},
+        {"mark": 2, "file": {"name": "x" * 100_000, "text": "\0"}},
+        {"mark": 2, "pin": {"name": "x", "text": "v=1&floor=measured&points=" + "A" * 100_000}},
+        {"want": "../../etc/passwd"},
+        {"keep": {"name": 1}},
+        {"report": {"base": 1}},
+    ],
+)
+def test_strangers_change_nothing(answers: list[dict], message: object) -> None:
+    explorer = session(lambda e: e._share_asked(message))
+    assert explorer.scene == presets["fan-rig"]
+    assert explorer.inputs.pinned is None
+    assert answers == []
+    assert len(explorer.share.state["said"]["words"]) < 400

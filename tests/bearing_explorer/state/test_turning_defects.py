@@ -1,0 +1,81 @@
+"""Curves over a turn of the shaft, where a defect turns with it."""
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.depth_profile import DepthProfile
+from bearing_explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.views.modes import NaturalFrequencies
+from bearing_explorer.views.stiffness import Stiffness
+
+from bearingcore import Defect, RoughFloor, presets
+
+OUTER = presets["fan-rig"]
+INNER = OUTER.replace(race="inner")
+TURN = 2.0 * math.pi * OUTER.bearing.cage_ratio  # of the cage while the shaft turns once
+
+
+def test_curves_are_over_a_ball_spacing_or_over_the_turn_that_is_shown() -> None:
+    outer = Results(OUTER, 3.0)
+    assert outer.stretch[:2] == (0.0, OUTER.bearing.ball_spacing)
+    for turn in (0, 1, 2):
+        inner = Results(INNER, (turn + 0.3) * TURN)
+        np.testing.assert_allclose(inner.stretch[:2], [turn * TURN, (turn + 1) * TURN])
+        assert inner.along([(turn + 0.3) * TURN])[0] == pytest.approx(0.3 * 360.0)
+        assert inner.along(inner.equilibrium.cage_angles[[0, -1]]).tolist() == [0.0, 360.0]
+
+
+@pytest.mark.parametrize("cage_angle", [0.4, 0.4 + TURN, 0.4 + 2 * TURN])
+def test_the_mark_stands_on_the_curve(cage_angle: float) -> None:
+    """Also in later turns, in which the defect meets the balls elsewhere."""
+    results = Results(INNER, cage_angle)
+    found = results.equilibrium
+    at_now = np.interp(cage_angle, found.cage_angles, found.term("k_yy"))
+    assert at_now == pytest.approx(results.now.term("k_yy")[0], rel=2e-3)
+    sources, _ = Stiffness(Wire()).data(results)
+    share = results.along([cage_angle])[0] / 360.0
+    marks, cells = sources["stiffness_now"]["x"], sources["stiffness_cells"]
+    np.testing.assert_allclose(
+        marks, cells["left"] + share * (cells["right"] - cells["left"]), rtol=1e-9
+    )
+    assert set(cells["foot"]) == {0.0, 360.0}
+    assert sources["stiffness_axis"]["shaft"].tolist() == [1.0]
+
+
+def test_later_turns_are_not_the_first_one_again() -> None:
+    first, second = (Results(INNER, 0.1 + turn * TURN).equilibrium for turn in (0, 1))
+    assert np.abs(first.term("k_yy") - second.term("k_yy")).max() > 1e6
+
+
+def test_axes_say_what_they_are_over() -> None:
+    view = NaturalFrequencies(Wire())
+    for scene, words, end in ((INNER, "Shaft angle", 360.0), (OUTER, "Cage angle", 360.0 / 14)):
+        results = Results(scene, 0.2)
+        _, ranges = view.data(results)
+        assert ranges["modes_angle"] == pytest.approx((0.0, end))
+        view.say(results, "")
+        assert view._axis.axis_label.startswith(words)
+    assert "shaft" in view.sentence(Results(INNER))
+    assert "shaft" in Stiffness(Wire()).sentence(Results(INNER))
+    assert "shaft" not in Stiffness(Wire()).sentence(Results(OUTER))
+    assert "most at each angle" in LoadDistribution(Wire()).sentence(Results(INNER))
+    assert "shaft_angle_deg" in view.table(Results(INNER))
+    assert "shaft_angle_deg" not in view.table(Results(OUTER))
+
+
+def test_the_profile_is_that_of_the_defect_in_hand() -> None:
+    scene = OUTER.replace(
+        defect=(OUTER.defect, Defect(0.3, 30e-6, 1.0, "inner", floor=RoughFloor(3e-6, 2e-4)))
+    )
+    outer, inner = (Results(scene, 0.2, focus=focus) for focus in (0, 1))
+    assert outer.profile.race == "outer"
+    assert inner.profile.race == "inner"
+    view = DepthProfile(Wire())
+    assert view.sentence(outer).startswith("The outer-race defect is 12.9° long")
+    assert "turns with the shaft" in view.sentence(inner)
+    turned = 1.0 + 0.2 / OUTER.bearing.cage_ratio
+    middle = 0.5 * (inner.profile.angle[0] + inner.profile.angle[-1])
+    assert math.remainder(middle - turned, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-9)

@@ -1,0 +1,114 @@
+"""The report: complete, from the same numbers as the page, and closed to what strangers write."""
+
+import json
+from datetime import UTC, datetime
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.report import About, mark_of, page, report
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.views.modes import NaturalFrequencies
+from bearing_explorer.views.stability_map import OrbitStability
+from bokeh.document import Document
+
+from bearingcore import Defect, presets
+from tests.bearing_explorer.views.test_stability_view import found_map
+
+KINDS = [view for section in SECTIONS for view in section.views]
+NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7}}"
+
+
+def about(link: str = "http://localhost:5006/?v=1&preset=fan-rig&fy_n=-120") -> About:
+    return About("fan-rig", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC))
+
+
+class Reader(HTMLParser):
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.attributes: list[tuple[str, str | None]] = []
+        self.words = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += attrs
+
+    def handle_data(self, data: str) -> None:
+        self.words += data
+
+
+@pytest.fixture(scope="module")
+def made() -> dict:
+    found = {"stability-map": found_map()}
+    return report(Results(presets["fan-rig"], 0.1), KINDS, found, about())
+
+
+def test_every_figure_has_its_place_and_its_numbers(made: dict) -> None:
+    for figure in made["figures"]:
+        assert made["html"].count(mark_of(figure)) == 1
+    assert made["html"].count("<!--figure") == len(made["figures"]) >= 12
+    json.dumps(made["item"])
+    document = Document.from_json(made["item"]["doc"])
+    known = {model.id for model in document.models}
+    assert {*made["figures"], made["packet"]} <= known
+    packet = document.get_model_by_id(made["packet"])
+    view = LoadDistribution(Wire())
+    curve = view.data(Results(presets["fan-rig"], 0.1))[0]["load_distribution_curve"]["load"]
+    sent = packet.data["packed"]
+    assert np.isin(np.asarray(curve, np.float32), sent).all()
+
+
+def test_it_says_what_there_is_to_say(made: dict) -> None:
+    words = Reader(made["html"]).words
+    results = Results(presets["fan-rig"], 0.1)
+    for said in (
+        "04 May 2026, 12:30 UTC",
+        "0.1.0",
+        "open this scene",
+        "Outer race at 270°: 12.9° long, 50 µm deep",
+        "Groove centre distance",
+        "BPFO",
+        "Converged",
+        LoadDistribution(Wire()).sentence(results),
+        NaturalFrequencies(Wire()).sentence(results),
+        OrbitStability.title,
+        *(limit.sentence for limit in results.limits),
+    ):
+        assert said in words, said
+    assert "nan" not in words.lower().split()
+
+
+def test_what_strangers_write_stays_text() -> None:
+    scene = presets["fan-rig"].replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
+    results = Results(scene, 0.0, pinned=Reference(presets["fan-rig"], NASTY))
+    sentence = LoadDistribution(Wire()).sentence(results)
+    assert NASTY in sentence
+    made = report(results, [LoadDistribution], {}, about(f"http://x/?{NASTY}"))
+    reader = Reader(made["html"])
+    assert NASTY in reader.words
+    assert not {"script", "img", "iframe", "object", "link", "base", "form"} & set(reader.tags)
+    assert not [name for name, _ in reader.attributes if name.startswith("on")]
+    assert "default-src 'none'" in str(
+        [value for name, value in reader.attributes if name == "content"]
+    )
+    fetched = [value for name, value in reader.attributes if name in ("src", "href")]
+    assert fetched == [f"http://x/?{NASTY}"]
+
+
+@pytest.mark.parametrize(
+    "link", ["javascript:alert(1)", "data:text/html,x", "//x/y", "", "http://[", "file:///etc"]
+)
+def test_a_link_is_one_of_the_web_or_none(link: str) -> None:
+    text = page(Results(presets["fan-rig"]), about(link), [])
+    assert "href" not in text
+
+
+def test_a_scene_without_an_answer_has_a_report() -> None:
+    made = report(Results(presets["fan-rig"].replace(fy=0.0), 0.0), KINDS, {}, about())
+    assert "No answer" in made["html"]

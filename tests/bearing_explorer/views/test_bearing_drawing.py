@@ -1,0 +1,146 @@
+"""The drawing of the bearing: to scale, symmetric where the scene is, turning with the cage."""
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.bearing import (
+    BAR_LENGTH,
+    BearingDrawing,
+    Shapes,
+    load_words,
+    round_down,
+)
+
+from bearingcore import Load, Scene, presets
+
+FAN_RIG = presets["fan-rig"]
+
+
+def drawn(scene: Scene, cage_angle: float = 0.0) -> dict[str, dict[str, np.ndarray]]:
+    return BearingDrawing(Wire()).data(Results(scene, cage_angle))[0]
+
+
+def mirrored(points: dict[str, np.ndarray]) -> np.ndarray:
+    """Points as rows (x, y, load), left and right exchanged, sorted."""
+    rows = np.stack([-points["x"], points["y"], points["load"]], axis=1)
+    return rows[np.lexsort(np.round(rows, 9).T)]
+
+
+def test_a_symmetric_scene_gives_a_symmetric_drawing() -> None:
+    spacing = FAN_RIG.bearing.ball_spacing
+    balls = drawn(FAN_RIG, 0.5 * spacing)["bearing_balls"]
+    rows = np.stack([balls["x"], balls["y"], balls["load"]], axis=1)
+    rows = rows[np.lexsort(np.round(rows, 9).T)]
+    np.testing.assert_allclose(rows, mirrored(balls), atol=1e-6)
+
+
+def test_balls_are_to_scale_and_touch_neither_their_neighbours_nor_more_than_the_races() -> None:
+    shapes = Shapes(FAN_RIG.sound(), 0.0)
+    none = {"outer": np.zeros(14), "inner": np.zeros(14)}
+    balls = shapes.balls(none, np.zeros(14))
+    assert balls["radius"][0] == pytest.approx(4.0 / 26.5)
+    radius = np.hypot(balls["x"], balls["y"])
+    np.testing.assert_allclose(radius + balls["radius"], 1.0)
+    np.testing.assert_allclose(radius - balls["radius"], 18.5 / 26.5)
+
+
+def test_balls_turn_with_the_cage_and_carry_their_load_with_them() -> None:
+    scene, turn = FAN_RIG.sound(), math.radians(10.0)
+    before, after = drawn(scene)["bearing_balls"], drawn(scene, turn)["bearing_balls"]
+    angle = np.arctan2(after["y"], after["x"]) - np.arctan2(before["y"], before["x"])
+    np.testing.assert_allclose(np.mod(angle, 2.0 * math.pi), turn, atol=1e-9)
+    assert not np.allclose(before["load"], after["load"])
+
+
+@pytest.mark.parametrize("depth_um", [1.0, 5.0, 50.0, 120.0, 500.0])
+def test_the_defect_is_as_deep_as_the_drawing_says(depth_um: float) -> None:
+    scene = FAN_RIG.replace(depth=1e-6 * depth_um)
+    sources = drawn(scene)
+    scale = sources["bearing_scale_words"]["scale"][0]
+    shape = sources["bearing_defect"]
+    deepest = np.hypot(shape["x"], shape["y"]).max() - 1.0
+    assert deepest == pytest.approx(scale * 1e-6 * depth_um / 26.5e-3)
+    assert 0.1 < deepest / (4.0 / 26.5) <= 0.45 + 1e-9  # seen, and within the ring
+
+
+def test_the_ring_has_the_defect_where_it_is() -> None:
+    rings = drawn(FAN_RIG)["bearing_rings"]
+    parts = np.split(np.arange(rings["x"].size), np.flatnonzero(np.isnan(rings["x"])))
+    race = [part[~np.isnan(rings["x"][part])] for part in parts][1]
+    radius = np.hypot(rings["x"][race], rings["y"][race])
+    angle = np.degrees(np.arctan2(rings["y"][race], rings["x"][race])) % 360.0
+    deep = radius > 1.0 + 1e-6
+    assert angle[deep].min() == pytest.approx(270.0 - 6.45, abs=1e-5)
+    assert angle[deep].max() == pytest.approx(270.0 + 6.45, abs=1e-5)
+
+
+def test_an_inner_race_defect_is_cut_into_the_inner_ring_and_turns_faster_than_the_cage() -> None:
+    scene = FAN_RIG.replace(race="inner")
+    turn = math.radians(10.0)
+    middles = []
+    for cage_angle in (0.0, turn):
+        shape = Shapes(scene, cage_angle).defects()
+        assert np.hypot(shape["x"], shape["y"]).max() <= 18.5 / 26.5 + 1e-9
+        middles.append(math.atan2(shape["y"].mean(), shape["x"].mean()))
+    turned = (middles[1] - middles[0]) % (2.0 * math.pi)
+    assert turned == pytest.approx(turn / scene.bearing.cage_ratio)
+
+
+def test_a_ball_in_the_defect_sinks_into_the_ring() -> None:
+    inside = FAN_RIG.replace(center=0.0, extent=math.radians(20.0))
+    balls = drawn(inside)["bearing_balls"]
+    radius = np.hypot(balls["x"], balls["y"])
+    assert radius[0] > radius[1:].max() + 0.01
+    np.testing.assert_allclose(radius[1:], radius[1])
+
+
+def test_bars_are_as_long_as_the_loads_and_only_loaded_balls_have_one() -> None:
+    view, results = BearingDrawing(Wire()), Results(FAN_RIG, 0.1)
+    sources, ranges = view.data(results)
+    bars, top = sources["bearing_bars"], ranges["bearing_load"][1]
+    length = np.hypot(bars["x1"] - bars["x0"], bars["y1"] - bars["y0"])
+    load = results.now.ball_load[0]
+    np.testing.assert_allclose(length[load > 0.0], BAR_LENGTH * load[load > 0.0] / top)
+    assert np.isnan(length[load == 0.0]).all()
+    assert top >= results.equilibrium.ball_load.max()
+
+
+def test_the_colour_bar_stays_while_the_bearing_turns() -> None:
+    view = BearingDrawing(Wire())
+    seen = {view.data(Results(FAN_RIG, angle))[1]["bearing_load"] for angle in np.arange(0, 6, 0.4)}
+    assert len(seen) == 1
+
+
+def test_the_arrow_points_along_the_radial_load() -> None:
+    scene = FAN_RIG.replace(fx=30.0, fy=40.0)
+    arrow = Shapes(scene, 0.0).load_arrow()
+    tip = np.argmax(np.hypot(arrow["x"], arrow["y"]))
+    assert math.atan2(arrow["y"][tip], arrow["x"][tip]) == pytest.approx(math.atan2(40.0, 30.0))
+    assert Shapes(FAN_RIG.replace(fy=0.0), 0.0).load_arrow()["x"].size == 0
+
+
+def test_words_name_the_loads_that_act() -> None:
+    rows = load_words(Load(fx=3.0, fy=-4.0, fz=-7.0, my=2.0))
+    assert rows["kind"].tolist() == [0, 1, 3]
+    assert rows["value"].tolist() == [5.0, -7.0, 2.0]
+    assert rows["angle"][0] == pytest.approx(306.8699)
+
+
+def test_scales_are_round() -> None:
+    assert [round_down(x) for x in (36.0, 1.99, 2.0, 7.0, 0.3)] == pytest.approx([20, 1, 2, 5, 0.2])
+
+
+def test_the_sentence_says_who_carries_most_and_who_is_in_the_defect() -> None:
+    results = Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing)
+    words = BearingDrawing(Wire()).sentence(results)
+    assert "ball 11 is in the defect" in words
+    assert f"{results.now.loaded_balls[0]} of 14 balls carry load" in words
+
+
+def test_the_table_has_a_row_for_each_ball() -> None:
+    table = BearingDrawing(Wire()).table(Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing))
+    assert {column.size for column in table.values()} == {14}
+    assert table["drop_into_outer_race_um"].max() == pytest.approx(50.0)

@@ -1,0 +1,106 @@
+"""The load distribution: one closed curve, the balls on it, the defect shaded where it is."""
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.load_curve import load_curve
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.load_distribution import LoadDistribution, shaded
+
+from bearingcore import presets
+
+FAN_RIG = presets["fan-rig"]
+
+
+@pytest.mark.parametrize("name", list(presets))
+@pytest.mark.parametrize("cage_angle_deg", [0.0, 4.0, 100.3])
+def test_the_balls_lie_on_the_curve(name: str, cage_angle_deg: float) -> None:
+    results = Results(presets[name], math.radians(cage_angle_deg))
+    sources, _ = LoadDistribution(Wire()).data(results)
+    curve, balls = sources["load_distribution_curve"], sources["load_distribution_balls"]
+    # between two of its angles the curve can only be known to lie between its neighbours
+    right = np.searchsorted(curve["angle"], balls["angle"])
+    near = np.stack([curve["load"][np.clip(right + k, 0, curve["load"].size - 1)] for k in (-1, 0)])
+    slack = 1e-3 * np.nanmax(curve["load"])
+    assert np.all(balls["load"] >= near.min(axis=0) - slack)
+    assert np.all(balls["load"] <= near.max(axis=0) + slack)
+    assert balls["angle"].size == presets[name].bearing.n_balls
+
+
+def test_the_curve_goes_once_round_and_closes() -> None:
+    angle, load = load_curve(Results(FAN_RIG).equilibrium)
+    assert angle[0] < 0.0 <= angle[1]
+    assert angle[-2] < 2.0 * math.pi <= angle[-1]
+    assert np.all(np.diff(angle) > 0.0)
+    assert angle.size == 14 * 120 + 2
+    assert load[0] == load[-2]
+    assert load[-1] == load[1]
+
+
+def test_a_scene_symmetric_about_the_vertical_has_a_symmetric_curve() -> None:
+    angle, load = load_curve(Results(FAN_RIG).equilibrium)
+    turned = np.interp(np.mod(math.pi - angle, 2.0 * math.pi), angle, load)
+    assert np.mean(np.abs(turned - load)) < 1e-3 * load.max()
+
+
+def test_an_inner_race_defect_gives_the_greatest_load_at_each_angle() -> None:
+    scene = FAN_RIG.replace(race="inner")
+    results = Results(scene)
+    angle, load = load_curve(results.equilibrium)
+    assert np.all(np.diff(angle) > 0.0)
+    assert np.nanmax(load) == np.max(results.equilibrium.ball_load)
+
+
+@pytest.mark.parametrize(
+    ("center_deg", "extent_deg", "expected"),
+    [
+        (270.0, 12.0, [(264.0, 276.0)]),
+        (355.0, 40.0, [(335.0, 360.0), (0.0, 15.0)]),
+        (5.0, 40.0, [(345.0, 360.0), (0.0, 25.0)]),
+        (10.0, 20.0, [(0.0, 20.0)]),
+    ],
+)
+def test_a_defect_across_0_is_shaded_as_two_pieces(
+    center_deg: float, extent_deg: float, expected: list[tuple[float, float]]
+) -> None:
+    scene = FAN_RIG.replace(center=math.radians(center_deg), extent=math.radians(extent_deg))
+    found = shaded(scene, 0.3)
+    assert found["start"] == pytest.approx([start for start, _ in expected], abs=1e-9)
+    assert found["end"] == pytest.approx([end for _, end in expected], abs=1e-9)
+
+
+def test_an_inner_race_defect_is_shaded_where_the_shaft_has_turned_it() -> None:
+    scene = FAN_RIG.replace(race="inner", center=math.radians(90.0), extent=math.radians(20.0))
+    quarter = math.radians(90.0) * scene.bearing.cage_ratio
+    assert shaded(scene, quarter)["start"] == pytest.approx([170.0])
+
+
+def test_a_sound_bearing_has_no_shade_and_its_curve_is_the_grey_one() -> None:
+    sources, _ = LoadDistribution(Wire()).data(Results(FAN_RIG.sound()))
+    assert sources["load_distribution_defect"]["start"].size == 0
+    np.testing.assert_array_equal(
+        sources["load_distribution_curve"]["load"], sources["load_distribution_sound"]["load"]
+    )
+
+
+def test_the_sentence_gives_the_greatest_load_and_how_many_carry() -> None:
+    results = Results(FAN_RIG)
+    words = LoadDistribution(Wire()).sentence(results)
+    assert f"{results.equilibrium.ball_load.max():.1f} N" in words
+    assert f"{results.now.loaded_balls[0]} of 14 balls" in words
+
+
+def test_a_bearing_without_load_is_told_not_drawn_as_a_number() -> None:
+    results = Results(FAN_RIG.replace(fy=0.0))
+    view = LoadDistribution(Wire())
+    view.data(results)
+    assert "nothing touches" in view.sentence(results)
+
+
+def test_the_table_has_as_many_rows_as_the_curve_and_no_row_twice() -> None:
+    table = LoadDistribution(Wire()).table(Results(FAN_RIG))
+    assert table["ball_angle_deg"].size == table["ball_load_n"].size
+    assert table["ball_angle_deg"].min() >= 0.0
+    assert table["ball_angle_deg"].max() < 360.0

@@ -1,0 +1,89 @@
+"""Natural frequencies: bands are what the curves cover, labels keep their distance."""
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.modes import NaturalFrequencies, band_rows, spread
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bearingcore import presets
+
+FAN_RIG = presets["fan-rig"]
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_each_band_is_least_and_greatest_of_a_curve_that_is_drawn(name: str) -> None:
+    results = Results(presets[name])
+    sources, ranges = NaturalFrequencies(Wire()).data(results)
+    bands = sources["modes_bands"]
+    drawn = []
+    for direction in style.DIRECTIONS:
+        line = sources[f"modes_{direction}"]["frequency"]
+        breaks = np.flatnonzero(np.isnan(line))
+        for curve in np.split(line, breaks):
+            known = curve[np.isfinite(curve)]
+            if known.size:
+                drawn.append((known.min(), known.max()))
+    assert sorted(drawn) == sorted(zip(bands["low"], bands["high"], strict=True))
+    assert len(drawn) == len(results.modes.label)
+    low, high = ranges["modes_frequency"]
+    assert low <= bands["low"].min()
+    assert bands["high"].max() <= high
+
+
+def test_bands_are_those_of_the_paper() -> None:
+    bands = band_rows(Results(FAN_RIG).modes)
+    at = {
+        f"{style.DIRECTIONS[int(d)]}{int(n)}": (low, high)
+        for low, high, d, n in zip(*(bands[k] for k in bands), strict=True)
+    }
+    assert at["x1"] == pytest.approx((365.0, 480.0), abs=1.5)
+    assert at["y1"] == pytest.approx((615.0, 678.0), abs=1.5)
+    assert at["x2"] == pytest.approx((1684.0, 1722.0), abs=1.5)
+    assert at["y2"] == pytest.approx((1793.0, 1841.0), abs=1.5)
+
+
+def test_the_mark_is_at_the_cage_angle_within_a_ball_spacing() -> None:
+    spacing = FAN_RIG.bearing.ball_spacing
+    results = Results(FAN_RIG, 3.0 * spacing + 0.1)
+    sources, ranges = NaturalFrequencies(Wire()).data(results)
+    assert sources["modes_now"]["now"] == pytest.approx([math.degrees(0.1)])
+    assert ranges["modes_angle"] == pytest.approx((0.0, math.degrees(spacing)))
+
+
+@given(
+    st.lists(st.floats(0.0, 2000.0), max_size=12),
+)
+def test_labels_never_overlap_and_stay_in_order(places: list[float]) -> None:
+    moved = spread(np.array(places), 80.0, 0.0, 2000.0)
+    order = np.argsort(places, kind="stable")
+    assert np.all(np.diff(moved[order]) >= 80.0 - 1e-6)
+
+
+def test_labels_with_room_stay_where_they_belong() -> None:
+    places = np.array([1800.0, 400.0, 650.0])
+    np.testing.assert_array_equal(spread(places, 80.0, 0.0, 2000.0), places)
+
+
+def test_the_sentence_tells_the_bands_and_the_sound_one() -> None:
+    words = NaturalFrequencies(Wire()).sentence(Results(FAN_RIG))
+    assert "x1 within 365 to 480 Hz" in words
+    assert "without the defect x1 within 365 to 436 Hz" in words
+
+
+def test_without_a_static_state_there_is_nothing_to_draw_and_it_is_said() -> None:
+    view, results = NaturalFrequencies(Wire()), Results(FAN_RIG.replace(fy=0.0))
+    sources, ranges = view.data(results)
+    assert sources["modes_bands"]["low"].size == 0
+    assert all(math.isfinite(x) for x in ranges["modes_frequency"])
+    assert "no static state" in view.sentence(results)
+
+
+def test_the_table_has_a_column_for_each_mode() -> None:
+    table = NaturalFrequencies(Wire()).table(Results(FAN_RIG))
+    assert {"cage_angle_deg", "x1_hz", "y1_hz", "x2_hz", "y2_hz", "sound_x1_hz"} <= set(table)

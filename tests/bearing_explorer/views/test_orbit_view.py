@@ -1,0 +1,85 @@
+"""The steady orbit on the page: drawn as found, told in words, never made up."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.orbit import (
+    SteadyOrbit,
+    level_gap,
+    marched_path,
+    orbit_path,
+    orbit_status,
+)
+
+from bearingcore import presets
+from tests.benchmarks.plans import random_scenes
+
+RIG = presets["fan-rig"].replace(contact_damping=130.0)
+DOUBLED = RIG.replace(shaft_speed=2.0 * math.pi * 30.0)
+INNER = RIG.replace(race="inner")
+
+
+def test_multipliers_stand_inside_or_outside_the_circle() -> None:
+    view = SteadyOrbit(Wire())
+    stable = view.data(Results(RIG))[0]
+    assert stable["orbit_inside"]["x"].size == 8
+    assert stable["orbit_outside"]["x"].size == 0
+    sources, ranges = view.data(Results(DOUBLED))
+    outside = sources["orbit_outside"]
+    assert outside["x"].size >= 1
+    assert np.all(np.hypot(outside["x"], outside["y"]) >= 1.0)
+    assert outside["x"].min() < -1.0
+    low, high = ranges["orbit_multipliers"]
+    assert low < outside["x"].min() < high
+
+
+def test_a_stable_orbit_is_what_the_marched_motion_settles_to() -> None:
+    results = Results(RIG)
+    path, marched = orbit_path(results), marched_path(results)
+    for dof in ("x", "y"):
+        assert path[dof][0] == pytest.approx(path[dof][-1], abs=1e-9)
+        assert np.ptp(path[dof]) == pytest.approx(np.ptp(marched[dof]), rel=0.01)
+    assert level_gap(results) < 0.1
+    assert "dB of the marched one" in SteadyOrbit(Wire()).sentence(results)
+
+
+def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
+    """From rest this motion takes more than a second to it."""
+    (scene,) = itertools.islice(random_scenes(102), 101, None)
+    results = Results(scene, moving=True)
+    assert level_gap(results) > 5.0
+    assert "has not come to it" in SteadyOrbit(Wire()).sentence(results)
+
+
+def test_the_status_says_what_kind_it_is() -> None:
+    good, bad = orbit_status(Results(RIG)), orbit_status(Results(DOUBLED))
+    assert (good["mood"], good["words"]) == ("good", "Stable orbit")
+    assert any("24.8 ms: 1 ball pass" in detail for detail in good["details"])
+    assert (bad["mood"], bad["words"]) == ("bad", "Unstable: the period doubles")
+    assert "half the ball-pass frequency" in SteadyOrbit(Wire()).sentence(Results(DOUBLED))
+
+
+def test_an_inner_race_defect_is_marched_and_it_is_said() -> None:
+    view = SteadyOrbit(Wire())
+    results = Results(INNER)
+    assert results.orbit is None
+    sources, _ = view.data(results)
+    assert sources["orbit_path"]["x"].size == 0
+    assert sources["orbit_marched"]["x"].size > 100
+    assert sources["orbit_levels"]["frequency"].size == 0
+    assert sources["orbit_marched_levels"]["frequency"].size > 50
+    assert f"only after {results.ball_passes} ball passes" in view.sentence(results)
+    assert orbit_status(results)["mood"] == "bad"
+
+
+def test_a_race_that_never_comes_round_has_no_orbit() -> None:
+    results = Results(presets["liew-lim"].replace(race="inner"))
+    assert results.ball_passes is None
+    assert orbit_status(results)["words"] == "No common period"
+    assert "never come round together" in SteadyOrbit(Wire()).sentence(results)

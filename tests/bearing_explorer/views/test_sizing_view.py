@@ -1,0 +1,430 @@
+"""What the Sizing tab draws: measured beside simulated, lines with their names, candidates."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import time
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from bearing_explorer.compute.jobs import Jobs, JobState, Work
+from bearing_explorer.compute.results import Results
+from bearing_explorer.measurement.session import Sized, read_file
+from bearing_explorer.measurement.signal import Measured, Simulated
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.views.frequency_lines import (
+    FAMILIES,
+    NAME_WIDTH,
+    ORDER_WIDTH,
+    fundamentals,
+    named,
+    orders,
+)
+from bearing_explorer.views.frequency_view import MOST_LINES, Look, curves
+from bearing_explorer.views.measured_envelope import MeasuredEnvelope
+from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
+from bearing_explorer.views.measurement import MeasuredSignal
+from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, status
+from bearing_explorer.widgets.candidates import percent, rows
+from scipy.io import wavfile
+
+from bearingcore import Recording, Spectrum, presets
+from tests.bearing_explorer.measuring import measuring, signal
+from tests.bearingcore.diagnosis.test_sizing import file_from_elsewhere
+
+mpl.use("agg")
+
+RIG = presets["fan-rig"]
+RESULTS = Results(RIG)
+
+
+def view_of(kind, measured: Measured | None = None):
+    made = kind(Wire())
+    made.measure(measuring(measured))
+    return made
+
+
+def worked() -> Work:
+    work = Work()
+    work.started = time.monotonic()
+    return work
+
+
+@pytest.fixture(scope="module")
+def sized() -> Sized:
+    """The answer about a simulated signal at 20 dB."""
+    work = worked()
+    words = compute(work, signal(), signal().scene(RIG))
+    assert "was tried" in words
+    (found,) = work.taken()
+    return found
+
+
+# -- lines and their names -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@pytest.mark.parametrize("top", [100.0, 346.0, 2500.0, 12_000.0])
+@pytest.mark.parametrize("first", [0.4, 2.878, 40.29, 57.7, 900.0])
+def test_names_of_a_family_stand_clear_of_each_other(family, first, top):
+    multiples = orders(family, first, top)
+    assert (multiples * first <= top * (1.0 + 1e-9)).all()
+    shown = named(multiples, first, top)
+    assert set(shown) <= set(multiples)
+    places = shown * first
+    if len(shown):
+        assert shown[0] == multiples[0]  # the one that says what the family is
+    if len(shown) > 1:
+        assert places[1] - places[0] >= NAME_WIDTH * top * (1.0 - 1e-9)
+        assert np.diff(places[1:]).min(initial=math.inf) >= ORDER_WIDTH * top * (1.0 - 1e-9)
+
+
+def test_half_orders_lie_between_the_whole_ones():
+    half = next(family for family in FAMILIES if family.name == "half")
+    assert orders(half, 40.0, 150.0).tolist() == [0.5, 1.5, 2.5, 3.5]
+    assert not orders(half, 0.0, 150.0).size
+
+
+def test_rows_of_names_lie_within_their_head_room():
+    view = view_of(MeasuredEnvelope, signal())
+    names = [family.name for family in FAMILIES]
+    for shown in (names, names[:2], names[3:], []):
+        columns = view._lines.columns(fundamentals(RIG), shown, 350.0)
+        used = [columns[f"measured_envelope_{name}_names"]["row"] for name in shown]
+        rows_of = [float(row[0]) for row in used]
+        assert rows_of == sorted(rows_of, reverse=True)
+        assert all(row > 1.0 - view._lines.head_room(shown) for row in rows_of)
+        for name in set(names) - set(shown):
+            assert not columns[f"measured_envelope_{name}"]["frequency"].size
+
+
+def test_a_peak_of_a_fine_spectrum_is_not_lost():
+    frequency = np.arange(10 * MOST_LINES) * 0.01
+    density = np.ones(frequency.size)
+    density[12_345] = 100.0
+    drawn = curves(Spectrum(frequency, density), 1e9)
+    assert drawn["frequency"].size <= MOST_LINES
+    assert drawn["linear"].max() == 10.0
+    at = drawn["frequency"][drawn["linear"].argmax()]
+    assert at == pytest.approx(frequency[12_345], abs=0.06)
+
+
+# -- spectrum and envelope -------------------------------------------------------------------------
+
+
+def test_measured_and_simulated_agree_where_the_machine_is_the_scene():
+    """A signal without noise and the model's own: within a dB in most of the band."""
+    view = view_of(MeasuredSpectrum, signal())
+    sources, ranges = view.data(RESULTS)
+    measured, model = (sources[f"measured_spectrum_{who}"] for who in ("measured", "simulated_y"))
+    assert not sources["measured_spectrum_simulated_x"]["frequency"].size
+    level = np.interp(measured["frequency"], model["frequency"], model["dB"])
+    heard = (measured["frequency"] > 300.0) & (measured["dB"] > measured["dB"].max() - 20.0)
+    assert heard.sum() > 20
+    assert np.median(np.abs(level - measured["dB"])[heard]) < 1.0
+    assert measured["linear"] == pytest.approx(10.0 ** (measured["dB"] / 20.0), rel=1e-6)
+    low, high = ranges["measured_spectrum_level"]
+    assert low < measured["dB"][heard].min()
+    assert high > measured["dB"].max() + 3.0
+    bands = sources["measured_spectrum_bands_y"]
+    assert bands["number"].tolist() == [1.0, 2.0]
+    assert "resolution 32 Hz" in view.sentence(RESULTS)
+
+
+def test_the_scene_is_simulated_at_the_speed_of_the_measurement():
+    measured = Measured(signal().recording, 2.0 * math.pi * 10.0)
+    assert Simulated(RESULTS, measured).scene == RIG.replace(shaft_speed=2.0 * math.pi * 10.0)
+    view = view_of(MeasuredSpectrum, measured)
+    assert "simulated at the measured 10 Hz, not at the 7 Hz of the sliders" in view.sentence(
+        RESULTS
+    )
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"),
+    [
+        (7.0, r"is (2×)?(3×)?BPFO\."),
+        (7.12, r"BPFO, 1\.[5-9] % below"),
+        (8.7, "none of the bearing's"),
+    ],
+)
+def test_the_envelope_says_what_knocks(speed, told):
+    measured = Measured(signal().recording, 2.0 * math.pi * speed)
+    view = view_of(MeasuredEnvelope, measured)
+    sentence = view.sentence(RESULTS)
+    assert "where knocks stand out most" in sentence
+    assert re.search(told, sentence), sentence
+
+
+def test_a_band_of_ones_own_is_taken_and_an_impossible_one_told():
+    view = view_of(MeasuredEnvelope, signal())
+    view._asked({"look": {"low": "1000", "high": "3 000 Hz"}})
+    assert "between 1000 and 3000 Hz, as chosen" in view.sentence(RESULTS)
+    view._asked({"look": {"low": "5000"}})
+    with pytest.raises(ValueError, match="5000 to 3000 Hz is empty"):
+        view.data(RESULTS)
+    view._asked({"look": {"low": "", "high": "40000"}})
+    with pytest.raises(ValueError, match="faster sample rate"):
+        view.data(RESULTS)
+    view._asked({"look": {"high": "loud"}})
+    assert "must be a number" in view.panel_of_look.refused
+    view._asked({"look": {"high": ""}})
+    assert view.panel_of_look.refused == ""
+    assert "where knocks stand out most" in view.sentence(RESULTS)
+
+
+def test_looks_are_judged():
+    view = view_of(MeasuredSpectrum, signal())
+    for junk in (None, 3, {}, {"look": 3}, {"look": {"direction": "z", "scale": [], "lines": 3}}):
+        view._asked(junk)
+        assert view.look == Look()
+    view._asked({"look": {"direction": "x", "scale": "linear", "resolution": "8",
+                          "lines": ["ftf", "bpfo", "junk", {}]}})  # fmt: skip
+    assert view.look == Look("x", "linear", "8", ("bpfo", "ftf"))
+    view.say(RESULTS, "")
+    assert [plot.visible for plot in view._plots.values()] == [False, True]
+    assert view.panel_of_look.values["direction"] == "x"
+
+
+def test_a_single_direction_is_shown_whatever_was_chosen():
+    recording = signal().recording
+    single = Measured(
+        Recording(recording.acceleration[:, 0], recording.sample_rate, ("x",)), RIG.shaft_speed
+    )
+    view = view_of(MeasuredSpectrum, single)
+    sources, _ = view.data(RESULTS)
+    assert sources["measured_spectrum_simulated_x"]["frequency"].size
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert view.panel_of_look.disabled["direction"] == ["y"]
+
+
+@pytest.mark.parametrize("kind", [MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize])
+def test_figures_wait_for_a_signal(kind):
+    view = view_of(kind)
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert not view.hidden.visible
+    assert not view._caption.figures
+    assert view.csv().strip() == ""
+    data, ranges = view.data(RESULTS)
+    assert not ranges
+    assert all(not column.size for columns in data.values() for column in columns.values())
+    view.measurement.measured = signal()
+    view.say(RESULTS, "")
+    assert view.hidden.visible
+    assert bool(view._caption.figures) == (kind is not DefectSize)  # which has no answer yet
+
+
+@pytest.mark.parametrize("rate", [400.0, 1e6])
+def test_odd_recordings_are_drawn_too(rate):
+    """256 samples of noise, sampled far too slowly or too fast for this bearing."""
+    noise = np.random.default_rng(3).standard_normal(256) * 1e-9
+    measured = Measured(Recording(noise, rate, ("y",)), RIG.shaft_speed)
+    for kind in (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope):
+        view = view_of(kind, measured)
+        data, _ = view.data(RESULTS)
+        assert view.sentence(RESULTS).endswith(".")
+        assert any(column.size for columns in data.values() for column in columns.values())
+
+
+# -- the size --------------------------------------------------------------------------------------
+
+
+def test_a_file_from_elsewhere_is_sized_on_the_page():
+    """Read, asked about and sized as the page does; its clock is 0.1 % off."""
+    truth, content = file_from_elsewhere()
+    read = read_file("rig.csv", content, 12.0)
+    measured = Measured(read.asked.recording, read.asked.shaft_speed)
+    in_g = Measured(
+        Recording(9.80665 * measured.recording.acceleration, measured.recording.sample_rate),
+        measured.shaft_speed,
+    )
+    work = worked()
+    compute(work, in_g, in_g.scene(truth.replace(extent=0.2)))
+    (found,) = work.taken()
+    assert math.degrees(found.sizing.best.extent) == pytest.approx(47.3, abs=0.5)
+    line = status(found)
+    assert line["mood"] == "good"
+    assert "47.3° ± " in line["words"]
+    assert "0.10 % above BPFO" in line["details"][-1]
+    assert all(row["truth"] == "" for row in rows(found))  # nobody knows it
+
+
+def test_candidates_are_listed_with_the_truth_at_the_nearest(sized):
+    listed = rows(sized)
+    assert [row["extent_deg"] for row in listed] == sorted(row["extent_deg"] for row in listed)
+    assert sum(row["probability"] for row in listed) == pytest.approx(1.0)
+    assert [row["truth"] for row in listed].count("12.9°") == 1
+    best = max(listed, key=lambda row: row["probability"])
+    assert best["truth"] == "12.9°"
+    assert re.fullmatch(r"0 × 25\.7° \+ 12\.[89]°|0 × 25\.7° \+ 13\.0°", best["made_of"])
+    assert percent(0.9999) == "> 99 %"
+    assert percent(0.001) == "< 1 %"
+    assert percent(0.25) == "25 %"
+
+
+def test_what_was_measured_stays_put_while_candidates_are_looked_at(sized):
+    view = view_of(DefectSize, signal())
+    asked = []
+    view._draw = lambda: asked.append(1)
+    view._take(sized)
+    first, _ = view.data(RESULTS)
+    for junk in (None, {"look": "1"}, {"look": True}, {"look": 99}, {"look": -1}):
+        view._looked_at(junk)
+    assert len(asked) == 1
+    view._looked_at({"look": 1})
+    assert len(asked) == 2
+    second, _ = view.data(RESULTS)
+    for dof in ("x", "y"):
+        for part in ("pass", "spectrum"):
+            same, other = (f"sizing_{part}_{who}_{dof}" for who in ("measured", "candidate"))
+            for column in first[same]:
+                np.testing.assert_array_equal(first[same][column], second[same][column])
+            value = "size" if part == "pass" else "level"
+            assert not np.array_equal(first[other][value], second[other][value])
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert view.candidates.looked == 1
+
+
+def test_balls_enter_at_zero_and_leave_as_geometry_says(sized):
+    view = view_of(DefectSize, signal())
+    view._draw = lambda: None
+    view._take(sized)
+    sources, ranges = view.data(RESULTS)
+    begin, end = ranges["sizing_time"]
+    period = 1.0 / sized.sizing.passes.frequency
+    assert end - begin == pytest.approx(period)
+    assert begin == pytest.approx(-BEFORE * period)
+    entry, leave = sources["sizing_events"]["time"]
+    assert entry == pytest.approx(0.0, abs=1e-6 * period)
+    assert leave == pytest.approx(math.radians(12.9) / RIG.cage_speed, abs=0.3e-3)
+    knocks = sources["sizing_knocks"]["time"]
+    assert ((knocks >= begin) & (knocks <= end)).all()
+    measured, model = (sources[f"sizing_pass_{who}_y"] for who in ("measured", "candidate"))
+    assert measured["time"][0] >= begin
+    left = np.std(measured["size"] - model["size"]) / np.std(measured["size"])
+    assert left < 0.2
+
+
+def test_events_are_marked_in_the_signal_once_it_is_sized(sized):
+    view = view_of(MeasuredSignal, signal())
+    assert not view.data(RESULTS)[0]["measurement_events"]["time"].size
+    view.measurement.sized = sized
+    sources, ranges = view.data(RESULTS)
+    begin, end = ranges["measurement_close_time"]
+    events = sources["measurement_events"]
+    assert len(events["time"]) in (7, 8, 9)  # of four ball passes
+    assert ((events["time"] >= begin) & (events["time"] <= end)).all()
+    assert (events["named"][events["time"] > end - 0.1 * (end - begin)] == 0.0).all()
+    view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
+    assert not view.data(RESULTS)[0]["measurement_events"]["time"].size  # of another signal
+
+
+def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
+    view = view_of(DefectSize, signal())
+    view._draw = lambda: None
+    view._take(sized)
+    assert "true extent is 12.9°" in view.sentence(RESULTS)
+    larger = Results(RIG.replace(extent=0.7))
+    assert "has changed" not in view.sentence(larger)  # the extent is not looked at
+    assert "has changed" in view.sentence(Results(RIG.replace(fy=-300.0)))
+    view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
+    assert view.sentence(RESULTS) == "The size has not been looked for yet."
+    assert not view.data(RESULTS)[1]
+    view.say(RESULTS, "")
+    assert not view._answer_part.visible
+
+
+def test_where_the_signal_cannot_tell_the_page_says_so():
+    noise = np.random.default_rng(4).standard_normal((20_000, 2))
+    measured = Measured(Recording(noise, 20_480.0), RIG.shaft_speed)
+    work = worked()
+    compute(work, measured, RIG)
+    (found,) = work.taken()
+    line = status(found)
+    assert (line["mood"], line["words"]) == ("bad", "The signal cannot tell")
+    view = view_of(DefectSize, measured)
+    view._draw = lambda: None
+    view._take(found)
+    assert "no lines stand out" in view.sentence(RESULTS)
+
+
+def test_a_sizing_can_be_given_up_and_refusals_are_sentences():
+    work = worked()
+    work.stop()
+    assert compute(work, signal(), RIG.replace(fy=-101.0)) == "There is no answer yet."
+    assert not work.taken()
+    inner = RIG.replace(race="inner")
+    with pytest.raises(ValueError, match=r"Not possible: .*outer"):
+        compute(worked(), signal(), inner)
+    short = Measured(Recording(signal().recording.acceleration[:2000], 25_600.0), RIG.shaft_speed)
+    with pytest.raises(ValueError, match=r"Not possible: .*ball passes"):
+        compute(worked(), short, RIG)
+
+
+def test_nothing_is_sized_before_there_is_a_signal():
+    view = view_of(DefectSize)
+    view.employ(Jobs(lambda change: change()), SceneEditor("fan-rig"), lambda: None)
+    view._asked({"start": {}})
+    assert view.job.state["mood"] == JobState("failed", 0.0, "").mood
+    assert "no signal yet" in view.job.state["words"]
+
+
+def test_a_single_direction_hides_the_other_s_figures():
+    recording = signal().recording
+    single = Measured(
+        Recording(recording.acceleration[:, 1], recording.sample_rate, ("y",)), RIG.shaft_speed
+    )
+    work = worked()
+    compute(work, single, RIG)
+    (found,) = work.taken()
+    view = view_of(DefectSize, single)
+    view._draw = lambda: None
+    view._take(found)
+    sources, ranges = view.data(RESULTS)
+    assert not sources["sizing_pass_measured_x"]["time"].size
+    assert "sizing_level_x" not in ranges
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert [view._rows[dof].visible for dof in ("x", "y")] == [False, True]
+    assert view.csv().startswith("extent_deg,ball_spacings,probability,edge,")
+
+
+# -- lines of Python -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", [MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize])
+@pytest.mark.parametrize("from_file", [True, False])
+def test_the_lines_beside_a_figure_run_without_the_page(kind, from_file, tmp_path, monkeypatch):
+    measured = signal()
+    name = 'it\'s "a" file.wav'
+    if from_file:
+        file = io.BytesIO()
+        wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
+        (tmp_path / name).write_bytes(file.getvalue())
+        asked = read_file(name, file.getvalue(), 7.0).asked
+        measured = Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
+    view = view_of(kind, measured)
+    view.say(RESULTS, "")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    namespace: dict = {}
+    exec(compile(view.python(), "<lines>", "exec"), namespace)
+    plt.close("all")
+    columns = namespace["columns"]
+    if kind is DefectSize:
+        best = columns["extent_deg"][columns["probability"].argmax()]
+        assert best == pytest.approx(12.9, abs=0.3)
+    elif from_file and kind is not MeasuredSignal:
+        table = view.table(RESULTS)
+        for column, values in columns.items():
+            np.testing.assert_allclose(values, table[column], rtol=1e-6)
+    else:
+        assert all(len(values) > 50 for values in columns.values())
+
+
+def test_without_a_signal_there_are_no_lines():
+    assert view_of(MeasuredSpectrum).python().startswith("# There is no signal yet")

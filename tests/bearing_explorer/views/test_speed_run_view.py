@@ -1,0 +1,105 @@
+"""The speed run on the page: what is drawn in is where it belongs."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.jobs import Work
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.quantities import limits_of
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.views.speed_run import (
+    COUNTS,
+    SPEED,
+    Found,
+    SpeedRunSpectra,
+    band_columns,
+    compute,
+    harmonics,
+    levels_of,
+)
+
+from bearingcore import presets
+from bearingcore.dynamics.speed_run import speed_run
+
+RIG = presets["fan-rig"].replace(contact_damping=130.0)
+SPEEDS = Sweep(SWEEPABLE[SPEED], np.array([20.0, 30.0, 40.0]))
+
+
+@pytest.fixture(scope="module")
+def found() -> Found:
+    return Found(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), SPEEDS)
+
+
+def test_rows_are_speeds_and_columns_frequencies(found: Found) -> None:
+    view = SpeedRunSpectra(Wire())
+    view.found = found
+    sources, ranges = view.data(Results(RIG))
+    packed = sources["speed_run_cells_y"]["packed"]
+    n, m = int(packed[1]), int(packed[0])
+    assert n == 3
+    drawn = packed[9:].reshape(n, m)
+    np.testing.assert_allclose(drawn, levels_of(found.run, "y")[:, :m])
+    assert packed[2:6].tolist() == pytest.approx([-8.0, 16.0 * m, 15.0, 30.0])
+    assert ranges["speed_run_speed"] == (15.0, 45.0)
+    low, high = ranges["speed_run_level_y"]
+    loudest = np.nanmax(drawn[:, found.run.frequency[:m] >= 100.0])
+    assert low < loudest <= high
+    assert sources["speed_run_now"]["speed"] == pytest.approx([7.0])
+
+
+def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Found) -> None:
+    lines = harmonics(found.run, SPEEDS, 2500.0)["speed_run_harmonics"]
+    ends = np.column_stack([lines["frequency"], lines["speed"]]).reshape(-1, 3, 2)
+    for k, (start, end, gap) in enumerate(ends, start=1):
+        for frequency, speed in (start, end):
+            passing = RIG.bearing.bpfo(2.0 * math.pi * speed)
+            assert frequency == pytest.approx(k * passing)
+            assert frequency <= 2500.0 + 1e-6
+        assert np.isnan(gap).all()
+
+
+def test_bands_are_those_of_the_modes(found: Found) -> None:
+    for dof in ("x", "y"):
+        columns = band_columns(found.run, dof, 2500.0)
+        bands = [band for label, band in found.run.bands.items() if label[0] == dof]
+        assert sorted(zip(columns["low"], columns["high"], strict=True)) == sorted(bands)
+
+
+def test_marched_speeds_are_marked_and_told(found: Found) -> None:
+    view = SpeedRunSpectra(Wire())
+    view.found = found
+    assert found.run.from_orbit.tolist() == [True, False, True]
+    results = Results(RIG)
+    assert view.data(results)[0]["speed_run_marched"]["speed"].tolist() == [30.0]
+    assert "At 1 of 3 speeds" in view.sentence(results)
+    assert view.sentence(Results(RIG.replace(depth=1e-5))).startswith("Faint")
+    table = view.table(results)
+    assert len({np.size(column) for column in table.values()}) == 1
+    assert {"shaft_speed_hz", "frequency_hz", "density_y_m2_per_s4_per_hz"} <= set(table)
+
+
+def test_without_a_run_there_is_nothing_and_it_is_said() -> None:
+    view, wire = SpeedRunSpectra(wire := Wire()), wire
+    sources, ranges = view.data(Results(RIG))
+    wire.pack(sources, ranges)
+    assert view.sentence(Results(RIG)) == "There is no run yet."
+
+
+def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
+    job = Work()
+    job.started = time.monotonic()
+    shown: list[Found] = []
+    job.show = shown.append  # type: ignore[method-assign]
+    words = compute(job, RIG, sweep(SPEED, "30", "60", 49, limits_of(RIG)))
+    assert [one.speeds.values.size for one in shown] == [25, 49]
+    assert words.startswith("49 speeds after")
+    view, editor = SpeedRunSpectra(Wire()), SceneEditor("fan-rig")
+    with pytest.raises(ValueError, match=f"at most {COUNTS[-1]}"):
+        view.prepare({"from": "1", "to": "60", "count": "100000"}, editor)
+    assert callable(view.prepare(view.form(editor)[0], editor))

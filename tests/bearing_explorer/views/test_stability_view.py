@@ -1,0 +1,176 @@
+"""The stability map on the page: what is sent is what was computed."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.jobs import Work
+from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.heat_map import Side, ends
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.state.quantities import limits_of
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.views.stability_map import (
+    GRIDS,
+    KINDS,
+    Found,
+    OrbitStability,
+    border,
+    codes_of,
+    compute,
+    legend,
+)
+
+from bearingcore import orbit, presets
+from bearingcore.dynamics.stability_map import OUTCOMES, stability_map
+
+RIG = presets["fan-rig"].replace(contact_damping=130.0)
+FORM = {
+    "x": "shaft_speed_hz",
+    "x_from": "4",
+    "x_to": "60",
+    "y": "extent_deg",
+    "y_from": "2",
+    "y_to": "62",
+    "grid": "13",
+}
+
+
+def found_map() -> Found:
+    x = Sweep(SWEEPABLE["shaft_speed_hz"], np.array([10.0, 20.0, 30.0]))
+    y = Sweep(SWEEPABLE["extent_deg"], np.array([12.9, 38.6]))
+    return Found(stability_map(RIG, x.in_si, y.in_si), x, y)
+
+
+def test_each_point_has_the_kind_of_its_orbit() -> None:
+    found = found_map()
+    codes = codes_of(found.map)
+    for j, extent in enumerate(found.y.values):
+        for i, speed in enumerate(found.x.values):
+            single = orbit(
+                RIG.replace(shaft_speed=2.0 * math.pi * speed, extent=math.radians(extent))
+            )
+            kind = KINDS[int(codes[j, i])]
+            assert (kind.outcome, kind.through) == (single.status, single.through)
+    assert KINDS[int(codes[0, 2])].through == "-1"
+
+
+def test_every_outcome_of_the_core_has_a_kind_and_each_a_colour() -> None:
+    assert {kind.outcome for kind in KINDS} == set(OUTCOMES) - {"not computed"}
+    assert len({kind.color for kind in KINDS}) == len(KINDS)
+    assert all(kind.words in legend() for kind in KINDS[1:])
+    assert "half the ball-pass frequency" in legend()
+
+
+def test_the_border_runs_around_what_is_not_stable() -> None:
+    codes = np.zeros((3, 4))
+    codes[1, 2] = 1.0
+    sides = border(np.arange(4.0), np.arange(3.0), codes)
+    segments = {tuple(float(sides[k][n]) for k in ("x0", "y0", "x1", "y1")) for n in range(4)}
+    assert segments == {
+        (1.5, 0.5, 1.5, 1.5),
+        (2.5, 0.5, 2.5, 1.5),
+        (1.5, 0.5, 2.5, 0.5),
+        (1.5, 1.5, 2.5, 1.5),
+    }
+    codes[:, 3] = np.nan  # nothing is known beyond: no border there
+    assert border(np.arange(4.0), np.arange(3.0), codes)["x0"].size == 3
+
+
+def test_the_picture_carries_values_and_place() -> None:
+    found = found_map()
+    wire = Wire()
+    view = OrbitStability(wire)
+    assert view.data(Results(RIG))[0]["stability_cells"]["packed"].size == 0
+    view.found = found
+    sources, ranges = view.data(Results(RIG))
+    packed = sources["stability_cells"]["packed"]
+    assert packed[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
+    np.testing.assert_array_equal(packed[9 : 9 + 6].reshape(2, 3), found.map.multiplier)
+    np.testing.assert_array_equal(packed[15:].reshape(2, 3), codes_of(found.map))
+    assert packed[6] == 1.0
+    assert sources["stability_mark"]["x"] == pytest.approx([7.0])
+    assert sources["stability_mark"]["y"] == pytest.approx([12.9])
+    assert ranges["stability_x"] == (5.0, 35.0)
+    assert wire.pack(sources, ranges).size > 3
+    assert len(view.table(Results(RIG))["outcome"].ravel()) == 6
+
+
+def test_a_map_of_another_scene_is_faint_and_says_so() -> None:
+    view = OrbitStability(Wire())
+    view.found = found_map()
+    along = Results(RIG.replace(shaft_speed=100.0, extent=0.3))
+    assert view.data(along)[0]["stability_cells"]["packed"][6] == 1.0
+    assert "Faint" not in view.sentence(along)
+    other = Results(RIG.replace(depth=10e-6))
+    assert view.data(other)[0]["stability_cells"]["packed"][6] < 1.0
+    assert view.sentence(other).startswith("Faint, as the scene has changed")
+
+
+def test_coarse_pictures_come_before_fine_ones() -> None:
+    job = Work()
+    job.started = time.monotonic()
+    shown: list[Found] = []
+    job.show = shown.append  # type: ignore[method-assign]
+    limits = limits_of(RIG)
+    x = sweep("shaft_speed_hz", "20", "40", 25, limits)
+    y = sweep("extent_deg", "5", "15", 25, limits)
+    words = compute(job, RIG, x, y, 25)
+    assert [found.map.outcome.shape for found in shown] == [(13, 13), (25, 25)]
+    assert words.startswith("25 × 25 points after")
+    assert job.part == 1.0
+    coarse, fine = (codes_of(found.map) for found in shown)
+    assert np.mean(coarse == fine[::2, ::2]) > 0.9  # begun from other neighbours
+
+
+def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
+    job = Work()
+    job.started = time.monotonic()
+    shown: list[Found] = []
+
+    def show(found: Found) -> None:
+        shown.append(found)
+        job.stop()
+
+    job.show = show  # type: ignore[method-assign]
+    limits = limits_of(RIG)
+    x = sweep("shaft_speed_hz", "20", "40", 97, limits)
+    y = sweep("extent_deg", "5", "15", 97, limits)
+    words = compute(job, RIG, x, y, 97)
+    assert words.startswith("13 × 13")
+    assert len(shown) == 1
+    assert shown[0].map.completed
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"grid": "5000"}, f"at most {GRIDS[-1]}"),
+        ({"y": "shaft_speed_hz"}, "two different"),
+        ({"x": "nothing"}, "no such"),
+        ({"x_from": ""}, "missing"),
+    ],
+)
+def test_what_is_too_large_or_senseless_is_refused_with_a_sentence(change, words) -> None:
+    view, editor = OrbitStability(Wire()), SceneEditor("fan-rig")
+    with pytest.raises(ValueError, match=words):
+        view.prepare({**FORM, **change}, editor)
+    assert callable(view.prepare(FORM, editor))
+
+
+@pytest.mark.parametrize("preset", list(presets))
+def test_the_form_as_it_comes_up_can_be_sent(preset: str) -> None:
+    view, editor = OrbitStability(Wire()), SceneEditor(preset)
+    values, fills = view.form(editor)
+    assert callable(view.prepare(values, editor))
+    assert set(fills["x"]) == set(SWEEPABLE)
+
+
+def test_sides_are_labelled_like_axes_and_cells_lie_around_their_values() -> None:
+    assert Side.of(SWEEPABLE["shaft_speed_hz"]).label == "Shaft speed fs (Hz)"
+    assert Side("", "Frequency", "f", "").label == "Frequency f"
+    assert ends(np.array([1.0, 2.0, 3.0])) == (0.5, 3.5)

@@ -1,0 +1,146 @@
+"""Vibration in time and in frequency."""
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.excerpt import Event
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.views.vibration_spectrum import VibrationSpectra, decibels, pass_frequencies
+from bearing_explorer.views.vibration_time import (
+    EVENT_ROWS,
+    LABEL_WIDTH,
+    VibrationInTime,
+    event_rows,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bearingcore import Defect, presets
+
+FAN_RIG = presets["fan-rig"]
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return Results(FAN_RIG)
+
+
+@given(st.lists(st.floats(0.0, 1.0), max_size=15))
+def test_labels_of_events_never_overlap_and_stay_inside(times: list[float]) -> None:
+    events = tuple(Event(time, 0, True) for time in sorted(times))
+    rows = event_rows(events, 0.0, 1.0)
+    labelled = np.isfinite(rows["label_at"])
+    assert labelled.sum() >= min(len(times), EVENT_ROWS)
+    for at in set(rows["label_at"][labelled]):
+        left = np.sort(rows["label_from"][rows["label_at"] == at])
+        assert np.all(np.diff(left) >= LABEL_WIDTH - 1e-9)
+        assert left[-1] + LABEL_WIDTH <= 1.0 + 1e-9
+
+
+def test_the_picture_holds_the_signal_and_leaves_room_for_the_labels(results: Results) -> None:
+    view = VibrationInTime(Wire())
+    sources, ranges = view.data(results)
+    top = np.nanmax(np.abs(results.excerpt.acceleration["y"]))
+    drawn = sources["vibration_motion"]["y"]
+    assert np.nanmax(np.abs(drawn)) == top
+    low, high = ranges["vibration_acceleration"]
+    assert low == -high
+    rows = sources["vibration_events"]["label_at"]
+    lowest = low + (high - low) * np.nanmin(rows)
+    assert lowest > top
+    assert ranges["vibration_load"][1] >= results.excerpt.ball_load.max()
+
+
+def test_a_packet_of_the_time_view_is_small(results: Results) -> None:
+    wire = Wire()
+    sources, ranges = VibrationInTime(wire).data(results)
+    assert wire.send(sources, ranges) < 64_000
+
+
+def test_each_ball_has_its_own_line_and_name(results: Results) -> None:
+    sources, _ = VibrationInTime(Wire()).data(results)
+    names, loads = sources["vibration_ball_names"], sources["vibration_loads"]
+    assert names["ball"].tolist() == [ball + 1 for ball in results.excerpt.balls]
+    for slot in names["slot"].astype(int):
+        assert np.isfinite(loads[f"load{slot}"]).all()
+    assert np.all(np.diff(names["from"]) > 0.15)
+    assert np.isnan(loads["load3"]).all()
+
+
+def test_the_sentence_says_how_long_the_defect_is_in_time(results: Results) -> None:
+    words = VibrationInTime(Wire()).sentence(results)
+    assert "12.5 ms later it leaves it" in words or "12.4 ms later it leaves it" in words
+
+
+def test_levels_and_shifts_are_the_published_ones(results: Results) -> None:
+    view = VibrationSpectra(Wire())
+    small, _ = view.data(results)
+    large, _ = view.data(Results(FAN_RIG.replace(extent=math.radians(38.6))))
+    lines = small["spectrum_lines"]
+    heard = (lines["frequency"] >= 300.0) & (lines["frequency"] <= 2100.0)
+    assert -60.0 < lines["y"][heard].min() < lines["y"][heard].max() < -18.0
+    assert -70.0 < lines["x"][heard].min() < lines["x"][heard].max() < -26.0
+    for dof, sign in (("x", 1.0), ("y", -1.0)):
+        middle = [
+            np.mean([s[f"spectrum_bands_{dof}"]["low"], s[f"spectrum_bands_{dof}"]["high"]])
+            for s in (small, large)
+        ]
+        assert sign * (middle[1] - middle[0]) > 0.0
+
+
+def test_bands_of_a_direction_stand_in_its_figure(results: Results) -> None:
+    sources, _ = VibrationSpectra(Wire()).data(results)
+    bands = results.modes.bands()
+    assert sources["spectrum_bands_x"]["low"] == pytest.approx([bands["x1"][0], bands["x2"][0]])
+    assert sources["spectrum_bands_y"]["high"] == pytest.approx([bands["y1"][1], bands["y2"][1]])
+
+
+def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> None:
+    marks = pass_frequencies(FAN_RIG, 2500.0)["frequency"]
+    assert marks[0] == pytest.approx(40.289, abs=1e-3)
+    np.testing.assert_allclose(np.diff(marks), marks[0])
+    assert 2500.0 - marks[0] < marks[-1] <= 2500.0
+    inner = pass_frequencies(FAN_RIG.replace(race="inner"), 2500.0)
+    assert inner["frequency"][0] == pytest.approx(14 * (7.0 - 2.8778), abs=1e-2)
+    assert inner["inner"].all()
+    still = pass_frequencies(FAN_RIG.replace(shaft_speed=0.0), 2500.0)
+    assert still["frequency"].size == 0
+
+
+def test_defects_of_both_races_are_both_marked_and_named() -> None:
+    both = FAN_RIG.replace(defect=(FAN_RIG.defect, Defect(0.1, 50e-6, 1.0, "inner")))
+    results = Results(both)
+    sources, _ = VibrationSpectra(Wire()).data(results)
+    first = sources["spectrum_first_pass"]
+    assert first["inner"].tolist() == [0.0, 1.0]
+    assert first["frequency"] == pytest.approx([40.289, 57.711], abs=1e-3)
+    words = VibrationSpectra(Wire()).sentence(results)
+    assert "outer race at 40.29 Hz and of the inner race at 57.71 Hz" in words
+
+
+def test_an_inner_race_defect_is_shown_where_it_meets_load() -> None:
+    shown = Results(FAN_RIG.replace(race="inner")).excerpt
+    entering = next(event for event in shown.events if event.time == pytest.approx(0.0, abs=1e-9))
+    column = list(shown.balls).index(entering.ball)
+    before = shown.static_load[shown.static_time < 0.0, column]
+    assert before[-1] > 30.0, "the ball that enters carried nothing"
+
+
+def test_silence_has_a_level() -> None:
+    assert decibels(np.array([1.0, 1e-6, 0.0])).tolist() == [0.0, -60.0, -200.0]
+
+
+def test_tables_say_their_units(results: Results) -> None:
+    time = VibrationInTime(Wire()).table(results)
+    assert {"time_s", "acceleration_x_m_per_s2", "acceleration_y_m_per_s2"} <= set(time)
+    spectra = VibrationSpectra(Wire()).table(results)
+    assert {"frequency_hz", "density_y_m2_per_s4_per_hz"} <= set(spectra)
+
+
+def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> None:
+    up = Results(FAN_RIG.replace(fy=100.0))
+    assert up.excerpt.static_load.max() == 0.0
+    _, ranges = VibrationInTime(Wire()).data(up)
+    assert ranges["vibration_load"][1] > 35.0

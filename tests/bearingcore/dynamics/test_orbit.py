@@ -1,0 +1,247 @@
+"""Orbits against marching, and the statements of others about where they are stable."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from bearingcore import Scene, orbit, presets, simulate, spectrum
+from bearingcore.dynamics.motion import static_start
+from bearingcore.dynamics.orbit import (
+    NO_PERIOD,
+    NOT_CONVERGED,
+    STABLE,
+    UNSTABLE,
+    common_ball_passes,
+)
+from bearingcore.dynamics.orbit import _Shooting as Shooting
+from bearingcore.dynamics.problem import motion_problem
+
+RIG = presets["fan-rig"].replace(contact_damping=130.0)
+
+
+def at(shaft_hz: float, extent_deg: float) -> Scene:
+    return RIG.replace(shaft_speed=2.0 * math.pi * shaft_hz, extent=math.radians(extent_deg))
+
+
+def marched_period(scene: Scene, passes: int = 600, longest: int = 12) -> int | None:
+    """Ball passes after which a long march repeats itself to 0.2 %, None if more than `longest`."""
+    one = scene.bearing.ball_spacing / scene.cage_speed
+    rate = 65536.0 * math.ceil(scene.shaft_speed / (2.0 * math.pi * 30.0))
+    motion = simulate(scene, (passes + 2) * one, rate)
+    x, t = motion.inner_displacement, motion.time
+    size = np.ptp(x[-len(x) // 20 :], axis=0).max()
+    times = np.arange(passes - 40, passes) * one
+    phase = np.stack([np.interp(times, t, x[:, i]) for i in range(x.shape[1])], axis=1)
+    for period in range(1, longest + 1):
+        if np.abs(phase[period:] - phase[:-period]).max() < 2e-3 * size:
+            return period
+    return None
+
+
+def test_the_largest_multiplier_at_7_hz_is_0_32() -> None:
+    """As found by an independent computation with c = 130 N·s/m and published edges."""
+    found = orbit(at(7.0, 12.9))
+    assert found.status == STABLE
+    assert found.largest_multiplier == pytest.approx(0.32, abs=0.005)
+
+
+def test_at_30_hz_the_orbit_doubles_its_period() -> None:
+    found = orbit(at(30.0, 12.9))
+    assert (found.status, found.through) == (UNSTABLE, "-1")
+    assert found.largest_multiplier == pytest.approx(1.33, abs=0.01)
+    assert marched_period(at(30.0, 12.9)) == 2
+    doubled = orbit(at(30.0, 12.9), ball_passes=2, start=None)
+    assert doubled.status in (STABLE, UNSTABLE)
+
+
+@pytest.mark.parametrize(
+    ("shaft_hz", "extent_deg"),
+    [
+        (7.0, 38.6),
+        (15.0, 12.9),
+        (25.0, 12.9),
+        (28.0, 12.9),
+        (32.0, 12.9),
+        (35.0, 12.9),
+        (45.0, 20.0),
+        (60.0, 12.9),
+        (60.0, 38.6),
+        (90.0, 25.0),
+        (120.0, 8.0),
+        (150.0, 12.9),
+    ],
+)
+def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_deg: float) -> None:
+    """600 ball passes of marching repeat after one pass just where the orbit is stable."""
+    scene = at(shaft_hz, extent_deg)
+    found = orbit(scene)
+    assert found.status in (STABLE, UNSTABLE)
+    assert (marched_period(scene) == 1) == found.stable
+
+
+def test_where_no_orbit_is_found_none_is_claimed() -> None:
+    """At 100 Hz shooting over one pass has nothing to find: marching returns every second pass."""
+    scene = at(100.0, 12.9)
+    assert marched_period(scene) == 2
+    assert orbit(scene).status in (NOT_CONVERGED, UNSTABLE)
+
+
+@pytest.mark.parametrize("extent_deg", [12.9, 38.6])
+def test_the_tiled_period_is_the_marched_motion_after_its_transient(extent_deg: float) -> None:
+    scene = at(7.0, extent_deg)
+    found = orbit(scene)
+    motion = simulate(scene, 2.8)
+    late = slice(len(motion.time) // 2, None)
+    marched = spectrum(motion.outer_acceleration[late], motion.sample_rate)
+    tiled = spectrum(found.outer_acceleration(motion.time[late]), motion.sample_rate)
+    band = (marched.frequency >= 300.0) & (marched.frequency <= 2100.0)
+    error = 10.0 * np.log10(tiled.density[band] / marched.density[band])
+    assert np.abs(error).max() < 0.1
+
+
+@pytest.mark.parametrize("scene", [at(7.0, 12.9), at(60.0, 12.9), at(7.0, 38.6)])
+def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None:
+    found = orbit(scene)
+    n = round(1.4 * 65536.0)
+    tiled = spectrum(found.outer_acceleration(np.arange(n) / 65536.0), 65536.0)
+    lines = found.spectrum()
+    np.testing.assert_array_equal(lines.frequency, tiled.frequency)
+    band = (tiled.frequency >= 300.0) & (tiled.frequency <= 2100.0)
+    ours, theirs = lines.density[band], tiled.density[band]
+    # at 60 Hz lines stand eleven bins apart: between them there is only the window's side lobes,
+    # and what samples of the jumps as balls touch fold back, which lines do not
+    heard = theirs > 1e-4 * theirs.max(axis=0)
+    assert heard.sum() > 30
+    assert np.abs(10.0 * np.log10(ours[heard] / theirs[heard])).max() < 0.02
+
+
+def test_an_orbit_jumps_where_the_march_does() -> None:
+    """Accelerations between steps come from the equations of motion, not from interpolation."""
+    scene = at(60.0, 12.9)
+    fine = simulate(scene, 1.2, step_rate=4.0 * 65536.0)
+    late = slice(len(fine.time) // 2, None)
+    marched = fine.outer_acceleration[late]
+    for rate in (32768.0, 65536.0):
+        apart = orbit(scene, step_rate=rate).outer_acceleration(fine.time[late]) - marched
+        assert np.abs(apart).max() < 2e-2 * np.abs(marched).max()
+        assert np.sqrt(np.mean(apart**2)) < 2e-3 * np.sqrt(np.mean(marched**2))
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        RIG,
+        presets["liew-lim"],
+        RIG.replace(contact_law="no tension"),
+        presets["liew-lim"].replace(dofs=("x", "y", "z")),
+    ],
+    ids=["smooth", "tilt", "no tension", "three directions"],
+)
+def test_the_tangent_is_the_derivative_of_the_march(scene: Scene) -> None:
+    """Against central differences over an eighth of a ball pass.
+
+    In smooth variables it is the derivative of the steps themselves; without tension touches lie
+    between steps.
+    """
+    smooth = scene.contact_law == "published"
+    dofs = scene.active_dofs
+    period = scene.bearing.ball_spacing / scene.cage_speed / 8.0
+    shooting = Shooting(scene, dofs, period, 3000)
+    start = static_start(scene, dofs)
+    assert start is not None
+    y = shooting.marched(shooting.own(start), 3)
+    _, tangent = shooting.with_tangent(y)
+    differences = np.empty_like(tangent)
+    for i in range(y.size):
+        small = np.zeros(y.size)
+        small[i] = (1e-11 if smooth else 3e-10) / shooting.scale[i]
+        up, down = shooting.marched(y + small), shooting.marched(y - small)
+        differences[:, i] = (up - down) / (2.0 * small[i])
+    scaled = shooting.scale[:, None] / shooting.scale
+    error = np.abs(scaled * (tangent - differences)).max()
+    assert error < (1e-5 if smooth else 2e-3) * np.abs(scaled * differences).max()
+
+
+def test_smooth_variables_march_the_same_motion_as_plain_ones() -> None:
+    """The smooth kernel and the general one approach each other as the step shrinks."""
+    smooth = simulate(RIG, 0.05, step_rate=65536.0 * 16).inner_displacement
+    wide = RIG.replace(dofs=("x", "y", "z"))  # z stays zero, but the general kernel is used
+    plain = simulate(wide, 0.05, step_rate=65536.0 * 16)
+    assert np.abs(plain.inner_displacement[:, 2]).max() < 1e-15
+    size = np.ptp(smooth, axis=0).max()
+    assert np.abs(smooth - plain.inner_displacement[:, :2]).max() < 5e-4 * size
+
+
+def test_an_orbit_nearby_shortens_the_way() -> None:
+    first = orbit(at(20.0, 12.9))
+    nearby = at(20.0, 12.9).replace(depth=49.5e-6, fy=-101.0)
+    warm, cold = orbit(nearby, start=first), orbit(nearby)
+    assert warm.status == cold.status == STABLE
+    assert warm.right_hand_side_calls < cold.right_hand_side_calls
+    assert warm.largest_multiplier == pytest.approx(cold.largest_multiplier, rel=1e-3)
+
+
+def test_five_directions_have_an_orbit_too() -> None:
+    found = orbit(presets["liew-lim"])
+    assert found.status == STABLE
+    assert found.multipliers.shape == (20,)
+
+
+def test_an_orbit_in_five_directions_is_as_exact_as_the_march() -> None:
+    """Halving the steps twice takes off far more than the three quarters that order 1 would."""
+    scene = presets["liew-lim"]
+    fine, *coarser = (
+        orbit(scene, step_rate=65536.0 * 2.0**k).inner_displacement(np.linspace(0.0, 0.03, 301))
+        for k in (3, 1, -1)
+    )
+    size = np.ptp(fine, axis=0).max()
+    near, far = (np.abs(found - fine).max() / size for found in coarser)
+    assert near < 3e-6
+    assert near < far / 12.0
+
+
+def test_another_family_of_methods_finds_the_orbit_closed() -> None:
+    """DOP853 on the plain equations of motion, over one ball pass of the Liew-Lim bearing."""
+    scene = presets["liew-lim"]
+    found = orbit(scene, step_rate=262144.0)
+    problem = motion_problem(scene)
+    first = found.history[0]
+    begin = np.concatenate([first[0], first[1], first[3], first[4]])
+    solved = solve_ivp(
+        problem.rate, (0.0, found.period), begin, "DOP853",
+        rtol=1e-9, atol=1e-7 * problem.scale, max_step=found.period / 500.0,
+    )  # fmt: skip
+    size = np.ptp(found.history[:, 0], axis=0).max() * problem.scale / problem.scale[0]
+    assert np.abs((solved.y[:, -1] - begin) / size).max() < 2e-5
+
+
+def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:
+    """Fan rig: ω_c/ω_s = 37/90, so 45 turns of the shaft are 18.5 of the cage, 259 ball passes."""
+    inner = at(7.0, 12.9).replace(race="inner")
+    assert common_ball_passes(inner) == 259
+    assert common_ball_passes(at(7.0, 12.9)) == 1
+    unlike = inner.replace(contact_angle=math.radians(15.0))
+    assert common_ball_passes(unlike) is None
+    assert orbit(unlike).status == NO_PERIOD
+    assert math.isnan(orbit(unlike).largest_multiplier)
+
+
+def test_a_shaft_that_stands_still_is_refused() -> None:
+    with pytest.raises(ValueError, match="shaft_speed"):
+        orbit(RIG.replace(shaft_speed=0.0))
+
+
+def test_an_orbit_is_data() -> None:
+    found = orbit(RIG)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        found.status = "other"  # type: ignore[misc]
+    np.testing.assert_allclose(
+        found.inner_displacement(0.0 * np.ones(1)),
+        found.inner_displacement(found.period * np.ones(1)),
+        rtol=1e-6,
+    )

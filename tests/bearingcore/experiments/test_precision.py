@@ -1,0 +1,250 @@
+"""Experiments on precision: references agree, orders are known ones, failures are named."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bearingcore import equilibrium, presets, simulate
+from bearingcore.dynamics.adaptive import simulate_adaptive
+from bearingcore.dynamics.problem import motion_problem
+from bearingcore.experiments import (
+    angles_experiment,
+    energy_drifts,
+    linear_limits,
+    measured_orders,
+    models_experiment,
+    motion_experiment,
+    stability_chart,
+    statics_experiment,
+)
+from bearingcore.experiments.integrators import METHODS
+from bearingcore.experiments.points import Experiment, slope
+from bearingcore.experiments.references import motion_reference
+from bearingcore.experiments.stability import DIVERGED, amplification
+from bearingcore.experiments.statics import contacts, static_problem
+from bearingcore.statics.equilibrium import default_cage_angles
+
+FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
+STORED = np.load(Path(__file__).parents[2] / "reference" / "motion_reference.npz")
+
+
+# --- references -----------------------------------------------------------------------------------
+
+
+def test_the_reference_meets_the_one_that_was_stored() -> None:
+    """Computed by other code, stopping at every event, with other integrators."""
+    scene = FAN_RIG.replace(contact_damping=122.0)
+    reference = motion_reference(motion_problem(scene), 0.25, 65536.0, 2200.0)
+    assert reference.reference.trusted
+    assert reference.reference.agreement["displacement"] < 1e-8
+    assert reference.reference.agreement["spectrum"] < 1e-5
+    found = np.hstack([reference.history[::64, 0], reference.history[::64, 3]])
+    expected = STORED["12.9deg/displacement"][: len(found)]
+    swing = np.abs(expected - expected.mean(axis=0)).max()
+    assert np.abs(found - expected).max() / swing < 1e-8
+
+
+@pytest.mark.parametrize("scene", [FAN_RIG, LIEW_LIM], ids=["fan-rig", "liew-lim"])
+def test_contacts_in_numpy_are_those_of_the_kernel(scene) -> None:  # type: ignore[no-untyped-def]
+    angles = default_cage_angles(scene, 31)
+    state = equilibrium(scene, angles)
+    found = contacts(static_problem(scene, angles), state.state)
+    units = np.ones(5)
+    units[3:] = scene.bearing.groove_center_radius
+    expected = state.stiffness / (units[:, None] * units)
+    np.testing.assert_allclose(found.stiffness, expected, rtol=1e-9, atol=1e-9 * expected.max())
+    np.testing.assert_allclose(found.load, state.ball_load, rtol=1e-9, atol=1e-6)
+
+
+def test_the_march_without_jumps_is_the_same_motion() -> None:
+    """In five directions, against the multistep reference: ten times nearer than velocities."""
+    problem = motion_problem(LIEW_LIM)
+    reference = motion_reference(problem, 0.1, 65536.0, 3200.0)
+    assert reference.reference.trusted
+    errors = {
+        name: reference.errors(METHODS[name].march(problem, 65536.0, 0.1, 65536.0).history)
+        for name in ("RK4", "RK4 in velocities")
+    }
+    assert errors["RK4"]["displacement"] < 1e-5
+    for name, error in errors["RK4"].items():
+        assert error < 0.2 * errors["RK4 in velocities"][name]
+
+
+def test_adaptive_steps_meet_what_simulate_gives() -> None:
+    fixed = simulate(FAN_RIG, 0.05, step_rate=524288.0)
+    errors = []
+    for tolerance in (1e-5, 1e-7, 1e-9):
+        told = simulate_adaptive(FAN_RIG, 0.05, tolerance=tolerance)
+        assert told.completed
+        assert told.time.size == fixed.time.size
+        errors.append(np.abs(told.inner_displacement - fixed.inner_displacement).max())
+    assert errors[0] > 4.0 * errors[1] > 16.0 * errors[2]
+    assert errors[-1] < 1e-4 * np.ptp(fixed.inner_displacement)
+
+
+# --- orders and stability -------------------------------------------------------------------------
+
+
+def test_orders() -> None:
+    """4 on smooth motions, about 2 with kinks; damping that switches leaves 1 to velocities."""
+    orders = {(o.method, o.kind): o.order for o in measured_orders()}
+    assert orders["RK4", "smooth"] == pytest.approx(4.0, abs=0.3)
+    assert orders["RK4 in velocities", "smooth"] == pytest.approx(4.0, abs=0.3)
+    assert orders["RK4", "kinked path"] == pytest.approx(2.0, abs=0.5)
+    assert orders["RK4", "losing contact"] == pytest.approx(2.8, abs=0.6)
+    assert orders["RK4 in velocities", "switching damping"] == pytest.approx(1.0, abs=0.4)
+    assert orders["RK4", "switching damping"] > 2.0
+    for name in ("Verlet", "trapezoidal", "generalised-α"):
+        for kind in ("smooth", "kinked path", "losing contact"):
+            assert orders[name, kind] == pytest.approx(2.0, abs=0.35)
+
+
+def test_linear_limits_of_an_undamped_oscillator() -> None:
+    """2√2 for Runge-Kutta, 2 for Verlet, none for the implicit ones."""
+
+    def radius(method: str, h: float) -> float:
+        matrix = amplification(method, np.eye(1), np.zeros((1, 1)), h)
+        return float(np.abs(np.linalg.eigvals(matrix)).max())
+
+    for method, limit in (("RK4", 2.0 * math.sqrt(2.0)), ("Verlet", 2.0)):
+        assert radius(method, 0.999 * limit) <= 1.0 + 1e-9
+        assert radius(method, 1.001 * limit) > 1.0 + 1e-6
+    assert radius("trapezoidal", 1e3) == pytest.approx(1.0)
+    assert radius("generalised-α", 1e6) == pytest.approx(0.8, abs=1e-3)
+
+
+def test_methods_break_where_linear_theory_says() -> None:
+    chart = stability_chart(FAN_RIG, duration=0.1)
+    assert chart.completed
+    assert chart.reference.trusted
+    assert {trial.method for trial in chart.trials} == set(linear_limits(FAN_RIG))
+    for name in ("RK4", "Verlet"):
+        limit = chart.linear_limit[name]
+        assert limit / 1.5 < chart.found_limit(name) < 1.5 * limit
+        coarsest = min((t for t in chart.trials if t.method == name), key=lambda t: t.step_rate)
+        assert coarsest.verdict == DIVERGED
+    for name in ("trapezoidal", "generalised-α"):
+        assert chart.linear_limit[name] == 0.0
+        assert all(t.verdict != DIVERGED for t in chart.trials if t.method == name)
+    finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
+    assert all(trial.verdict == "right" for trial in finest)
+    assert "linear limit" in chart.table()
+
+
+def test_energy_of_an_undamped_bounce() -> None:
+    """Runge-Kutta swallows it, Verlet neither gains nor loses much, the pair keeps it."""
+    drifts = {d.method: d for d in energy_drifts(FAN_RIG, duration=1.0)}
+    assert not any(d.failure for d in drifts.values())
+    assert drifts["RK4"].final < -0.3
+    assert drifts["generalised-α"].final < -0.1
+    assert np.abs(drifts["Verlet"].drift).max() < 0.1
+    assert abs(drifts["Dormand-Prince"].final) < 0.01
+    assert drifts["Verlet"].drift[0] == 0.0
+
+
+# --- experiments ----------------------------------------------------------------------------------
+
+
+def check_that_all_is_told(experiment: Experiment) -> None:
+    assert experiment.completed
+    assert all(reference.trusted for reference in experiment.references.values())
+    for point in experiment.points:
+        assert point.seconds > 0.0
+        assert point.failed == point.status.startswith("failed: ")
+        if not point.failed:
+            assert set(point.errors) <= set(experiment.errors)
+            assert point.errors
+    text = experiment.table()
+    for method in experiment.methods:
+        assert method in text
+
+
+def test_statics() -> None:
+    experiment = statics_experiment(LIEW_LIM, n_angles=13)
+    check_that_all_is_told(experiment)
+    (zero,) = experiment.of("plain Newton from zero")
+    assert zero.failed
+    assert "13 of 13" in zero.status
+    warm, cold = (experiment.of(f"compiled, {how} start")[0] for how in ("warm", "cold"))
+    assert warm.errors["stiffness"] < 1e-8
+    assert warm.evaluations < cold.evaluations
+    errors = [p.errors["stiffness"] for p in experiment.of("energy Newton, NumPy")]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[-1] < 1e-8
+
+
+def test_angles() -> None:
+    experiment = angles_experiment(FAN_RIG)
+    check_that_all_is_told(experiment)
+    equal = experiment.of("equally spaced")
+    best = min(point.errors["trace"] for point in equal)
+    placed = next(p for p in experiment.of("placed at events") if p.value == 1e-2)
+    assert placed.evaluations < max(point.evaluations for point in equal)
+    assert placed.errors["trace"] < 0.1 * best
+
+
+def test_motion() -> None:
+    names = ("RK4", "Verlet", "Dormand-Prince", "scipy LSODA")
+    experiment = motion_experiment(FAN_RIG, duration=0.1, methods=names)
+    check_that_all_is_told(experiment)
+    assert experiment.methods == names
+    for name in names:
+        errors = [point.errors["displacement"] for point in experiment.of(name)]
+        assert errors[-1] < 0.1 * errors[0]
+    frontier = experiment.frontier()
+    assert all(a.seconds < b.seconds for a, b in itertools.pairwise(frontier))
+    assert all(a.errors["spectrum"] > b.errors["spectrum"] for a, b in itertools.pairwise(frontier))
+    assert "RK4" in {point.method for point in frontier}
+
+
+def test_models() -> None:
+    experiment = models_experiment(LIEW_LIM, duration=0.2)
+    check_that_all_is_told(experiment)
+    points = {point.method: point for point in experiment.points}
+    assert points["5 DOF"].errors["spectrum"] < 0.1 < points["2 DOF"].errors["spectrum"]
+    assert points["quasi-static"].errors["spectrum"] == math.inf
+    assert points["exact edges"].errors["level"] < 0.1 < points["published edges"].errors["level"]
+    assert points["orbit"].against == "settled motion"
+
+
+def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
+    fast = FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0, contact_damping=130.0)
+    experiment = models_experiment(fast, duration=0.1)
+    (orbit,) = experiment.of("orbit")
+    assert orbit.status == "failed: unstable orbit through -1"
+    assert "unstable orbit" in experiment.table()
+
+
+def test_an_experiment_tells_its_progress_and_can_be_cancelled() -> None:
+    told: list[float] = []
+    answers = iter([False, False, True])
+    experiment = statics_experiment(
+        FAN_RIG,
+        n_angles=5,
+        progress=lambda part, doing: told.append(part),
+        cancelled=lambda: next(answers),
+    )
+    assert len(experiment.points) == 2
+    assert not experiment.completed
+    assert "cancelled" in experiment.table()
+    assert told == sorted(told)
+    assert 0.0 <= told[0] <= told[-1] < 1.0
+
+
+def test_slope() -> None:
+    assert slope([1.0, 2.0, 4.0], [3.0, 12.0, 48.0]) == pytest.approx(2.0)
+    assert math.isnan(slope([1.0], [1.0]))
+
+
+def test_refusals() -> None:
+    with pytest.raises(ValueError, match="method is 'Euler'"):
+        motion_experiment(FAN_RIG, methods=("Euler",))
+    with pytest.raises(ValueError, match="shaft_speed is 0"):
+        motion_experiment(FAN_RIG.replace(shaft_speed=0.0))
+    with pytest.raises(ValueError, match="static state"):
+        motion_problem(FAN_RIG.replace(fy=0.0))

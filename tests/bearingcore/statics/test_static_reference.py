@@ -1,0 +1,118 @@
+"""The statics meet 40-digit answers to 1e-10 (see tests/reference/README.md)."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
+
+REFERENCE = Path(__file__).parents[2] / "reference" / "static_reference.json"
+CASES: list[dict[str, Any]] = json.loads(REFERENCE.read_text(encoding="utf-8"))
+TOLERANCE = 1e-10
+PITCH = "groove_center_radius"
+
+every_case = pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
+
+
+def scene_of(case: dict[str, Any]) -> Scene:
+    """The case as a Scene; support and speed do not enter the statics."""
+    return Scene(
+        bearing=Bearing(**case["bearing"]),
+        defect=Defect(**case["defect"]),
+        load=Load(**case["load"]),
+        shaft_speed=2.0 * math.pi * 7.0,
+        support=presets["fan-rig"].support,
+    )
+
+
+def numbers(values: Any) -> np.ndarray:
+    """Strings of 20 digits as doubles."""
+    return np.array(values, dtype=float)
+
+
+def test_the_reference_is_proven_and_covers_what_it_should() -> None:
+    """Guards against a reference regenerated with fewer or easier cases."""
+    assert len(CASES) >= 40
+    assert all(float(case["proof"]["relative_residual"]) < 1e-30 for case in CASES)
+    assert all(
+        float(case["proof"]["stiffness_against_difference_quotient"]) < 1e-30 for case in CASES
+    )
+    assert all(float(case["proof"]["least_eigenvalue_over_greatest_term"]) > 1e-6 for case in CASES)
+    # a ball that carries while it is on an edge, for each edge model on each race
+    on_an_edge = {
+        (case["defect"]["race"], case["defect"]["edge"])
+        for case in CASES
+        for drop, load in zip(numbers(case["drop"]), numbers(case["ball_load"]), strict=True)
+        if 0.0 < drop < case["defect"]["depth"] and load > 0.0
+    }
+    assert len(on_an_edge) == 6
+    assert {tuple(case["dofs"]) for case in CASES} >= {
+        ("x", "y"),
+        ("x", "y", "z"),
+        ("x", "y", "z", "rx", "ry"),
+    }
+    assert sum(case["proof"]["guarded_and_loaded_balls"] > 0 for case in CASES) >= 3
+
+
+@every_case
+def test_drop_of_the_ball_centres(case: dict[str, Any]) -> None:
+    scene = scene_of(case)
+    balls = case["cage_angle"] + scene.bearing.ball_spacing * np.arange(scene.bearing.n_balls)
+    drop = Defect(**case["defect"]).path(balls, scene.bearing, cage_angle=case["cage_angle"])
+    expected = numbers(case["drop"])
+    # The angle of a ball has rounding of 1e-16 per radian turned; the edge slopes by 1e-2 m/rad.
+    assert drop == pytest.approx(expected, rel=TOLERANCE, abs=1e-16)
+
+
+@every_case
+def test_equilibrium(case: dict[str, Any]) -> None:
+    answer = equilibrium(scene_of(case), np.array([case["cage_angle"]]), dofs=tuple(case["dofs"]))
+    assert answer.converged[0]
+    lever = case["bearing"][PITCH]
+
+    unit = np.array([1.0, 1.0, 1.0, lever, lever])
+    expected = numbers(case["displacement"]) * unit
+    error = np.abs(answer.displacement[0] * unit - expected).max() / np.linalg.norm(expected)
+    assert error < TOLERANCE, f"displacement off by {error:.1e}"
+
+    loads = numbers(case["ball_load"])
+    error = np.abs(answer.ball_load[0] - loads).max() / loads.max()
+    assert error < TOLERANCE, f"ball loads off by {error:.1e}"
+    assert answer.loaded_balls[0] == np.count_nonzero(loads)
+
+    turned = np.abs(answer.contact_angle[0] - numbers(case["contact_angle"]))[loads > 0.0]
+    assert turned.max() < TOLERANCE, f"contact angle off by {turned.max():.1e} rad"
+
+
+@every_case
+def test_stiffness(case: dict[str, Any]) -> None:
+    """All 5×5 terms, also of directions held still, against the geometric mean of k_ii, k_jj."""
+    answer = equilibrium(scene_of(case), np.array([case["cage_angle"]]), dofs=tuple(case["dofs"]))
+    expected = numbers(case["stiffness"])
+    # A direction in which nothing is stiff is measured by the greatest stiffness instead.
+    lever = case["bearing"][PITCH]
+    unit = np.array([1.0, 1.0, 1.0, lever, lever])
+    diagonal = np.diag(expected) / unit**2
+    diagonal = np.maximum(diagonal, 1e-3 * diagonal.max()) * unit**2
+    error = np.abs(answer.stiffness[0] - expected) / np.sqrt(np.outer(diagonal, diagonal))
+    assert error.max() < TOLERANCE, f"stiffness off by {error.max():.1e}"
+
+
+@every_case
+def test_the_way_to_an_angle_does_not_matter(case: dict[str, Any]) -> None:
+    """Come upon from afar, in coarse steps and in fine ones, forwards or back."""
+    end = case["cage_angle"]
+    lever = case["bearing"][PITCH]
+    unit = np.array([1.0, 1.0, 1.0, lever, lever])
+    expected = numbers(case["displacement"]) * unit
+    for start, count in ((end - 1.0, 5), (end - 0.1, 40), (end + 0.3, 9)):
+        angles = np.linspace(start, end, count)
+        answer = equilibrium(scene_of(case), angles, dofs=tuple(case["dofs"]))
+        error = np.abs(answer.displacement[-1] * unit - expected).max()
+        assert error < TOLERANCE * np.linalg.norm(expected)

@@ -1,0 +1,249 @@
+"""Limits of the model are met where physics says, and told in sentences with numbers."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from bearingcore import Bearing, Limit, Scene, equilibrium, limits, presets, simulate
+from bearingcore.statics.validity import STATIC_PRESSURE, centrifugal_force, usual_shoulder_height
+
+SOUND_6205 = presets["6205"].sound()
+TURN = np.linspace(0.0, 2.0 * math.pi, 181)
+
+
+def found(scene: Scene, name: str, **choices: float) -> Limit:
+    by_name = {limit.name: limit for limit in limits(scene, **choices)}  # type: ignore[arg-type]
+    assert len(by_name) == len(limits(scene, **choices))  # type: ignore[arg-type]
+    return by_name[name]
+
+
+INNER, OUTER = "contact pressure, inner race", "contact pressure, outer race"
+
+
+STATIC_RATING_6205 = 7.8e3
+"""As makers print it [N]: the load at which ISO 76 lets 4.2 GPa stand, if a ball carries 5 F/Z."""
+
+
+def test_static_rating_of_the_catalogue_is_where_the_pressure_reaches_4200_mpa() -> None:
+    ball = 5.0 * STATIC_RATING_6205 / 9.0
+    p = SOUND_6205.bearing.race_contact("inner").greatest_pressure(ball)
+    assert float(p) == pytest.approx(STATIC_PRESSURE, rel=0.01)
+
+
+def test_overload_begins_near_the_static_rating() -> None:
+    """Without clearance the most loaded ball carries 4.37 F/Z (Stribeck), so a little later."""
+    tight = SOUND_6205.replace(radial_clearance=0.0)
+    begins = STATIC_RATING_6205 * 5.0 / 4.37
+    assert not found(tight.replace(fy=-0.95 * begins), INNER).crossed
+    limit = found(tight.replace(fy=-1.05 * begins), INNER)
+    assert limit.crossed
+    assert "above the 4.2 GPa" in limit.sentence
+
+
+def test_pressure_grows_as_the_cube_root_of_the_load() -> None:
+    """With one ball: eight times the load, twice the pressure, on both races."""
+    bearing = presets["6205"].bearing.replace(n_balls=1)
+    scene = Scene(
+        bearing,
+        SOUND_6205.defect,
+        SOUND_6205.load,
+        1.0,
+        SOUND_6205.support,
+        dofs=("y",),
+    )
+    state = equilibrium(scene, [math.radians(270.0)])
+    heavy = scene.replace(fy=8.0 * scene.load.fy)
+    more = equilibrium(heavy, [math.radians(270.0)])
+    for one, eight in zip(limits(scene, state)[:2], limits(heavy, more)[:2], strict=True):
+        assert eight.value == pytest.approx(2.0 * one.value, rel=1e-12)
+    inner, outer = (limit.value for limit in limits(scene, state)[:2])
+    assert inner > outer  # the inner race is convex
+
+
+@pytest.mark.parametrize("name", ["liew-lim", "fan-rig"])
+def test_without_groove_radii_pressure_is_not_known_and_not_invented(name: str) -> None:
+    for race in (INNER, OUTER):
+        limit = found(presets[name], race)
+        assert math.isnan(limit.value)
+        assert not limit.crossed
+        assert "not known" in limit.sentence
+
+
+def test_a_thrust_climbs_the_shoulder_of_a_deep_groove() -> None:
+    gentle = SOUND_6205.replace(fy=-300.0, fz=500.0)
+    harsh = SOUND_6205.replace(fy=-300.0, fz=40e3)
+    name = "contact angle at the shoulder"
+    assert not found(gentle, name).crossed
+    limit = found(harsh, name)
+    assert limit.crossed
+    assert "rides over its edge" in limit.sentence
+    # a higher shoulder holds it, and a lower one does not hold even the gentle thrust
+    assert not found(harsh, name, shoulder_height=0.5).crossed
+    assert found(gentle, name, shoulder_height=0.02).crossed
+
+
+def test_the_contact_reaches_as_far_as_its_angle_and_half_its_ellipse() -> None:
+    """Pure thrust: all balls alike, the angle from the balance N_b Q sin α = F_z."""
+    scene = presets["7208-25deg"].sound().replace(fy=0.0, fz=3000.0, dofs=("z",))
+    state = equilibrium(scene)
+    load, angle = state.ball_load[0, 0], state.contact_angle[0, 0]
+    assert 14 * load * math.sin(angle) == pytest.approx(3000.0, rel=1e-9)
+    a = max(scene.bearing.race_contact(race).semi_axes(load)[0] for race in ("inner", "outer"))
+    expected = angle + math.asin(a / scene.bearing.ball_radius)
+    assert found(scene, "contact angle at the shoulder").value == pytest.approx(expected)
+
+
+def test_shoulders_stand_where_their_height_puts_them() -> None:
+    """As high as the ball's centre: 90°. As usual in deep grooves: 53.1°."""
+    name = "contact angle at the shoulder"
+    assert found(SOUND_6205, name, shoulder_height=0.5).limit == pytest.approx(math.pi / 2)
+    assert found(SOUND_6205, name).limit == pytest.approx(math.acos(0.6))
+    assert usual_shoulder_height(math.radians(40.0)) == pytest.approx(0.3)
+
+
+MOST, LEAST = (f"centrifugal force, {which} loaded ball" for which in ("most", "least"))
+
+
+def test_centrifugal_force_of_one_ball() -> None:
+    """6205 at 1797 rpm: a ball of 2.06 g on a circle of 19.52 mm at 74.95 rad/s, 0.226 N."""
+    mass = 7850.0 * 4.0 / 3.0 * math.pi * 3.97e-3**3
+    cage = 0.39831 * 2.0 * math.pi * 1797.0 / 60.0
+    assert mass == pytest.approx(2.06e-3, rel=2e-3)
+    assert centrifugal_force(SOUND_6205) == pytest.approx(mass * cage**2 * 19.52e-3, rel=1e-4)
+
+
+def test_centrifugal_force_matters_at_speed_and_not_at_rest() -> None:
+    at_rest = SOUND_6205.replace(shaft_speed=0.0)
+    fast = SOUND_6205.replace(shaft_speed=40e3 * 2.0 * math.pi / 60.0)
+    for name in (MOST, LEAST):
+        assert found(at_rest, name).value == 0.0
+        assert not found(SOUND_6205, name).crossed
+        assert found(fast, name).crossed
+    ratio = found(fast, MOST).value / found(SOUND_6205, MOST).value
+    assert ratio == pytest.approx((40e3 / 1797.0) ** 2, rel=1e-9)
+
+
+def test_the_least_loaded_ball_feels_it_before_the_most_loaded() -> None:
+    assert found(SOUND_6205, LEAST).value > found(SOUND_6205, MOST).value
+
+
+@pytest.mark.parametrize("conformity", [0.505, 0.52, 0.54, 0.58])
+def test_compression_stands_for_the_width_of_the_contact(conformity: float) -> None:
+    """At the limit the contact reaches 0.55 ball radii to either side, whatever the grooves."""
+    D_b = 10e-3
+    bearing = Bearing.from_drawing(
+        9, D_b, 50e-3, conformity * D_b, conformity * D_b, contact_angle=0.0
+    )
+    load = bearing.load_deflection_factor * (0.2 * bearing.groove_center_distance) ** 1.5
+    for race in ("inner", "outer"):
+        width = float(bearing.race_contact(race).semi_axes(load)[0]) / bearing.ball_radius
+        assert width == pytest.approx(0.55, rel=0.04)
+
+
+def test_overload_is_told_in_pressure_and_in_compression() -> None:
+    heavy = SOUND_6205.replace(fy=-40e3)
+    crossed = {limit.name for limit in limits(heavy) if limit.crossed}
+    assert {INNER, OUTER, "compression against groove centre distance"} <= crossed
+
+
+def test_tight_grooves_of_the_published_bearing_are_told() -> None:
+    """50 µm between the groove centres of a 6 mm ball: 1.4 kN press it up the sides."""
+    limit = found(presets["liew-lim"], "compression against groove centre distance")
+    assert limit.crossed
+    assert limit.value == pytest.approx((1389.0 / 1.45e10) ** (2 / 3) / 50e-6, rel=1e-3)
+
+
+def test_a_stiffness_that_does_not_go_with_the_drawing_is_told() -> None:
+    name = "load-deflection factor against the drawing"
+    drawn = found(SOUND_6205, name)
+    assert drawn.value == 0.0
+    assert not drawn.crossed
+    K = SOUND_6205.bearing.load_deflection_factor
+    softer = found(SOUND_6205.replace(load_deflection_factor=0.9 * K), name)
+    assert softer.value == pytest.approx(0.1)
+    assert softer.crossed
+    assert not found(SOUND_6205.replace(contact_angle=0.6), name).crossed  # drawn anew
+    seated = SOUND_6205.replace(bearing=SOUND_6205.bearing.seated())
+    assert not found(seated, name).crossed
+    assert name not in {limit.name for limit in limits(presets["fan-rig"])}
+
+
+def test_steps_in_a_defect_by_hand() -> None:
+    """6205: 1.3° at the cage's 74.95 rad/s are 0.3027 ms, at 131072 Hz 39.7 steps."""
+    scene = presets["6205"]
+    limit = found(scene, "time steps in a defect", step_rate=131072.0)
+    assert limit.value == pytest.approx(39.7, abs=0.05)
+    assert not limit.crossed
+    assert found(scene, "time steps in a defect", step_rate=65536.0).crossed
+
+
+def test_the_default_steps_of_a_motion_are_enough() -> None:
+    for name in presets:
+        step_rate = simulate(presets[name], duration=0.01).step_rate
+        assert not found(presets[name], "time steps in a defect", step_rate=step_rate).crossed
+
+
+def test_an_inner_race_defect_is_passed_at_the_relative_speed() -> None:
+    scene = presets["fan-rig"]
+    outer = found(scene, "time steps in a defect", step_rate=65536.0).value
+    inner = found(scene.replace(race="inner"), "time steps in a defect", step_rate=65536.0).value
+    cage = scene.bearing.cage_ratio
+    assert inner / outer == pytest.approx(cage / (1.0 - cage), rel=1e-12)
+
+
+def test_no_defect_or_a_shaft_at_rest_passes_nothing() -> None:
+    for scene in (SOUND_6205, presets["6205"].replace(shaft_speed=0.0)):
+        names = {limit.name for limit in limits(scene, step_rate=65536.0)}
+        assert "time steps in a defect" not in names
+
+
+def test_an_unloaded_bearing_has_no_numbers_and_crosses_nothing() -> None:
+    for scene in (
+        SOUND_6205.replace(fy=0.0),
+        SOUND_6205.replace(fy=0.0, fz=-1.0, dofs=("x", "y")),
+        presets["7208-25deg"].sound().replace(fy=0.0, fz=0.0),
+    ):
+        for limit in limits(scene):
+            assert not limit.crossed
+            assert math.isnan(limit.value) or limit.value == 0.0
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_each_sentence_holds_its_number(name: str) -> None:
+    """Read back from the words: pressure in GPa, angles in degrees, shares in percent."""
+    scale = {"Pa": 1e-9, "rad": 180.0 / math.pi, "": 100.0}
+    for limit in limits(presets[name], step_rate=16384.0):
+        assert limit.sentence.endswith(".")
+        if math.isnan(limit.value):
+            continue
+        shown = limit.value * (1.0 if "steps" in limit.name else scale[limit.unit])
+        numbers = [
+            float(text) for text in re.findall(r"\d+(?:\.\d+)?(?:e[+-]\d+)?", limit.sentence)
+        ]
+        tolerance = 0.5 if "steps" in limit.name else 0.006 * shown + 0.011
+        assert min(abs(number - shown) for number in numbers) <= tolerance, limit.sentence
+
+
+def test_a_state_at_hand_gives_the_same() -> None:
+    scene = presets["6206"]
+    assert limits(scene, equilibrium(scene)) == limits(scene)
+    with pytest.raises(ValueError, match="equilibrium of another scene"):
+        limits(scene, equilibrium(scene.sound()))
+
+
+@pytest.mark.parametrize(
+    ("choices", "said"),
+    [
+        ({"shoulder_height": 0.0}, "shoulder_height is 0; "),
+        ({"shoulder_height": 0.6}, "shoulder_height is 0.6; "),
+        ({"step_rate": 0.0}, "step_rate is 0; "),
+        ({"step_rate": math.nan}, "step_rate is nan; "),
+    ],
+)
+def test_impossible_choices_are_refused(choices: dict[str, float], said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        limits(SOUND_6205, **choices)  # type: ignore[arg-type]

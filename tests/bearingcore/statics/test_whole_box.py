@@ -1,0 +1,374 @@
+"""No point of the box, wider than any slider, gives a wrong or an unexplained answer.
+
+Every cage angle is either converged, with a relative residual of 1e-9 and a symmetric, positive
+semidefinite stiffness that holds the ring, or has a reason that is true: nothing touches, a
+direction is free, the load cannot be carried. `tests.independent` judges, in extended precision and
+without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from bearingcore import DOF_NAMES, EDGES, RACES, equilibrium, kernels
+from bearingcore.statics.load_capacity import way_out
+from tests.box import (
+    DOF_SETS,
+    FACTORS,
+    FORCES,
+    GREATEST_CLEARANCE,
+    GREATEST_CONTACT_ANGLE_DEG,
+    GROOVE_DISTANCES,
+    MOST_BALLS,
+    PITCH_DIAMETERS,
+    Point,
+    cage_angles_at,
+    draw,
+    scene_at,
+)
+from tests.independent import Balls, verdict
+
+TURN = 2.0 * math.pi
+
+PLAIN = Point(
+    n_balls=9,
+    pitch_diameter=0.04,
+    ball_size=0.6,
+    contact_angle=0.0,
+    groove_center_radius=1.0,
+    groove_center_distance=50e-6,
+    radial_clearance=0.0,
+    load_deflection_factor=1e10,
+    extent=0.0,
+    depth=0.0,
+    center=0.0,
+    race="outer",
+    edge="published",
+    loads=(0.0, -1e3, 0.0, 0.0, 0.0),
+    dofs=None,
+    cage_angle=0.3,
+)
+"""An unremarkable bearing, for the cases below to differ from."""
+
+
+def decades(limits: tuple[float, float]) -> st.SearchStrategy[float]:
+    """Numbers between limits, evenly over their logarithms."""
+    low, high = (math.log10(limit) for limit in limits)
+    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
+
+
+def loads() -> st.SearchStrategy[float]:
+    """A load [N] of either sign, or none."""
+    return st.one_of(
+        st.just(0.0), st.tuples(decades(FORCES), st.sampled_from((1.0, -1.0))).map(math.prod)
+    )
+
+
+POINTS = st.builds(
+    Point,
+    n_balls=st.integers(1, MOST_BALLS),
+    pitch_diameter=decades(PITCH_DIAMETERS),
+    ball_size=st.floats(0.0, 1.0),
+    contact_angle=st.floats(0.0, math.radians(GREATEST_CONTACT_ANGLE_DEG)),
+    groove_center_radius=st.floats(0.8, 1.2),
+    groove_center_distance=decades(GROOVE_DISTANCES),
+    radial_clearance=st.floats(0.0, GREATEST_CLEARANCE),
+    load_deflection_factor=decades(FACTORS),
+    extent=st.floats(0.0, TURN),
+    depth=st.floats(0.0, 1.0),
+    center=st.floats(-TURN, TURN),
+    race=st.sampled_from(RACES),
+    edge=st.sampled_from(EDGES),
+    loads=st.tuples(*[loads()] * 5),
+    dofs=st.one_of(st.none(), st.sampled_from(DOF_SETS)),
+    cage_angle=st.floats(-TURN, TURN),
+)
+
+
+def check(point: Point) -> set[int]:
+    """Judge the answers at a point; the statuses that occur."""
+    answer = equilibrium(scene_at(point), cage_angles_at(point))
+    for i in range(len(answer.cage_angles)):
+        wrong = verdict(answer, i)
+        assert not wrong, f"cage angle {i}: {wrong}"
+    return set(answer.status.tolist())
+
+
+@settings(
+    derandomize=True,
+    max_examples=400,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+@given(POINTS)
+@example(PLAIN)
+def test_every_point_has_a_right_answer_or_a_true_reason(point: Point) -> None:
+    check(point)
+
+
+def test_points_drawn_at_random_meet_every_status() -> None:
+    """1000 scenes of the nightly run, with which all four kinds of true answer are met."""
+    columns = draw(np.random.default_rng([0, 0]), 1000)
+    seen: set[int] = set()
+    for k in range(1000):
+        seen |= check(columns.point(k))
+    assert seen == {
+        kernels.CONVERGED,
+        kernels.NOTHING_TOUCHES,
+        kernels.FREE_DIRECTION,
+        kernels.NOT_CARRIED,
+    }
+
+
+CORNERS = {
+    "a moment too light to press stiff balls flat: a long and narrow curved valley": (
+        PLAIN._replace(
+            n_balls=5,
+            contact_angle=math.radians(25.6),
+            groove_center_distance=2.9e-4,
+            load_deflection_factor=1e11,
+            loads=(0.0, 0.0, 0.0, 0.0, 0.05),
+        ),
+        kernels.CONVERGED,
+    ),
+    "light radial and axial loads in that valley": (
+        PLAIN._replace(
+            n_balls=26,
+            contact_angle=math.radians(62.6),
+            load_deflection_factor=4e11,
+            loads=(0.07, -0.07, -0.07, 0.0, -0.07),
+        ),
+        kernels.CONVERGED,
+    ),
+    "a radial load 1e-7 of a moment, across a clearance far beyond A0": (
+        PLAIN._replace(
+            groove_center_distance=9e-6,
+            radial_clearance=1.4e-4,
+            load_deflection_factor=1e11,
+            loads=(0.0, 1e-3, -2.0, -300.0, -3e4),
+        ),
+        kernels.CONVERGED,
+    ),
+    "a ring wedged by its clearance though no load acts along x and y": (
+        PLAIN._replace(
+            contact_angle=math.radians(40.0),
+            radial_clearance=400e-6,
+            dofs=("x", "y"),
+            loads=(0.0,) * 5,
+        ),
+        kernels.CONVERGED,
+    ),
+    "the same ring where it may move along its axis": (
+        PLAIN._replace(
+            contact_angle=math.radians(40.0),
+            radial_clearance=400e-6,
+            dofs=("x", "y", "z"),
+            loads=(0.0,) * 5,
+        ),
+        kernels.NOTHING_TOUCHES,
+    ),
+    "a ball right under the load, its neighbours in their clearance": (
+        PLAIN._replace(radial_clearance=5e-4, cage_angle=0.75 * TURN, loads=(0.0, -1.0, 0, 0, 0)),
+        kernels.FREE_DIRECTION,
+    ),
+    "two loaded balls hold four directions, not five": (
+        PLAIN._replace(
+            n_balls=4,
+            radial_clearance=4e-4,
+            dofs=DOF_NAMES,
+            cage_angle=3.9,
+            loads=(0, 6e4, 0, 0, 0),
+        ),
+        kernels.FREE_DIRECTION,
+    ),
+    "an axial load that 23 balls at 69 degrees carry on two": (
+        PLAIN._replace(
+            n_balls=23,
+            pitch_diameter=7.93e-3,
+            ball_size=0.06,
+            contact_angle=1.209673143327123,
+            groove_center_radius=1.023,
+            groove_center_distance=1.33e-3,
+            radial_clearance=8.2e-8,
+            load_deflection_factor=1.303e8,
+            cage_angle=7.850742634928878,
+            loads=(0.0, -26.15, 0.0, 0.0, 0.0),
+        ),
+        kernels.FREE_DIRECTION,
+    ),
+    "one ball, pulled away from it": (
+        PLAIN._replace(n_balls=1, cage_angle=0.25 * TURN, dofs=("x", "y")),
+        kernels.NOT_CARRIED,
+    ),
+    "two balls and a load almost along them": (
+        PLAIN._replace(n_balls=2, cage_angle=0.75 * TURN, loads=(1e-4, -1e3, 0.0, 0.0, 0.0)),
+        kernels.NOT_CARRIED,
+    ),
+    "two balls opposite each other, whose line of contact is hardly tilted": (
+        PLAIN._replace(
+            n_balls=2,
+            contact_angle=7.34e-4,
+            dofs=("x", "y", "z"),
+            cage_angle=2.39843034577279,
+            loads=(0.0, -5e4, 0.0, 0.0, 0.0),
+        ),
+        kernels.NOT_CARRIED,
+    ),
+    "a moment alone, and a ball across it that touches by rounding only": (
+        PLAIN._replace(
+            n_balls=4,
+            groove_center_distance=5e-6,
+            load_deflection_factor=5e10,
+            extent=4.8,
+            center=9.2,
+            depth=0.5,
+            loads=(0.0, 0.0, 0.0, -0.025, 0.0),
+            dofs=("rx",),
+            cage_angle=0.75 * TURN,
+        ),
+        kernels.CONVERGED,
+    ),
+    "an inner race smaller than its balls, which never reach the floor": (
+        PLAIN._replace(
+            n_balls=2, ball_size=1.0, race="inner", edge="exact", extent=TURN / 2, depth=1.0
+        ),
+        kernels.NOT_CARRIED,
+    ),
+    "pressed by a milligram along the axis, all centres passed: free in the plane": (
+        Point(
+            n_balls=8,
+            pitch_diameter=0.8979100818384647,
+            ball_size=0.7762907272242078,
+            contact_angle=0.5622368408331844,
+            groove_center_radius=0.867968303720521,
+            groove_center_distance=0.0003638499442459914,
+            radial_clearance=0.0001750876026981512,
+            load_deflection_factor=380946686271.03534,
+            extent=4.256364643242483,
+            depth=0.6649344613365453,
+            center=8.363336877236698,
+            race="outer",
+            edge="published",
+            loads=(0.0, 0.0, -0.0010324677034829186, 0.0, 0.0),
+            dofs=None,
+            cage_angle=1.7613782263916,
+        ),
+        kernels.FREE_DIRECTION,
+    ),
+}
+"""What went wrong once, or nearly."""
+
+
+@pytest.mark.parametrize(("point", "status"), CORNERS.values(), ids=CORNERS.keys())
+def test_corners_of_the_box(point: Point, status: int) -> None:
+    assert status in check(point)
+
+
+def test_repeated_and_unordered_cage_angles_are_as_good_as_others() -> None:
+    scene = scene_at(PLAIN._replace(contact_angle=0.5))
+    angles = np.array([0.0, 0.0, 0.0, 0.0, 3.0, -5.0, 3.0, 1e3, 0.0])
+    answer = equilibrium(scene, angles)
+    assert [verdict(answer, i) for i in range(len(angles))] == [""] * len(angles)
+    alone = [equilibrium(scene, [angle]).displacement[0] for angle in angles]
+    assert answer.displacement == pytest.approx(np.array(alone), rel=1e-8, abs=1e-12)
+
+
+def spoil(answer: object, **changes: object) -> object:
+    """The answer with some of its numbers changed."""
+    return dataclasses.replace(answer, **changes)  # type: ignore[type-var]
+
+
+def test_the_judge_finds_what_is_wrong() -> None:
+    """It refuses every spoilt answer: otherwise the tests above could not fail."""
+    scene = scene_at(PLAIN._replace(contact_angle=0.4, loads=(10.0, -1e3, 200.0, 50.0, 0.0)))
+    good = equilibrium(scene, [0.1])
+    assert verdict(good, 0) == ""
+    kick = 1.0 + 1e-6 * np.arange(1, 6)
+    assert "residual" in verdict(spoil(good, displacement=good.displacement * kick), 0)
+    assert "residual" in verdict(spoil(good, residual=np.array([1e-8])), 0)
+    assert "loads" in verdict(spoil(good, ball_load=good.ball_load * (1.0 + 1e-6)), 0)
+    bent = good.stiffness.copy()
+    bent[0, 0, 1] *= 1.0 + 1e-12
+    assert "symmetric" in verdict(spoil(good, stiffness=bent), 0)
+    assert "stiffness off" in verdict(spoil(good, stiffness=good.stiffness * (1 + 1e-6)), 0)
+    for status, said in (
+        (kernels.NOTHING_TOUCHES, "a load acts"),
+        (kernels.FREE_DIRECTION, "every direction is held"),
+        (kernels.NOT_CONVERGED, "not converged"),
+    ):
+        assert said in verdict(spoil(good, status=np.array([status], dtype=np.int8)), 0)
+    nowhere = spoil(
+        good,
+        status=np.array([kernels.NOT_CARRIED], dtype=np.int8),
+        displacement=np.full((1, 5), np.nan),
+        stiffness=np.full((1, 5, 5), np.nan),
+    )
+    assert "contacts can carry" in verdict(nowhere, 0)
+
+
+def test_the_judge_finds_a_free_direction_that_was_not_named() -> None:
+    point, _ = CORNERS["a ball right under the load, its neighbours in their clearance"]
+    answer = equilibrium(scene_at(point), [point.cage_angle])
+    assert np.isnan(answer.displacement[0, 0])
+    assert "x" in answer.reason(0)
+    assert verdict(answer, 0) == ""
+    made_up = np.where(np.isnan(answer.displacement), 0.0, answer.displacement)
+    found = verdict(spoil(answer, displacement=made_up), 0)
+    assert found.startswith("free are")
+    converged = np.array([kernels.CONVERGED], dtype=np.int8)
+    found = verdict(spoil(answer, displacement=made_up, status=converged), 0)
+    assert "a direction is free" in found
+
+
+def test_the_judges_energy_has_its_force_and_stiffness_as_derivatives() -> None:
+    """Central differences in extended precision: the judge's three formulas belong together."""
+    scene = scene_at(
+        PLAIN._replace(
+            contact_angle=0.4, loads=(10.0, -1e3, 200.0, 50.0, 0.0), radial_clearance=1e-6
+        )
+    )
+    balls = Balls(scene, 0.1)
+    q = equilibrium(scene, [0.1]).state[0].astype(np.longdouble)
+    q = q + 1e-6 * np.array([1.0, -2.0, 3.0, 1.0, 2.0])
+    step = np.longdouble(1e-10)
+    for k in range(5):
+        e = np.zeros(5, dtype=np.longdouble)
+        e[k] = step
+        slope = (balls.energy(q + e) - balls.energy(q - e)) / (2 * step)
+        force = balls.contact_force(q)[k] - balls.load[k]
+        assert float(slope) == pytest.approx(float(force), rel=1e-6, abs=1e-4)
+        column = (balls.contact_force(q + e) - balls.contact_force(q - e)) / (2 * step)
+        expected = balls.stiffness(q)[:, k].astype(float)
+        assert column.astype(float) == pytest.approx(expected, rel=1e-6, abs=1e-2)
+
+
+def test_a_way_out_lies_in_the_cone_of_motions_that_press_no_ball() -> None:
+    """Of every scene with a load: the way presses no ball, works, and what contacts carry does not.
+
+    So F = (what contacts carry) + way with the two at right angles, which makes it the nearest.
+    """
+    columns = draw(np.random.default_rng([5, 0]), 500)
+    shares = []
+    for k in range(500):
+        point = columns.point(k)
+        scene = scene_at(point)
+        balls = Balls(scene, point.cage_angle)
+        active = np.array([DOF_NAMES.index(name) for name in scene.active_dofs])
+        F = balls.load[active].astype(float)
+        if not F.any():
+            continue
+        F /= np.linalg.norm(F)
+        way, share = way_out(scene, point.cage_angle, active, F)
+        along, across = (rows[:, active].astype(float) for rows in balls.along_across)
+        assert np.max(along @ way, initial=0.0) <= 1e-10
+        assert np.max(np.abs(across @ way), initial=0.0) <= 1e-10
+        assert F @ way == pytest.approx(share**2, abs=1e-10)
+        shares.append(share)
+    assert min(shares) == pytest.approx(0.0, abs=1e-12)
+    assert max(shares) > 0.9

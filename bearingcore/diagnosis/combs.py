@@ -52,7 +52,7 @@ def without(levels: LineLevels, spacing: float, width: float) -> NDArray[np.floa
 
 
 def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Level [dB] of combs from those of their lines (HARMONICS, n): the mean without the loudest."""
+    """Level [dB] of combs, the mean without the loudest line, from their lines (HARMONICS, n)."""
     return np.asarray((lines.sum(axis=0) - lines.max(axis=0)) / (len(lines) - 1))
 
 

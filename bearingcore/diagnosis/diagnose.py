@@ -21,12 +21,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from bearingcore import checks
-from bearingcore.bearing import Bearing
+from bearingcore.common import checks
 from bearingcore.diagnosis import say
-from bearingcore.diagnosis.combs import HARMONICS, harmonics, noise_level
+from bearingcore.diagnosis.combs import HARMONICS, harmonics
 from bearingcore.diagnosis.evidence import (
     CANNOT_TELL,
     NONE_SEEN,
@@ -37,7 +35,6 @@ from bearingcore.diagnosis.evidence import (
 )
 from bearingcore.diagnosis.parts import BALL, INNER, PartLines, part_lines
 from bearingcore.diagnosis.search import (
-    SURROUNDINGS,
     TURNS,
     Combs,
     Found,
@@ -48,9 +45,10 @@ from bearingcore.diagnosis.search import (
     unlike,
 )
 from bearingcore.diagnosis.shaft import ShaftLines, shaft_lines
-from bearingcore.recording import Recording
-from bearingcore.signals.envelope_bands import Band, Envelope, split, squared_envelopes
-from bearingcore.signals.faults import SignalFaults, signal_faults
+from bearingcore.model.bearing import Bearing
+from bearingcore.signals.dropouts import SignalFaults, signal_faults
+from bearingcore.signals.filter_bank import Envelope, split, squared_envelopes
+from bearingcore.signals.recording import Recording
 
 NOISE_MARGIN = 2.0
 """[dB] above the level that noise reaches in one of a thousand signals."""
@@ -435,7 +433,7 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
         fault, chance = NONE_SEEN, _unharmed(judged)
         status = say.healthy(judged.detectable)
     one = judged.combs.heard[judged.best.place]
-    frequency = one.levels.step * np.arange(len(one.levels.level))
+    frequency = one.levels.step * np.arange(len(one.levels.level), dtype=float)
     return Diagnosis(
         fault=fault,
         probability=chance,
@@ -498,57 +496,80 @@ def _in_range(
     refused = _unfit(signal, parts, low) or _unfit(signal, parts, high)
     if refused is not None:
         return _silent(refused, source)
+    own = signal.shaft(low, high)
+    hypotheses = []
+    if own.clear:
+        hypotheses.append(_Hypothesis(own, _judge(signal, parts, own.frequency, slip)))
     middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
     combs = _most_telling(signal, parts, middle, reach, known_speed=False)[0]
     strongest = max(combs.found, key=lambda found: found.level)
-    if strongest.level - combs.noise < NOISE_MARGIN:
-        return _decide(signal, _compare(signal, combs, [combs], parts, reach), None, source)
-    hypotheses = [
-        _Hypothesis.at(signal, parts, lines, strongest.frequency / lines.order, slip)
-        for lines in parts
-        if low * (1.0 - slip) <= strongest.frequency / lines.order <= high * (1.0 + slip)
-    ]
-    hypotheses.sort(key=lambda one: -one.shaft.excess)
-    first = hypotheses[0]
-    rival = next((one for one in hypotheses[1:] if one.holds), None)
-    narrow = high <= NARROW * low
-    told = (
-        first.shaft.clear or (narrow and len(hypotheses) == 1)
-    ) and (rival is None or first.shaft.excess >= rival.shaft.excess + SHAFT_MARGIN)
-    if told:
-        found = "its own lines" if first.shaft.clear else f"the lines of the {first.lines.part}"
-        return _decide(signal, first.judged, first.speed, f"found by {found}")
-    status = say.which_speed(strongest.frequency, [(h.lines.part, h.speed) for h in hypotheses])
-    decided = _decide(signal, first.judged, first.speed, source)
-    return replace(decided, fault=CANNOT_TELL, status=status, probability=1.0 / len(hypotheses),
-                   shaft_speed=None)  # fmt: skip
+    stands_out = strongest.level - combs.noise >= NOISE_MARGIN
+    if stands_out:
+        for lines in parts:
+            speed = strongest.frequency / lines.order
+            if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
+                hypotheses.append(_Hypothesis.at(signal, parts, speed, slip))
+    holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
+    if not holding:
+        if own.clear:
+            return _decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
+        if not stands_out:
+            judged = _compare(signal, combs, [combs], parts, reach)
+            return _decide(signal, judged, None, f"{source}, not found")
+        return _undecided_speed(signal, hypotheses, strongest.frequency, source)
+    first = holding[0]
+    rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)
+    alone = high <= NARROW * low and rival is None
+    if not (first.shaft.clear or alone):
+        return _undecided_speed(signal, holding, first.judged.best.frequency, source)
+    if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
+        return _undecided_speed(signal, [first, rival], first.judged.best.frequency, source)
+    part = first.judged.best.lines.part
+    found = _FOUND if first.shaft.clear else f"taken from the lines of the {part}"
+    return _decide(signal, first.judged, first.judged.combs.shaft, found)
+
+
+_FOUND = "found by the shaft's own lines"
+
+
+def _undecided_speed(
+    signal: _Signal, hypotheses: Sequence[_Hypothesis], frequency: float, source: str
+) -> Diagnosis:
+    """Knocks that may be of one part or another, as the speed may be."""
+    readings: dict[str, float] = {}
+    for one in hypotheses:
+        readings.setdefault(one.judged.best.lines.part, one.judged.combs.shaft)
+    decided = _decide(signal, hypotheses[0].judged, None, source)
+    return replace(
+        decided,
+        fault=CANNOT_TELL,
+        status=say.which_speed(frequency, list(readings.items())),
+        probability=SURE / max(2, len(readings)),
+    )
 
 
 @dataclass(frozen=True)
 class _Hypothesis:
-    """That a comb is a part's: the speed that follows, and what speaks for it."""
+    """That the shaft turns at a speed, and what the signal says then."""
 
-    lines: PartLines
-    speed: float
     shaft: ShaftLines
     judged: _Judged
 
     @classmethod
     def at(
-        cls,
-        signal: _Signal,
-        parts: Sequence[PartLines],
-        lines: PartLines,
-        speed: float,
-        slip: float,
+        cls, signal: _Signal, parts: Sequence[PartLines], speed: float, slip: float
     ) -> _Hypothesis:
-        """What follows if a part turns at a speed [Hz]."""
+        """What follows if the shaft turns about `speed` times a second [Hz]."""
         shaft = signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip))
-        if shaft.clear:
-            speed = shaft.frequency
-        return cls(lines, speed, shaft, _judge(signal, parts, speed, slip))
+        return cls(shaft, _judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
 
     @property
     def holds(self) -> bool:
-        """Whether the part would be named at that speed."""
-        return self.judged.margin >= 0.0 and self.judged.best.lines.part == self.lines.part
+        """Whether a part would be named at that speed."""
+        return self.judged.seen and self.judged.margin >= 0.0
+
+    def agrees(self, other: _Hypothesis, slip: float) -> bool:
+        """Whether another speed is the same, and the part."""
+        ratio = self.judged.combs.shaft / other.judged.combs.shaft
+        same = self.judged.best.lines.part == other.judged.best.lines.part
+        return same and abs(ratio - 1.0) <= 2.0 * slip

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.diagnosis.parts import PARTS
-from bearingcore.signals.envelope_bands import Band
+from bearingcore.signals.filter_bank import Band
 
 NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
 FAULTS = (*PARTS, NONE_SEEN, CANNOT_TELL)

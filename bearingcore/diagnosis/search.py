@@ -18,7 +18,7 @@ from bearingcore.diagnosis.combs import (
     without,
 )
 from bearingcore.diagnosis.parts import BALL, PartLines
-from bearingcore.signals.envelope_bands import Band, Envelope
+from bearingcore.signals.filter_bank import Band, Envelope
 from bearingcore.signals.line_levels import LineLevels, line_levels
 
 TURNS = (15.0, 60.0, 240.0)
@@ -111,7 +111,7 @@ class Combs:
 
     @property
     def noise(self) -> float:
-        """The level [dB] that noise reaches in a thousandth of all signals, in any part's window."""
+        """The level [dB] that noise reaches in one of a thousand signals, in any part's window."""
         cells = sum(self.cells(found.lines, found.frequency) for found in self.found)
         return noise_level(RARE / cells, self.averages)
 
@@ -147,9 +147,7 @@ def listen(
     highest = (HARMONICS * top + 1.5) * shaft
     heard = []
     for direction, envelope in envelopes:
-        levels = line_levels(
-            envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft
-        )
+        levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
         width = 1.5 / segment + 5e-4 * shaft
         cleared = without(levels, shaft if known_speed else 0.0, width)
         heard.append(Listened(direction, envelope.band, envelope.kurtosis, levels, cleared))

@@ -16,8 +16,8 @@ from bearingcore.diagnosis.combs import (
     noise_level,
 )
 from bearingcore.diagnosis.search import RARE
-from bearingcore.signals.envelope_bands import LOWEST, Band, squared_envelopes, thinned
-from bearingcore.signals.line_levels import line_levels
+from bearingcore.signals.filter_bank import LOWEST, Band, squared_envelopes, thinned
+from bearingcore.signals.line_levels import LineLevels, line_levels
 
 TURNS = 240.0
 """Of the shaft in a spectrum's segment."""
@@ -27,6 +27,9 @@ LOUDEST = 80.0
 
 PLATEAU = 0.5
 """[dB] below the best in which a comb counts as equally good: the middle of those is the answer."""
+
+SUBMULTIPLES = (5, 4, 3, 2)
+"""Parts of a frequency that may be the shaft's instead."""
 
 CLEAR = 3.0
 """[dB] above what noise reaches from which the shaft's lines count as found."""
@@ -62,13 +65,13 @@ def shaft_lines(
     columns
         signals (n,), one a direction.
     """
-    segment, top = TURNS / low, (HARMONICS + 1) * high
+    segment, top = TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf)
     full = [Band(LOWEST, 0.5 * sample_rate)]
     for samples in columns:
         series = [thinned(samples - samples.mean(), sample_rate, top)]
-        for envelope in squared_envelopes(samples, sample_rate, full, top):
-            series.append((envelope.values, envelope.rate))
+        envelopes = squared_envelopes(samples, sample_rate, full, top)
+        series += [(envelope.values, envelope.rate) for envelope in envelopes]
         for values, rate in series:
             levels = line_levels(values, rate, segment, top, 2.0 * low)
             resolution = 1.0 / min(segment, len(values) / rate)
@@ -83,5 +86,22 @@ def shaft_lines(
             if above > best.excess:
                 near = np.flatnonzero(level >= level[index] - PLATEAU)
                 near = near[np.abs(frequency[near] - frequency[index]) <= resolution]
-                best = ShaftLines(float(frequency[near].mean()), above)
+                found = float(frequency[near].mean())
+                noise = noise_level(RARE / cells, levels.averages)
+                best = ShaftLines(_slowest(levels, found, low, noise), above)
     return best
+
+
+def _slowest(levels: LineLevels, frequency: float, low: float, noise: float) -> float:
+    """The part of a frequency [Hz] of which all lines show: three turns are no turn."""
+    for parts in SUBMULTIPLES:
+        part = frequency / parts
+        if part < low:
+            continue
+        lines = harmonics(
+            np.clip(levels.level, FAINTEST, LOUDEST), levels.step, np.array([part]), 2 * HARMONICS
+        )[:, 0]
+        between = np.sort(lines[np.arange(1, len(lines) + 1) % parts != 0])
+        if between[:-1].mean() >= noise + CLEAR:
+            return part
+    return frequency

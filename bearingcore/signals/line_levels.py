@@ -6,9 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import next_fast_len, rfft
-from scipy.signal.windows import hann
-from scipy.special import gammaincinv
 
 from bearingcore.signals.whitening import local_median
 
@@ -55,11 +52,14 @@ def line_levels(
     surroundings
         [Hz] over which a line's background is the median.
     """
+    from scipy.fft import next_fast_len, rfft  # imported late: see `spectrum`
+    from scipy.special import gammaincinv
+
     count = len(values)
     length = min(count, max(16, round(segment * rate)))
     pieces = 1 if length == count else max(2, round(2 * (count - length) / length) + 1)
     begins = np.linspace(0, count - length, pieces).round().astype(int)
-    window = hann(length, sym=False)
+    window = hann(length)
     size = next_fast_len(2 * length, real=True)
     step = rate / size
     kept = min(size // 2 + 1, int(highest / step) + 2)
@@ -80,11 +80,16 @@ def line_levels(
     return LineLevels(step, level, depth, averages, scale * np.sqrt(background))
 
 
+def hann(length: int) -> NDArray[np.float64]:
+    """Hann's window (length,), periodic."""
+    return 0.5 - 0.5 * np.cos(2.0 * np.pi / length * np.arange(length))
+
+
 def _correlation(overlap: float) -> float:
     """Squared correlation of the spectra of noise in two Hann windows that overlap by a share."""
     if overlap <= 0.0:
         return 0.0
     n = 256
-    window = hann(n, sym=False)
+    window = hann(n)
     shift = min(n - 1, round((1.0 - overlap) * n))
     return float((window[shift:] @ window[: n - shift] / (window @ window)) ** 2)

@@ -6,13 +6,12 @@ and so on. Filters are windows in the frequency domain, so no phase moves and no
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft
-from scipy.fft import ifft as inverse_transform
 
 from bearingcore.signals.whitening import whiten
 
@@ -63,9 +62,7 @@ def split(sample_rate: float, narrowest: float) -> list[Band]:
         if parts > 1 and half / parts < narrowest:
             break
         edges = np.linspace(0.0, half, parts + 1).tolist()
-        bands += [
-            Band(max(low, LOWEST), high) for low, high in zip(edges[:-1], edges[1:], strict=True)
-        ]
+        bands += [Band(max(low, LOWEST), high) for low, high in itertools.pairwise(edges)]
     return bands
 
 
@@ -86,6 +83,8 @@ def squared_envelopes(
     whitening
         width [Hz] over which the signal is whitened first; None leaves it as it is.
     """
+    from scipy.fft import ifft, next_fast_len, rfft  # imported late: see `spectrum`
+
     count = len(samples)
     kept = samples - samples.mean()
     if dropped is not None and dropped.any():
@@ -106,7 +105,7 @@ def squared_envelopes(
         # twice the band's width: a squared envelope reaches as high as the band is wide
         length = next_fast_len(2 * len(inside))
         rate = length * resolution
-        analytic = inverse_transform(inside, length)[: int(count / sample_rate * rate)]
+        analytic = ifft(inside, length)[: int(count / sample_rate * rate)]
         squared = (analytic.real**2 + analytic.imag**2).astype(np.float64)
         good = None
         if dropped is not None and dropped.any():
@@ -129,6 +128,8 @@ def thinned(
     values: NDArray[np.float64], rate: float, highest: float
 ) -> tuple[NDArray[np.float64], float]:
     """The values without what lies above `highest` [Hz], and their new rate [Hz]."""
+    from scipy.fft import irfft, next_fast_len, rfft
+
     if rate <= 3.0 * highest:
         return values, rate
     count = len(values)

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.events import Events, find_events
 from bearingcore.diagnosis.fitting import Guess, Search, guesses
 from bearingcore.diagnosis.synthesis import Band, Target, comparison_band
@@ -151,6 +152,22 @@ class Sizing:
     recording: Recording = field(repr=False)
     scores: NDArray[np.float64] = field(repr=False)
     """(candidates,) before the temperature."""
+
+    def table(self) -> ResultTable:
+        """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
+        candidates = self.candidates
+        return table_of(
+            ("extent", "rad", [c.extent for c in candidates]),
+            ("ball_spacings", "", [c.turns for c in candidates], "whole ball spacings in it"),
+            ("probability", "1", [c.probability for c in candidates]),
+            ("edge", "", [c.edge for c in candidates]),
+            ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
+            ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
+            *(
+                (f"{name}_factor", "1", [c.factors[name] for c in candidates])
+                for name in (candidates[0].factors if candidates else ())
+            ),
+        )
 
     @property
     def best(self) -> Candidate:

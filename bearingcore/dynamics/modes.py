@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 
@@ -54,6 +55,18 @@ class Modes:
     shape: NDArray[np.float64]
     label: tuple[str, ...]
     body: tuple[str, ...]
+
+    def table(self) -> ResultTable:
+        """A row a cage angle: frequency and damping ratio of each mode."""
+        labels = list(enumerate(self.label))
+        return table_of(
+            ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
+            *(
+                (label, "Hz", self.frequency[:, i], f"natural frequency of mode {label}")
+                for i, label in labels
+            ),
+            *((f"{label}_damping_ratio", "1", self.damping_ratio[:, i]) for i, label in labels),
+        )
 
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest frequency [Hz] of each mode over the cage angles, by label.

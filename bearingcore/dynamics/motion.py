@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
 from bearingcore.model.defect import path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene
@@ -128,6 +129,22 @@ class Motion:
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
         return np.asarray(loads)
+
+    def table(self) -> ResultTable:
+        """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
+        units = {"displacement": ("m", "rad"), "velocity": ("m/s", "rad/s")}
+        units["acceleration"] = ("m/s²", "rad/s²")
+        loads = [] if self.ball_load is None else list(enumerate(self.ball_load.T))
+        return table_of(
+            ("time", "s", self.time),
+            *(
+                (f"{body}_{what}_{dof}", unit[dof.startswith("r")], values)
+                for body in ("inner", "outer")
+                for what, unit in units.items()
+                for dof, values in zip(self.dofs, getattr(self, f"{body}_{what}").T, strict=True)
+            ),
+            *((f"ball_{j + 1}_load", "N", load, f"load of ball {j + 1}") for j, load in loads),
+        )
 
     def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
         """A quantity of one body at the sample times, between steps by quintic interpolation."""

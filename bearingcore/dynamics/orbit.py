@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
     body_numbers,
@@ -104,6 +105,14 @@ class Orbit:
     def largest_multiplier(self) -> float:
         """|μ| of the largest multiplier; NaN where there is no orbit."""
         return float(np.abs(self.multipliers[0])) if self.multipliers.size else math.nan
+
+    def table(self) -> ResultTable:
+        """Floquet multipliers: real and imaginary part, and size; a row each."""
+        return table_of(
+            ("multiplier_real", "1", self.multipliers.real),
+            ("multiplier_imaginary", "1", self.multipliers.imag),
+            ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
+        )
 
     def outer_acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
         """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated."""

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import modes
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
@@ -54,6 +55,22 @@ class SpeedRun:
     bands: dict[str, tuple[float, float]]
     completed: bool
     refusals: dict[int, str] = field(default_factory=dict)
+
+    def table(self) -> ResultTable:
+        """A row a speed and frequency: the density of each direction."""
+        speed, frequency = np.meshgrid(self.shaft_speed, self.frequency, indexing="ij")
+        return table_of(
+            ("shaft_speed", "rad/s", speed),
+            ("frequency", "Hz", frequency),
+            *(
+                (
+                    f"density_{dof}",
+                    "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz",
+                    self.density[..., i],
+                )
+                for i, dof in enumerate(self.dofs)
+            ),
+        )
 
 
 def speed_run(

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.orbit import (
     NO_PERIOD,
     NO_START,
@@ -62,6 +63,17 @@ class StabilityMap:
     through: NDArray[np.str_]
     completed: bool
     refusals: dict[tuple[int, int], str] = field(default_factory=dict)
+
+    def table(self) -> ResultTable:
+        """A row a point: both fields, size of the largest multiplier, outcome in words."""
+        y, x = np.meshgrid(self.y, self.x, indexing="ij")
+        return table_of(
+            (self.x_field, "", x, "in the field's own unit"),
+            (self.y_field, "", y, "in the field's own unit"),
+            ("largest_multiplier", "1", self.multiplier),
+            ("outcome", "", np.array(OUTCOMES)[self.outcome]),
+            ("through", "", self.through),
+        )
 
     def count(self, outcome: str) -> int:
         """How many points ended in one of OUTCOMES."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 
 
 class Spectrum(NamedTuple):
@@ -21,6 +23,17 @@ class Spectrum(NamedTuple):
 
     frequency: NDArray[np.float64]
     density: NDArray[np.float64]
+
+    def table(self, directions: Sequence[str] = (), unit: str = "(m/s²)²/Hz") -> ResultTable:
+        """A row a frequency: the density, of several signals named by their `directions`."""
+        columns = self.density.reshape(len(self.frequency), -1).T
+        names = [f"density_{d}" for d in directions] if directions else ["density"]
+        if len(names) != len(columns):
+            raise checks.refuse("directions", tuple(directions), f"{len(columns)} names")
+        return table_of(
+            ("frequency", "Hz", self.frequency),
+            *((name, unit, values) for name, values in zip(names, columns, strict=True)),
+        )
 
 
 def spectrum(signal: ArrayLike, sample_rate: float, resolution: float = 32.0) -> Spectrum:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.defect import path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
 from bearingcore.statics.load_capacity import runs_away
@@ -23,6 +24,12 @@ TERM_INDICES = {
     f"k_{a}{b}": (i, i + k) for i, a in enumerate(DOF_NAMES) for k, b in enumerate(DOF_NAMES[i:])
 }
 """Row and column of each stiffness term."""
+
+TERM_UNITS = {
+    term: ("N/m", "N/rad", "N·m/rad")[sum(DOF_NAMES[i].startswith("r") for i in indices)]
+    for term, indices in TERM_INDICES.items()
+}
+"""Unit of each stiffness term."""
 
 ANGLES_A_PERIOD = 121
 
@@ -111,6 +118,24 @@ class Equilibrium:
             raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
         i, j = TERM_INDICES[name]
         return self.stiffness[:, i, j]
+
+    def table(self) -> ResultTable:
+        """A row a cage angle: displacements, stiffness terms, loaded balls, loads, in words how."""
+        state = zip(DOF_NAMES, self.displacement.T, strict=True)
+        return table_of(
+            ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
+            *(
+                (f"displacement_{dof}", "rad" if dof.startswith("r") else "m", q)
+                for dof, q in state
+            ),
+            *((term, TERM_UNITS[term], self.term(term)) for term in STIFFNESS_TERMS),
+            ("loaded_balls", "", self.loaded_balls, "balls that carry load"),
+            *(
+                (f"ball_{j + 1}_load", "N", load, f"load of ball {j + 1}")
+                for j, load in enumerate(self.ball_load.T)
+            ),
+            ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
+        )
 
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""

@@ -13,10 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import TWO_PI, Defect, path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
-from bearingcore.statics.equilibrium import REASONS, STIFFNESS_TERMS, default_cage_angles
+from bearingcore.statics.equilibrium import (
+    REASONS,
+    STIFFNESS_TERMS,
+    TERM_UNITS,
+    default_cage_angles,
+)
 from bearingcore.statics.load_capacity import runs_away
 
 Array = NDArray[np.float64]
@@ -84,6 +90,17 @@ class Maps:
         known = self.converged.sum(axis=1)
         balls = np.where(self.converged, self.loaded_balls, 0).sum(axis=1)
         return np.where(known > 0, balls / np.maximum(known, 1), math.nan)
+
+    def table(self) -> ResultTable:
+        """A row a point: extent, cage angle, loaded balls, greatest load, stiffness terms."""
+        extents, angles = np.meshgrid(self.extents, self.cage_angles, indexing="ij")
+        return table_of(
+            ("extent", "rad", extents, "extent of the first defect"),
+            ("cage_angle", "rad", angles, "angle of the cage"),
+            ("loaded_balls", "", self.loaded_balls, "balls that carry load"),
+            ("greatest_ball_load", "N", self.greatest_load),
+            *((term, TERM_UNITS[term], self.term(term)) for term in STIFFNESS_TERMS),
+        )
 
     def reason(self, i: int, k: int) -> str:
         """In words, what became of extent i and cage angle k."""

@@ -28,16 +28,19 @@ the kernels tell them apart exactly.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.hertz import in_series
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
+from bearingcore.statics.pressure import heaviest_ball
 
 STATIC_PRESSURE = 4.2e9
 """Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
@@ -92,6 +95,18 @@ class Limit:
     sentence: str
 
 
+def limits_table(found: Sequence[Limit]) -> ResultTable:
+    """Limits as a table: a row each; what is not known is NaN."""
+    return table_of(
+        ("limit_of", "", [one.name for one in found], "what is looked at"),
+        ("value", "", [one.value for one in found]),
+        ("limit", "", [one.limit for one in found]),
+        ("unit", "", [one.unit for one in found]),
+        ("crossed", "", [one.crossed for one in found]),
+        ("sentence", "", [one.sentence for one in found]),
+    )
+
+
 def limits(
     scene: Scene,
     state: Equilibrium | None = None,
@@ -132,8 +147,7 @@ def limits(
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
-    loads = state.ball_load[_known(state)]
-    heaviest = float(loads.max()) if loads.size else math.nan
+    heaviest = heaviest_ball(state).load
     found = [
         _pressure(scene, "inner", heaviest),
         _pressure(scene, "outer", heaviest),

@@ -1,0 +1,108 @@
+"""Results as tables: names, units and numbers are those of the result."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import (
+    STIFFNESS_TERMS,
+    equilibrium,
+    limits,
+    modes,
+    orbit,
+    presets,
+    simulate,
+    spectrum,
+    stiffness_maps,
+)
+from bearingcore.common.table import FACTORS, SUFFIXES, ResultTable, table_of
+from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.dynamics.stability_map import stability_map
+from bearingcore.statics.validity import limits_table
+
+FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
+
+
+def test_an_equilibrium_has_its_terms_loads_and_reasons() -> None:
+    state = equilibrium(LIEW_LIM, [0.0, 0.1, 0.2])
+    table = state.table()
+    assert set(STIFFNESS_TERMS) <= set(table)
+    np.testing.assert_array_equal(table["k_yrx"], state.term("k_yrx"))
+    assert (table.unit("k_yy"), table.unit("k_yrx"), table.unit("k_rxry")) == (
+        "N/m",
+        "N/rad",
+        "N·m/rad",
+    )
+    np.testing.assert_array_equal(table["ball_12_load"], state.ball_load[:, 11])
+    np.testing.assert_array_equal(table["displacement_ry"], state.displacement[:, 4])
+    assert table.unit("displacement_ry") == "rad"
+    assert list(table["status"]) == ["converged"] * 3
+
+
+def test_units_for_people_stand_in_the_names() -> None:
+    state = equilibrium(FAN_RIG, [0.0, 0.1])
+    read = state.table().in_units()
+    named = read.named()
+    np.testing.assert_allclose(named["cage_angle_deg"], np.degrees(state.cage_angles))
+    np.testing.assert_allclose(named["displacement_y_um"], 1e6 * state.displacement[:, 1])
+    assert "k_yy_n_per_m" in named
+    with pytest.raises(ValueError, match=r"unit of k_\w+ is 'deg'; allowed: N/m"):
+        state.table().in_units({"N/m": "deg"})
+
+
+def test_text_has_a_row_for_each_and_ends_short_columns_empty() -> None:
+    table = table_of(("a", "rad", [1.0, 2.0 / 3.0]), ("b", "", ["one, two"]))
+    rows = list(csv.reader(io.StringIO(table.csv())))
+    assert rows == [["a_rad", "b"], ["1", "one, two"], ["0.666666667", ""]]
+
+
+def test_tables_stand_side_by_side_under_prefixes_and_never_mix_names() -> None:
+    one = table_of(("a", "m", [1.0]))
+    both = one | one.prefixed("healthy")
+    assert list(both) == ["a", "healthy_a"]
+    assert list(both.only("healthy_a")) == ["healthy_a"]
+    with pytest.raises(ValueError, match="names of columns"):
+        _ = one | one
+
+
+def test_every_factor_leads_to_a_unit_with_a_name() -> None:
+    for of, to in FACTORS:
+        assert of in SUFFIXES
+        assert to in SUFFIXES
+
+
+def test_every_result_has_a_table_of_its_own_numbers() -> None:
+    found = modes(FAN_RIG)
+    np.testing.assert_array_equal(found.table()["y1"], found.frequency[:, found.label.index("y1")])
+    maps = stiffness_maps(FAN_RIG, [0.0, 0.2], [0.0, 0.1, 0.2])
+    np.testing.assert_array_equal(maps.table()["k_yy"].reshape(2, 3), maps.term("k_yy"))
+    assert maps.table()["extent"].tolist() == [0.0] * 3 + [0.2] * 3
+    motion = simulate(FAN_RIG, 0.01, ball_loads=True)
+    table = motion.table()
+    np.testing.assert_array_equal(table["outer_acceleration_y"], motion.outer_acceleration[:, 1])
+    assert motion.ball_load is not None
+    np.testing.assert_array_equal(table["ball_14_load"], motion.ball_load[:, 13])
+    density = spectrum(simulate(FAN_RIG, 0.1).outer_acceleration, 65536.0)
+    np.testing.assert_array_equal(density.table(["x", "y"])["density_y"], density.density[:, 1])
+    with pytest.raises(ValueError, match="directions"):
+        density.table(["x"])
+    steady = orbit(FAN_RIG)
+    assert steady.table()["multiplier_size"].max() == pytest.approx(steady.largest_multiplier)
+    run = speed_run(FAN_RIG, [40.0, 44.0], duration=0.1)
+    np.testing.assert_array_equal(run.table()["density_x"].reshape(2, -1), run.density[..., 0])
+    held = stability_map(FAN_RIG, ("extent", [0.1, 0.2]), ("fy", [-100.0, -90.0]))
+    assert held.table()["extent"].tolist() == [0.1, 0.2] * 2
+    assert isinstance(held.table(), ResultTable)
+    rows = limits_table(limits(FAN_RIG))
+    assert len(rows["sentence"]) == len(rows["value"]) > 3
+
+
+def test_what_has_no_answer_is_nan_with_its_reason() -> None:
+    table = equilibrium(FAN_RIG.replace(fy=0.0), [0.0]).table()
+    assert math.isnan(table["k_yy"][0])
+    assert table["status"][0].startswith("nothing touches")

@@ -209,7 +209,7 @@ class _Signal:
             (name, envelope)
             for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
             for envelope in squared_envelopes(
-                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
+                column, self.rate, bands, highest, faults.dropped, WHITENING and WHITENING * shaft
             )
         ]
 

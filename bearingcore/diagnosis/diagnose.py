@@ -81,6 +81,10 @@ show their lines too, by 1 or 2 %."""
 ENOUGH_POWER = 0.08
 """The swing that must be visible before the absence of lines means anything."""
 
+SMOOTH = 3.3
+"""Kurtosis of a band's envelope (2 for noise) above which something knocks, whatever it is: no
+bearing is called healthy then."""
+
 FEWEST_PASSES = 12
 """Knocks in a recording below which nothing is said."""
 
@@ -470,6 +474,7 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
     """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
     own, other = judged.own, judged.other
     others_stand_out = other.level - judged.combs.noise >= NOISE_MARGIN
+    blows = _impulsiveness(judged.combs, signal)
     fault, chance = CANNOT_TELL, _likely(judged)
     if judged.seen and judged.margin >= 0.0:
         fault = own.part
@@ -484,6 +489,8 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
         status = say.nothing_but("parts of the signal dropped out", signal.dropped)
     elif signal.clipped > MUCH_CLIPPED:
         status = say.nothing_but("the signal is clipped", signal.clipped)
+    elif blows > SMOOTH:
+        status = say.blows(blows, signal.duration)
     elif judged.detectable > ENOUGH_POWER:
         status = say.weak(judged.detectable, signal.duration)
     else:
@@ -502,6 +509,20 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
         detectable_depth=judged.detectable,
         spectrum=EnvelopeLines(frequency, one.levels.level, one.band, one.direction),
     )
+
+
+def _impulsiveness(combs: Combs, signal: _Signal) -> float:
+    """The greatest kurtosis of broad bands below the recorder's own filter.
+
+    Above five sixths of the range there is often nothing but that filter's rest.
+    """
+    sixth = signal.rate / 12.0
+    broad = [
+        one.kurtosis
+        for one in combs.heard
+        if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
+    ]
+    return max(broad or [one.kurtosis for one in combs.heard])
 
 
 def _deep(judged: _Judged) -> bool:

@@ -213,7 +213,7 @@ class _Signal:
             (name, envelope)
             for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
             for envelope in squared_envelopes(
-                column, self.rate, bands, highest, faults.dropped, WHITENING and WHITENING * shaft
+                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
             )
         ]
 
@@ -347,7 +347,10 @@ def _compare(
     above_other = min(
         best.level - other.level, best.level - float(followers.max(initial=-np.inf)) + OTHER_MARGIN
     )
-    evidence = tuple(_evidence(combs, found, cage) for found in combs.found)
+    evidence = tuple(
+        _evidence(combs, best if found.lines == best.lines else found, cage)
+        for found in combs.found
+    )
     return _Judged(
         combs=combs,
         best=best,

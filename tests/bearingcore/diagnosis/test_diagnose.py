@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bearingcore import Recording
-from bearingcore.diagnosis.diagnose import diagnose
+from bearingcore import Recording, diagnose
 from bearingcore.diagnosis.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
 from bearingcore.diagnosis.parts import PARTS, part_lines
 from tests.bearingcore.diagnosis.signals_made import (

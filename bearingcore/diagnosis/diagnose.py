@@ -55,7 +55,7 @@ from bearingcore.signals.recording import Recording
 NOISE_MARGIN = 2.0
 """[dB] above the level that noise reaches in one of a thousand signals."""
 
-PART_MARGIN = 3.0
+PART_MARGIN = 2.5
 """[dB] above the combs of the other parts."""
 
 OTHER_MARGIN = 2.5
@@ -78,7 +78,7 @@ LEAST_DEPTH = 0.03
 """Share of its mean by which the envelope swings at each line of a damaged part. Healthy bearings
 show their lines too, by 1 or 2 %."""
 
-ENOUGH_POWER = 0.08
+ENOUGH_POWER = 0.06
 """The swing that must be visible before the absence of lines means anything."""
 
 SMOOTH = 3.3

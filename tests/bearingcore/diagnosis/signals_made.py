@@ -119,17 +119,14 @@ def knocks(machine: Machine, part: str, rng: Rng) -> NDArray[np.float64]:
     strength = 1.0 + rng.uniform(0.0, 0.4) * rng.standard_normal(len(times))
     start = rng.uniform(0.0, 6.28)
     if part == "inner race":
-        strength = strength * load_zone(
-            2.0 * math.pi * machine.turns * times + start, half_width
-        )
+        strength = strength * load_zone(2.0 * math.pi * machine.turns * times + start, half_width)
     elif part == "ball":  # strikes on outer and inner race in turn, not equally hard
         cage = machine.cage * (1.0 + slip)
         strength = strength * load_zone(2.0 * math.pi * cage * times + start, half_width)
         strength[1::2] *= rng.uniform(0.5, 1.0)
     else:  # the load swings a little with the shaft's unbalance
         strength = strength * (
-            1.0
-            + rng.uniform(0.0, 0.3) * np.cos(2.0 * math.pi * machine.turns * times + start)
+            1.0 + rng.uniform(0.0, 0.3) * np.cos(2.0 * math.pi * machine.turns * times + start)
         )
     count = int(machine.duration * machine.rate)
     train = np.zeros(count + 1)

@@ -209,7 +209,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         sized = self.sized
-        if sized is None:
+        if sized is None or not sized.sizing.candidates:
             return self._nothing(), {}
         sizing = sized.sizing
         candidate = self.candidate(sizing)
@@ -276,8 +276,9 @@ class DefectSize(JobView[Sized], MeasuredView):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         sized = self.sized
-        self._answer_part.visible = sized is not None
-        if sized is None:
+        answered = sized is not None and bool(sized.sizing.candidates)
+        self._answer_part.visible = answered
+        if sized is None or not answered:
             return
         self.status.line = status(sized)
         self.candidates.rows = rows(sized)
@@ -308,18 +309,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         sized = self.sized
         if sized is None:
             return {}
-        candidates = sized.sizing.candidates
-        table = {
-            "extent_deg": np.degrees([c.extent for c in candidates]),
-            "ball_spacings": np.array([c.turns for c in candidates]),
-            "probability": np.array([c.probability for c in candidates]),
-            "edge": np.array([c.edge for c in candidates]),
-            "waveform_misfit": np.array([c.waveform_misfit.mean() for c in candidates]),
-            "spectrum_misfit": np.array([c.spectrum_misfit.mean() for c in candidates]),
-        }
-        for name in candidates[0].factors:
-            table[f"{name}_factor"] = np.array([c.factors[name] for c in candidates])
-        return table
+        return sized.sizing.table().in_units().named()
 
 
 def compute(job: Work, measured: Measured, scene: Scene) -> str:

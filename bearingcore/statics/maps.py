@@ -6,15 +6,16 @@ import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.kept import kept
 from bearingcore.model.bearing import Bearing
-from bearingcore.model.defect import TWO_PI, Defect, path_tables
+from bearingcore.model.defect import TWO_PI, Defect, floor_bytes, path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
 from bearingcore.statics.equilibrium import REASONS, STIFFNESS_TERMS, default_cage_angles
 from bearingcore.statics.load_capacity import runs_away
@@ -213,7 +214,12 @@ class _Paths:
     refusals: tuple[str, ...]
 
 
-@lru_cache(maxsize=4)
+def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
+    return found.rows.nbytes + found.tables.nbytes + floor_bytes((first,))
+
+
+# of rough floors the tables of a map may take a gigabyte
+@kept(4, 256_000_000, _bytes_of_paths)
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
 ) -> _Paths:

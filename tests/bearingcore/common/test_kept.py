@@ -58,7 +58,9 @@ def test_tables_of_large_rough_floors_do_not_fill_the_memory() -> None:
     tracemalloc.start()
     for seed in range(60):
         floor = RoughFloor(rms_height=1e-7, correlation_length=2e-6, seed=seed % 2)
-        path_tables((Defect(extent=1.0 + 1e-3 * seed, depth=20e-6, center=4.7, floor=floor),), bearing)
+        path_tables(
+            (Defect(extent=1.0 + 1e-3 * seed, depth=20e-6, center=4.7, floor=floor),), bearing
+        )
     held, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert held < 150e6

@@ -50,10 +50,12 @@ class Turns:
         while self._lines:
             key = next(iter(self._lines))
             line = self._lines.pop(key)
-            one = line.popleft()
+            while line and line[0].done():  # gave up waiting
+                line.popleft()
+            if not line:
+                continue
+            line.popleft().set_result(None)
             if line:
                 self._lines[key] = line  # behind all other lines
-            if not one.done():
-                one.set_result(None)
-                return
+            return
         self._busy = False

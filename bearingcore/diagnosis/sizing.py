@@ -413,8 +413,8 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
     elif beside_noise > MUCH_UNEXPLAINED:
         refusal = (
             f"the best extent leaves {100.0 * unexplained:.0f} % of the mean ball pass "
-            f"unexplained, of which {100.0 * quality.noise_share:.0f} % are noise. Load, speed, support or "
-            "bearing may not be those of this machine."
+            f"unexplained, of which {100.0 * quality.noise_share:.0f} % are noise. Load, "
+            "speed, support or bearing may not be those of this machine."
         )
     elif abs(best.level) > math.log(10.0):
         decibels = 10.0 / math.log(10.0) * abs(best.level)

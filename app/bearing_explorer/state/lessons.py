@@ -32,12 +32,15 @@ from __future__ import annotations
 import difflib
 import html
 import json
+import os
 import re
+import stat
 import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache, lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qsl, unquote
@@ -51,15 +54,22 @@ from bearing_explorer.assets import asset_path
 from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.quantities import QUANTITIES
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
 from bearingcore import presets
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
 """Names of the tabs, each with the names of its views."""
 
-LONGEST_FILE = 60_000  # bytes
+LONGEST_FILE = 20_000  # bytes
+LONGEST_HEAD = 4_000  # characters
 LONGEST_FORMULA = 400  # characters
 MOST_LESSONS = 60
+MOST_FILES = 5_000
+"""Names that are looked at in a folder."""
+MOST_OF = {"](": 40, "$": 120, "[": 300, "|": 800, "*": 800, "`": 400, "\n": 800, "\\": 1500}
+"""How often signs may stand in a lesson that take more than their share of time to read."""
+MOST_DOTS = 100
+"""Dots in a head: names in parts take time as the square of their number."""
 _LONGEST_TITLE = 90  # characters
 _MOST_LISTED = 16
 
@@ -154,7 +164,8 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     A folder that cannot be read, or holds none, is one fault.
     """
     try:
-        files = sorted(path for path in folder.iterdir() if path.suffix == ".md")
+        names = islice(folder.iterdir(), MOST_FILES)
+        files = sorted(path for path in names if path.suffix == ".md")
     except OSError as error:
         return [_no_lessons(folder, f"cannot be read ({error.strerror or error})")]
     if not files:
@@ -188,13 +199,23 @@ def _fault(name: str, why: str) -> Fault:
 def _from_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
     """The lesson in a file; the time and size of its last change are part of the cache's key."""
     try:
-        return read_lesson(_decoded(path.read_bytes() if size <= LONGEST_FILE else None), tabs)
+        return read_lesson(_decoded(_content(path)), tabs)
     except LessonError as error:
         return Fault(path.name, f"{path.name}, line {error.line}: {error}.")
 
 
-def _decoded(content: bytes | None) -> str:
-    if content is None or len(content) > LONGEST_FILE:
+def _content(path: Path) -> bytes:
+    """The beginning of a file, one byte more than a lesson may have: a link may lead anywhere."""
+    # a pipe that nobody writes to would be waited for
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+    with open(handle, "rb") as file:
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            raise LessonError(1, "this is not a regular file")
+        return file.read(LONGEST_FILE + 1)
+
+
+def _decoded(content: bytes) -> str:
+    if len(content) > LONGEST_FILE:
         raise LessonError(1, f"the file is longer than {LONGEST_FILE} bytes")
     try:
         return content.decode("utf-8-sig")
@@ -205,6 +226,10 @@ def _decoded(content: bytes | None) -> str:
 
 def read_lesson(text: str, tabs: Tabs) -> Lesson:
     """The lesson that `text` is; LessonError where it is none."""
+    for sign, most in MOST_OF.items():
+        if text.count(sign) > most:
+            words = {"](": "links", "\n": "lines"}.get(sign, f"signs “{sign}”")
+            raise LessonError(1, f"the lesson holds more than {most} {words}")
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if lines[0].strip() != _FENCE:
         raise LessonError(1, f"a lesson begins with a line {_FENCE}")
@@ -231,10 +256,18 @@ class _Head:
 
     def __init__(self, lines: list[str], tabs: Tabs) -> None:
         self._lines = lines
+        self._begun: tuple[SceneEditor, Snapshot] | None = None
+        text = "\n".join(lines)
+        if len(text) > LONGEST_HEAD or text.count(".") > MOST_DOTS:
+            raise LessonError(
+                1, f"the head holds more than {LONGEST_HEAD} characters or {MOST_DOTS} dots"
+            )
         try:
-            self._table = tomllib.loads("\n".join(lines))
+            self._table = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             raise _of_toml(error, len(lines)) from None
+        except RecursionError:
+            raise LessonError(1, "the head is not TOML: its lists are too deep") from None
         for name, value in self._table.items():
             if name not in _HEAD:
                 known = ", ".join(_HEAD)
@@ -276,11 +309,15 @@ class _Head:
             raise self.error(refused.name, str(refused)) from None
 
     def editor(self) -> SceneEditor:
-        """The scene that the lesson begins with."""
-        editor = SceneEditor(self.text["preset"])
-        values, choices = self.scene()
-        editor.choose(choices)
-        editor.set(values)
+        """The scene that the lesson begins with; the same editor each time, set back."""
+        if self._begun is None:
+            editor = SceneEditor(self.text["preset"])
+            values, choices = self.scene()
+            editor.choose(choices)
+            editor.set(values)
+            self._begun = editor, editor.snapshot()
+        editor, at_first = self._begun
+        editor.restore(at_first)
         return editor
 
 

@@ -1,5 +1,7 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
 
+from bearingcore.diagnosis.diagnose import diagnose
+from bearingcore.diagnosis.evidence import Diagnosis
 from bearingcore.diagnosis.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, modes
 from bearingcore.dynamics.motion import Motion, simulate
@@ -39,6 +41,7 @@ __all__ = [
     "CatalogueBearing",
     "ContactPressures",
     "Defect",
+    "Diagnosis",
     "Equilibrium",
     "Film",
     "Life",
@@ -60,6 +63,7 @@ __all__ = [
     "catalogue_text",
     "contact_damping",
     "contact_pressures",
+    "diagnose",
     "dynamic_load_rating",
     "envelope_spectrum",
     "equilibrium",

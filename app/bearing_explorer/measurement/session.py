@@ -19,6 +19,8 @@ import numpy as np
 
 from bearing_explorer.compute.jobs import Change
 from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.measurement.background import noise_level, true_part
+from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
     Asked,
     FormError,
@@ -49,8 +51,9 @@ MACHINES = ("same", "different")
 RATE = 25_600.0
 """[Hz] of simulated measurements."""
 
-PASSES = 60.0
-"""Ball passes in one, where that is neither very short nor very long."""
+PASSES = 200.0
+"""Ball passes in one, where that is neither very short nor very long: enough to tell lines apart
+that lie a turn of the shaft beside each other."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
 SETTLING = 0.3  # [s] before a simulated measurement begins
@@ -118,6 +121,8 @@ class Measurement:
         self._editor = editor
         self._assign = assign
         self._draw = draw
+        #: which part is damaged, looked for in the background
+        self.diagnoses = Diagnoses(assign, draw)
         self._table: Table | None = None
         self._cut = ""
         self._upload: Upload | None = None
@@ -131,6 +136,7 @@ class Measurement:
         """The session is over."""
         self._ended = True
         self._upload = self._table = None
+        self.diagnoses.stop()
 
     def redraw(self) -> None:
         """Draw again with what the views have been told."""
@@ -397,7 +403,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     signal = motion.outer_acceleration[first:, columns]
     if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
         raise ValueError("Not possible: the simulated housing does not move along x or y.")
-    level = np.sqrt(np.mean(signal**2, axis=0)) * 10.0 ** (-noise_db / 20.0)
+    level = noise_level(truth, signal, columns, noise_db, settings)
     noisy = signal + level * rng.standard_normal(signal.shape)
     name = "Simulated" + (f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else "")
     directions = tuple(motion.dofs[index] for index in columns)
@@ -405,4 +411,5 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         recording = Recording(noisy, motion.sample_rate, directions, name)
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
-    return Measured(recording, scene.shaft_speed, scene.defects[0].extent if single else None)
+    extent = scene.defects[0].extent if single else None
+    return Measured(recording, scene.shaft_speed, extent, true_part=true_part(scene))

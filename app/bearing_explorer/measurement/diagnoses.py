@@ -111,6 +111,12 @@ class Diagnoses:
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
         return self._known.get(question)
 
+    def newest(self, measured: Measured, bearing: Bearing) -> Diagnosis | None:
+        """The diagnosis of a recording on a bearing, at the speed that was asked about last."""
+        speed = self._wanted.speed if self._wanted is not None else "given"
+        answer = self._known.get(Question.about(measured, bearing, speed))
+        return answer if isinstance(answer, Diagnosis) else None
+
     def keep(self, question: Question, answer: Diagnosis | str) -> None:
         """Keep an answer; those about other recordings leave, and the oldest."""
         kept = {q: a for q, a in self._known.items() if q.measured is question.measured}

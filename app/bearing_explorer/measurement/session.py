@@ -412,4 +412,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
     extent = scene.defects[0].extent if single else None
-    return Measured(recording, scene.shaft_speed, extent, true_part=true_part(scene))
+    return Measured(
+        recording, scene.shaft_speed, extent,
+        true_part=true_part(scene), noiseless=math.isinf(noise_db),
+    )  # fmt: skip

@@ -59,6 +59,8 @@ class Measured:
         the file, where it comes from one.
     true_part
         the part that is damaged, or "none", where the signal is a simulated one; else "".
+    noiseless
+        whether it is simulated without any noise.
     """
 
     recording: Recording
@@ -66,6 +68,7 @@ class Measured:
     true_extent: float | None = None
     origin: Origin | None = None
     true_part: str = ""
+    noiseless: bool = False
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False

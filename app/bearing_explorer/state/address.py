@@ -80,6 +80,9 @@ LONGEST_TEXT = 2_500_000
 _MOST_FIELDS = 400
 _LONGEST_NUMBER = 40
 
+FORMER_TABS = {"sizing": "diagnosis"}
+"""What tabs were called in links that people have."""
+
 _OWN_WORDS = ("v", "preset", "defects", "selected", "law", "dofs", "tab", CAGE_ANGLE)
 _DEFECT_WORDS = ("race", "edge", "floor", "points")
 _OF_DEFECT = [q for q in QUANTITY_LIST if q.field in DEFECT_FIELDS]
@@ -290,6 +293,7 @@ def _read(given: dict[str, str]) -> Place:
     dofs = _dofs(given.pop("dofs", None), base)
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
+    tab = FORMER_TABS.get(tab, tab)
     defects, notes = [], []
     for number in range(count):
         own = {

@@ -33,7 +33,7 @@ from bearingcore.diagnosis.evidence import (
     OtherLines,
     PartEvidence,
 )
-from bearingcore.diagnosis.parts import BALL, INNER, PartLines, part_lines
+from bearingcore.diagnosis.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.diagnosis.search import (
     TURNS,
     Combs,
@@ -41,8 +41,10 @@ from bearingcore.diagnosis.search import (
     beside,
     excess,
     listen,
+    multiples,
+    near,
     sideband_combs,
-    unlike,
+    within,
 )
 from bearingcore.diagnosis.shaft import ShaftLines, shaft_lines
 from bearingcore.model.bearing import Bearing
@@ -68,12 +70,20 @@ SIDEBAND_LEAD = 6.0
 SIDEBAND_REACH = 25.0
 """[dB] below the lines themselves down to which sidebands are expected."""
 
+STRONG_SIDEBANDS, WEAK_SIDEBANDS = 9.0, 14.0
+"""[dB] below the lines: those of a part that turns through the load are not fainter than the one,
+those of a part that stands still not louder than the other. They decide where lines do not."""
+
 LEAST_DEPTH = 0.03
 """Share of its mean by which the envelope swings at each line of a damaged part. Healthy bearings
 show their lines too, by 1 or 2 %."""
 
 ENOUGH_POWER = 0.08
 """The swing that must be visible before the absence of lines means anything."""
+
+SMOOTH = 3.3
+"""Kurtosis of a band's envelope (2 for noise) above which something knocks, whatever it is: no
+bearing is called healthy then."""
 
 FEWEST_PASSES = 12
 """Knocks in a recording below which nothing is said."""
@@ -203,7 +213,7 @@ class _Signal:
             (name, envelope)
             for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
             for envelope in squared_envelopes(
-                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
+                column, self.rate, bands, highest, faults.dropped, WHITENING and WHITENING * shaft
             )
         ]
 
@@ -256,11 +266,11 @@ def _at_speed(
     refused = _unfit(signal, parts, shaft)
     if refused is not None:
         return _silent(refused, source, shaft)
-    own = signal.shaft(shaft * (1.0 - slip), shaft * (1.0 + slip))
+    given, own = shaft, signal.shaft(shaft * (1.0 - slip), shaft * (1.0 + slip))
     if own.clear:
         shaft = own.frequency
         source += ", made finer by the shaft's own lines"
-    judged = _judge(signal, parts, shaft, slip)
+    judged = _judge(signal, parts, shaft, slip, given)
     return _decide(signal, judged, shaft, source)
 
 
@@ -275,21 +285,32 @@ def _unfit(signal: _Signal, parts: Sequence[PartLines], shaft: float) -> str | N
     return None
 
 
-def _judge(signal: _Signal, parts: Sequence[PartLines], shaft: float, slip: float) -> _Judged:
+def _judge(
+    signal: _Signal,
+    parts: Sequence[PartLines],
+    shaft: float,
+    slip: float,
+    given: float | None = None,
+) -> _Judged:
     """The best combs of the parts at a speed [Hz], compared."""
-    combs, resolutions = _most_telling(signal, parts, shaft, slip, known_speed=True)
-    return _compare(signal, combs, resolutions, parts, slip)
+    combs, resolutions = _most_telling(signal, parts, shaft, slip, True, given)
+    return _compare(signal, combs, resolutions, parts, slip, given)
 
 
 def _most_telling(
-    signal: _Signal, parts: Sequence[PartLines], shaft: float, slip: float, known_speed: bool
+    signal: _Signal,
+    parts: Sequence[PartLines],
+    shaft: float,
+    slip: float,
+    known_speed: bool,
+    given: float | None = None,
 ) -> tuple[Combs, list[Combs]]:
     """The combs at the resolution where one stands highest above noise, and at all of them."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
     envelopes = signal.heard(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
     for turns in TURNS:
-        resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns))
+        resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns, given))
         if turns / shaft >= signal.duration:
             break  # longer segments than the signal are the same again
     return max(resolutions, key=excess), resolutions
@@ -301,28 +322,24 @@ def _compare(
     resolutions: Sequence[Combs],
     parts: Sequence[PartLines],
     slip: float,
+    given: float | None = None,
 ) -> _Judged:
     """How the combs of the parts stand against noise, each other and everything else."""
     shaft = combs.shaft
-    ranked = sorted(combs.found, key=lambda found: -found.level)
-    best = ranked[0]
-    # a part whose lines are multiples of the best one's has them for free
-    apart = [
-        found for found in ranked[1:] if unlike_one(combs, best.frequency, found.frequency)
-    ] or ranked[1:]
-    second = apart[0]
     cage = next(lines.sidebands for lines in parts if lines.part == BALL) * shaft
-    away = unlike(combs, best.frequency, (1, 2, 3))
+    best, rivals = _ranked(combs, cage, slip, given or shaft)
+    second = rivals[0]
+    free = multiples(combs, best.frequency, (1, 2, 3))
     follows = sideband_combs(combs, best.frequency, (shaft, cage))
+    if best.lines.part == BALL:  # its spin itself is half its line
+        free |= multiples(combs, best.frequency, (0.5, 1.5))
+        follows |= sideband_combs(combs, 0.5 * best.frequency, (shaft, cage))
     own = np.zeros(len(combs.frequency), dtype=bool)
     for lines in parts:
-        nominal = lines.order * shaft
-        own |= np.abs(combs.frequency - nominal) <= (slip + 0.005) * nominal
+        own |= within(combs, lines, slip + 0.005, given or shaft, combs.frequency)
     loudest = combs.level.max(axis=0)
-    others = np.where(away & ~follows & ~own, loudest, -np.inf)
-    if best.lines.part == BALL:  # its spin itself is half its line
-        others[~unlike(combs, 0.5 * best.frequency, (1, 3))] = -np.inf
-    followers = np.where(away & follows & ~own, loudest, -np.inf)
+    others = np.where(free | follows | own, -np.inf, loudest)
+    followers = np.where(follows & ~free & ~own, loudest, -np.inf)
     index = int(others.argmax())
     other = OtherLines(
         float(combs.frequency[index]), float(combs.frequency[index]) / shaft, float(others[index])
@@ -345,10 +362,61 @@ def _compare(
     )
 
 
-def unlike_one(combs: Combs, frequency: float, other: float) -> bool:
-    """Whether a comb is not a multiple of another, both by their first line [Hz]."""
-    width = 2.0 * (combs.frequency[1] - combs.frequency[0])
-    return all(abs(other - k * frequency) > k * width for k in (2, 3))
+def _ranked(combs: Combs, cage: float, slip: float, given: float) -> tuple[Found, list[Found]]:
+    """The part whose comb stands highest, and its rivals.
+
+    No rival is a part whose comb is a multiple of the best one's, or its skirt: it has those lines
+    for free. Where one comb lies in the windows of two parts, as a ball's and an outer race's may,
+    the sidebands decide.
+    """
+    ranked = sorted(combs.found, key=lambda found: -found.level)
+    top = ranked[0]
+    at = np.array([top.frequency])
+    same = [found for found in ranked if within(combs, found.lines, slip, given, at)[0]]
+    best = _by_sidebands(combs, top, same, cage) if len(same) > 1 else top
+    if best is None:
+        return top, [found for found in same if found is not top]
+    for_free = [
+        found
+        for found in ranked
+        if found is not best
+        and any(
+            near(combs, factor * top.frequency, np.array([found.frequency]))[0]
+            for factor in (1, 2, 3)
+        )
+    ]
+    rivals = [found for found in ranked if found is not best and found not in for_free]
+    if not rivals:  # all that is left shares its lines: nothing else is there to be told from
+        rivals = [replace(for_free[-1], level=combs.noise)]
+    return best, rivals
+
+
+def _by_sidebands(combs: Combs, top: Found, same: Sequence[Found], cage: float) -> Found | None:
+    """Which of the parts that share a comb its sidebands speak for, or None."""
+    shaft_level, cage_level = _sidebands(combs, top, cage)
+    strong, weak = top.level - STRONG_SIDEBANDS, top.level - WEAK_SIDEBANDS
+    with_inner = any(found.lines.part == INNER for found in same)
+    fits = {
+        OUTER: cage_level <= weak and (shaft_level <= weak or not with_inner),
+        INNER: shaft_level >= strong and cage_level <= shaft_level - SIDEBAND_LEAD,
+        BALL: cage_level >= strong and shaft_level <= cage_level - SIDEBAND_LEAD,
+    }
+    fitting = [found for found in same if fits[found.lines.part]]
+    if len(fitting) != 1:
+        return None
+    # the comb is the same: so are its place and its level
+    return replace(fitting[0], frequency=top.frequency, level=top.level, place=top.place)
+
+
+def _sidebands(combs: Combs, found: Found, cage: float) -> tuple[float, float]:
+    """Mean level [dB] of the first sidebands of shaft and of cage, about the first harmonics."""
+    one, at = combs.heard[found.place], np.array([found.frequency])
+
+    def mean(spacing: float) -> float:
+        sides = beside(one, at, spacing)
+        return float(np.mean([side[: HARMONICS // 2].mean() for side in sides]))
+
+    return mean(combs.shaft), mean(cage)
 
 
 def _above_sidebands(combs: Combs, best: Found, cage: float) -> float:
@@ -358,14 +426,7 @@ def _above_sidebands(combs: Combs, best: Found, cage: float) -> float:
     """
     if best.lines.sidebands == 0.0:
         return math.inf
-    one = combs.heard[best.place]
-    at = np.array([best.frequency])
-    near = HARMONICS // 2
-
-    def mean(spacing: float) -> float:
-        return float(np.mean([side[:near].mean() for side in beside(one, at, spacing)]))
-
-    shaft_level, cage_level = mean(combs.shaft), mean(cage)
+    shaft_level, cage_level = _sidebands(combs, best, cage)
     own, other = (
         (shaft_level, cage_level) if best.lines.part == INNER else (cage_level, shaft_level)
     )
@@ -413,6 +474,7 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
     """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
     own, other = judged.own, judged.other
     others_stand_out = other.level - judged.combs.noise >= NOISE_MARGIN
+    blows = _impulsiveness(judged.combs, signal)
     fault, chance = CANNOT_TELL, _likely(judged)
     if judged.seen and judged.margin >= 0.0:
         fault = own.part
@@ -427,6 +489,8 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
         status = say.nothing_but("parts of the signal dropped out", signal.dropped)
     elif signal.clipped > MUCH_CLIPPED:
         status = say.nothing_but("the signal is clipped", signal.clipped)
+    elif blows > SMOOTH:
+        status = say.blows(blows, signal.duration)
     elif judged.detectable > ENOUGH_POWER:
         status = say.weak(judged.detectable, signal.duration)
     else:
@@ -445,6 +509,21 @@ def _decide(signal: _Signal, judged: _Judged, shaft: float | None, source: str) 
         detectable_depth=judged.detectable,
         spectrum=EnvelopeLines(frequency, one.levels.level, one.band, one.direction),
     )
+
+
+def _impulsiveness(combs: Combs, signal: _Signal) -> float:
+    """The greatest kurtosis of broad bands below the recorder's own filter.
+
+    Above five sixths of the range there is often nothing but that filter's rest. What chance adds
+    in a short signal is taken off: five deviations of the kurtosis of noise, sqrt(20/N).
+    """
+    sixth = signal.rate / 12.0
+    broad = [
+        one.kurtosis - 5.0 * math.sqrt(20.0 / (signal.duration * (one.band.high - one.band.low)))
+        for one in combs.heard
+        if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
+    ]
+    return max(broad or [one.kurtosis for one in combs.heard])
 
 
 def _deep(judged: _Judged) -> bool:

@@ -82,6 +82,15 @@ def nothing_but(why: str, share: float) -> str:
     return f"Cannot tell: no damage shows, but {why} ({share:.0%}), which may hide it."
 
 
+def blows(kurtosis: float, duration: float) -> str:
+    """Knocks that do not repeat as a part's do."""
+    return (
+        f"Cannot tell: the signal knocks (kurtosis {kurtosis:.1f}, where smooth running has 2), "
+        f"but in {duration:.3g} s not at the rate of any part of this bearing. Blows from "
+        "elsewhere and wide-spread wear do that. Measure again, longer."
+    )
+
+
 def weak(detectable: float, duration: float) -> str:
     """Nothing seen, but nothing would have been."""
     return (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -36,6 +35,9 @@ INDEPENDENT_BANDS = 0.5
 
 SURROUNDINGS = 2.0
 """Turns of the shaft a second over which a line's background is taken."""
+
+WANDER = 0.003
+"""By how much a cage's speed may wander while it is measured, as a fraction."""
 
 RARE = 1e-3
 """How often noise may reach a level anywhere for that to be the level of noise."""
@@ -130,6 +132,7 @@ def listen(
     known_speed: bool,
     slip: float,
     turns: float,
+    given: float | None = None,
 ) -> Combs:
     """The combs at one resolution.
 
@@ -141,6 +144,8 @@ def listen(
         turns of the shaft a second [Hz].
     known_speed
         whether the shaft's own lines are known well enough to be left out.
+    given
+        [Hz] the speed as told, from which lines may not be farther than the slip either.
     """
     segment = turns / shaft
     top = max(lines.order for lines in parts) * (1.0 + slip)
@@ -161,14 +166,13 @@ def listen(
         [comb_level(harmonics(one.cleared, one.levels.step, frequency)) for one in heard]
     )
     combs = Combs(turns, shaft, tuple(heard), frequency, level, ())
-    found = tuple(_best(combs, lines, slip) for lines in parts)
+    found = tuple(_best(combs, lines, slip, given or shaft) for lines in parts)
     return Combs(turns, shaft, tuple(heard), frequency, level, found)
 
 
-def _best(combs: Combs, lines: PartLines, slip: float) -> Found:
+def _best(combs: Combs, lines: PartLines, slip: float, given: float) -> Found:
     nominal = lines.order * combs.shaft
-    reach = max(slip * nominal, 0.6 * (combs.frequency[1] - combs.frequency[0]))
-    inside = np.flatnonzero(np.abs(combs.frequency - nominal) <= reach)
+    inside = np.flatnonzero(within(combs, lines, slip, given, combs.frequency))
     level = combs.level[:, inside]
     if lines.part == BALL:
         level = np.stack(
@@ -181,6 +185,20 @@ def _best(combs: Combs, lines: PartLines, slip: float) -> Found:
     frequency, best = float(combs.frequency[inside[column]]), float(level[place, column])
     chance = noise_chance(best, combs.averages) * combs.cells(lines, nominal, slip)
     return Found(lines, frequency, best, int(place), min(1.0, chance))
+
+
+def within(
+    combs: Combs, lines: PartLines, slip: float, given: float, frequency: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Which frequencies [Hz] may be a part's first line.
+
+    Within the slip of the speed that the shaft's lines show and of the speed as told: otherwise a
+    shaft found wrongly would open the window to twice the slip.
+    """
+    middle = 0.5 * (combs.shaft + given) * lines.order
+    reach = slip * middle - 0.5 * abs(combs.shaft - given) * lines.order
+    reach = max(reach, 0.6 * (combs.frequency[1] - combs.frequency[0]))
+    return np.asarray(np.abs(frequency - middle) <= reach)
 
 
 def _with_sidebands(
@@ -218,28 +236,27 @@ def excess(combs: Combs) -> float:
     return max(found.level for found in combs.found) - combs.noise
 
 
-def unlike(combs: Combs, frequency: float, multiples: Sequence[int]) -> NDArray[np.bool_]:
-    """Which combs (n,) are not `multiples` of a frequency [Hz]."""
-    width = 2.0 * (combs.frequency[1] - combs.frequency[0]) * FINENESS / 2.0
-    away = np.ones(len(combs.frequency), dtype=bool)
-    for multiple in multiples:
-        away &= np.abs(combs.frequency - multiple * frequency) > multiple * width
-    return away
+def near(combs: Combs, frequency: float, other: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which frequencies [Hz] cannot be told from one, as segments are short and cages wander."""
+    resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
+    return np.asarray(np.abs(other - frequency) <= resolution + WANDER * frequency)
+
+
+def multiples(combs: Combs, frequency: float, factors: Sequence[float]) -> NDArray[np.bool_]:
+    """Which combs (n,) are multiples of a frequency [Hz] by some factors."""
+    hit = np.zeros(len(combs.frequency), dtype=bool)
+    for factor in factors:
+        hit |= near(combs, factor * frequency, combs.frequency)
+    return hit
 
 
 def sideband_combs(
     combs: Combs, frequency: float, spacings: Sequence[float], orders: int = 3
 ) -> NDArray[np.bool_]:
     """Which combs (n,) are made by sidebands of a frequency [Hz] at distances [Hz]."""
-    width = (combs.frequency[1] - combs.frequency[0]) * FINENESS
     hit = np.zeros(len(combs.frequency), dtype=bool)
     for spacing in spacings:
         for order in range(1, orders + 1):
-            for place in (frequency + order * spacing, frequency - order * spacing):
-                hit |= np.abs(combs.frequency - place) <= width
+            hit |= near(combs, frequency + order * spacing, combs.frequency)
+            hit |= near(combs, abs(frequency - order * spacing), combs.frequency)
     return hit
-
-
-def passes(duration: float, frequency: float) -> int:
-    """Whole ball passes in a time [s]."""
-    return math.floor(duration * frequency)

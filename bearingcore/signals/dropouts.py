@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 LEAST_RUN = 16
-"""Equal samples in a row from which a sensor is taken to have dropped out. At a rail of the
-converter a clipped swing is equal for a few samples too; those count as clipped."""
+"""Equal samples in a row from which a sensor is taken to have dropped out."""
+
+LEAST_RUN_AT_RAIL = 256
+"""The same at the greatest or least value, where a clipped swing stays for a while too."""
 
 RAIL = 1e-6
 """Of the greatest swing: samples this close to an extreme are at it."""
@@ -45,7 +47,7 @@ def signal_faults(samples: NDArray[np.float64]) -> SignalFaults:
     clipped = 0
     for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
         at_rail = samples[begin] <= low + near or samples[begin] >= high - near
-        if end - begin + 1 >= LEAST_RUN:
+        if end - begin + 1 >= (LEAST_RUN_AT_RAIL if at_rail else LEAST_RUN):
             dropped[begin : end + 1] = True
         elif at_rail:
             clipped += end - begin + 1

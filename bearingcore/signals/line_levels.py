@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -63,13 +64,12 @@ def line_levels(
     size = next_fast_len(2 * length, real=True)
     step = rate / size
     kept = min(size // 2 + 1, int(highest / step) + 2)
-    power = np.zeros(kept)
-    for begin in begins.tolist():
-        piece = values[begin : begin + length]
-        power += np.abs(rfft((piece - piece.mean()) * window, size)[:kept]) ** 2
-    power /= pieces
-    overlap = max(0.0, 1.0 - (count - length) / max(1, (pieces - 1) * length)) if pieces > 1 else 0
-    shared = 2.0 * _correlation(overlap) * (1.0 - 1.0 / pieces)
+    parts = np.lib.stride_tricks.sliding_window_view(values, length)[begins]
+    parts = (parts - parts.mean(axis=1, keepdims=True)) * window
+    transform = rfft(parts, size, axis=1)[:, :kept]
+    power = (transform.real**2 + transform.imag**2).mean(axis=0)
+    apart = (count - length) / ((pieces - 1) * length) if pieces > 1 else 1.0
+    shared = 2.0 * _correlation(round(1.0 - apart, 3)) * (1.0 - 1.0 / pieces)
     averages = pieces / (1.0 + shared)
     # what the median of such a mean of noise is, over its mean
     median = float(gammaincinv(averages, 0.5)) / averages
@@ -80,11 +80,15 @@ def line_levels(
     return LineLevels(step, level, depth, averages, scale * np.sqrt(background))
 
 
+@lru_cache(maxsize=64)
 def hann(length: int) -> NDArray[np.float64]:
     """Hann's window (length,), periodic."""
-    return 0.5 - 0.5 * np.cos(2.0 * np.pi / length * np.arange(length))
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi / length * np.arange(length))
+    window.setflags(write=False)
+    return np.asarray(window)
 
 
+@lru_cache(maxsize=256)
 def _correlation(overlap: float) -> float:
     """Squared correlation of the spectra of noise in two Hann windows that overlap by a share."""
     if overlap <= 0.0:

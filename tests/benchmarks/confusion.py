@@ -83,7 +83,9 @@ def calibration(cases: Sequence[Case]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--signals", type=int, default=400)
     parser.add_argument("--healthy", type=int, default=1000)
     parser.add_argument("--family", type=int, default=SCORED)

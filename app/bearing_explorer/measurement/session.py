@@ -34,6 +34,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.diagnosis.variants import Tolerances, variant
 
@@ -41,12 +42,6 @@ log = logging.getLogger(__name__)
 
 MOST_NUMBERS = 4_000_000
 """Numbers of a table that a session keeps; later rows are left out."""
-
-NOISES: Mapping[str, float] = {"40": 40.0, "20": 20.0, "10": 10.0, "none": math.inf}
-"""Signal over noise [dB] of simulated measurements."""
-
-MACHINES = ("same", "different")
-"""Whether the measured machine has the numbers of the scene, or only about those."""
 
 RATE = 25_600.0
 """[Hz] of simulated measurements."""

@@ -392,13 +392,10 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
             if scheme in ("set", "show", "simulate"):
-                told = (
-                    _show(rest, line, tabs)
-                    if scheme == "show"
-                    else _simulate(rest, line, head)
-                    if scheme == "simulate"
-                    else _set(rest, line, head)
-                )
+                if scheme == "show":
+                    told = _show(rest, line, tabs)
+                else:
+                    told = (_set if scheme == "set" else _simulate)(rest, line, head)
                 token.type, closing = "html_inline", "</button>"
                 token.content = f'<button type="button" class="do" {told}>'
             elif scheme in ("http", "https"):
@@ -407,7 +404,8 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
             else:
                 raise LessonError(
                     line,
-                    f"a link goes to “{address[:60]}”; links go to set:, show:, simulate: or https:",
+                    f"a link goes to “{address[:60]}”; "
+                    "links go to set:, show:, simulate: or https:",
                 )
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
@@ -426,9 +424,7 @@ def _simulate(rest: str, line: int, head: _Head) -> str:
     for name, word, known in (("noise", noise, list(NOISES)), ("machine", machine, MACHINES)):
         if word not in known:
             raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
-    return _ask(
-        {**_changed(changes, line, head), "simulate": {"noise": noise, "machine": machine}}
-    )
+    return _ask({**_changed(changes, line, head), "simulate": {"noise": noise, "machine": machine}})
 
 
 def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:

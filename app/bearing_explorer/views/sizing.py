@@ -70,9 +70,9 @@ class DefectSize(JobView[Sized], MeasuredView):
     name = "sizing"
     title = "3  How large"
     about = (
-        "Where the outer race is damaged. The time from a ball's entry to a ball's exit gives the extent up to whole ball spacings. "
-        "So every extent is simulated and asked how well it explains the mean ball pass and the "
-        "spectrum. Point at a candidate to see it, coloured, over what was measured, thin."
+        "Of a defect on the outer race. The time from a ball's entry to a ball's exit gives the "
+        "extent up to whole ball spacings. So every extent is simulated and asked how well it "
+        "explains the mean ball pass and the spectrum. Point at a candidate to see it, coloured, over what was measured, thin."
     )
     needs = frozenset()
     start = "Find the size"

@@ -20,7 +20,8 @@ A lesson is a text file in Markdown with a head in TOML::
 
 Parts begin with ``##``. Formulas stand between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
-that opens a tab. Files are read in the order of their names.
+that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
+says how, and simulates a measurement of it. Files are read in the order of their names.
 
 Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
 loaded, and formulas become MathML of known elements. What is wrong with a file is said with its
@@ -51,10 +52,12 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from bearing_explorer.assets import asset_path
+from bearing_explorer.state.address import FORMER_TABS
 from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.quantities import QUANTITIES
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearingcore import presets
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
@@ -278,6 +281,7 @@ class _Head:
         if missing:
             raise LessonError(1, f"the head has no {missing[0]}")
         self.text = {name: " ".join(str(self._table[name]).split()) for name in _NEEDED}
+        self.text["tab"] = FORMER_TABS.get(self.text["tab"], self.text["tab"])
         if len(self.text["title"]) > _LONGEST_TITLE:
             raise self.error("title", f"the title is longer than {_LONGEST_TITLE} characters")
         self._on_list("tab", self.text["tab"], list(dict(tabs)), "a tab")
@@ -422,8 +426,11 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
         elif token.type == "link_open":
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
-            if scheme in ("set", "show"):
-                asks = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
+            if scheme in ("set", "show", "simulate"):
+                if scheme == "show":
+                    asks = _show(rest, line, tabs)
+                else:
+                    asks = (_set if scheme == "set" else _simulate)(rest, line, head)
                 token.type, closing = "html_inline", "</button>"
                 token.content = f'<button type="button" class="do" {asks}>'
             elif scheme in ("http", "https"):
@@ -431,7 +438,9 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
                 token.attrSet("rel", "noopener noreferrer")
             else:
                 raise LessonError(
-                    line, f"a link goes to “{address[:60]}”; links go to set:, show: or https:"
+                    line,
+                    f"a link goes to “{address[:60]}”; "
+                    "links go to set:, show:, simulate: or https:",
                 )
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
@@ -441,18 +450,36 @@ def _set(rest: str, line: int, head: _Head) -> str:
     changes = dict(parse_qsl(rest, keep_blank_values=True))
     if not changes:
         raise LessonError(line, "set: is followed by changes, as in set:extent_deg=64")
+    return _ask(_changed(changes, line, head))
+
+
+def _simulate(rest: str, line: int, head: _Head) -> str:
+    changes = dict(parse_qsl(rest, keep_blank_values=True))
+    noise, machine = changes.pop("noise", "20"), changes.pop("machine", MACHINES[0])
+    for name, word, known in (("noise", noise, list(NOISES)), ("machine", machine, MACHINES)):
+        if word not in known:
+            raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
+    return _ask({**_changed(changes, line, head), "simulate": {"noise": noise, "machine": machine}})
+
+
+def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:
+    """What a button asks for that changes the scene."""
     try:
         values, choices = _changes(head.editor(), changes)
     except _RefusedError as refused:
         raise LessonError(line, str(refused)) from None
-    return f'data-ask="{html.escape(json.dumps({"choose": choices, "typed": values}))}"'
+    return {"choose": choices, "typed": values}
+
+
+def _ask(message: Mapping[str, Any]) -> str:
+    return f'data-ask="{html.escape(json.dumps(message))}"'
 
 
 def _show(rest: str, line: int, tabs: Tabs) -> str:
-    name = unquote(rest)
+    name = FORMER_TABS.get(unquote(rest), unquote(rest))
     if name not in dict(tabs):
         raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(dict(tabs)))}")
-    return f'data-ask="{html.escape(json.dumps({"show": name}))}"'
+    return _ask({"show": name})
 
 
 def _formula(latex: str, display: bool, line: int) -> str:

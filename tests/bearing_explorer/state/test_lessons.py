@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 from bearing_explorer.__main__ import options
 from bearing_explorer.compute.results import Results
+from bearing_explorer.measurement.diagnoses import SLIP
+from bearing_explorer.measurement.session import simulated
 from bearing_explorer.page import SECTIONS, TABS
 from bearing_explorer.session import Explorer
 from bearing_explorer.state import lessons
@@ -39,6 +41,7 @@ from bearingcore import (
     Equilibrium,
     Scene,
     Spectrum,
+    diagnose,
     equilibrium,
     modes,
     orbit,
@@ -168,6 +171,7 @@ def crushed(scene: Scene) -> float:
 
 
 HEALTHY = fan(0.0)
+MOTOR, TURN = presets["6205"], 2.0 * math.pi
 E = math.radians
 
 #: what a lesson says, word for word, with every number in it computed here
@@ -278,6 +282,22 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
         ("with 16 384 by 0.3 dB", (16, 384, step_error(16384.0))),
         ("with 65 536 by less than 0.001 dB", (65, 536, 0.001 * (step_error(RATE) < 0.001))),
     ],
+    "10": [
+        ("its noise 20 dB below", (20,)),
+        ("Step 2, the spectrum", (2,)),
+        ("the cage makes 0.398 turns", (MOTOR.bearing.ftf(TURN),)),
+        ("the 9 balls", (MOTOR.bearing.n_balls,)),
+        ("or 3.58 times", (MOTOR.bearing.bpfo(TURN),)),
+        ("the other 5.42 times: together they are 9",
+         (MOTOR.bearing.bpfi(TURN), MOTOR.bearing.bpfo(TURN) + MOTOR.bearing.bpfi(TURN))),
+        ("then the other, 4.71 times", (2.0 * MOTOR.bearing.bsf(TURN),)),
+        ("At 29.95 turns a second these are 107.4, 162.2 and 141.2 Hz",
+         (MOTOR.shaft_speed / TURN, MOTOR.bearing.bpfo(MOTOR.shaft_speed),
+          MOTOR.bearing.bpfi(MOTOR.shaft_speed), 2.0 * MOTOR.bearing.bsf(MOTOR.shaft_speed))),
+        ("others beside it, 29.95 Hz away", (MOTOR.shaft_speed / TURN,)),
+        ("For a ball they are 11.9 Hz away", (MOTOR.bearing.ftf(MOTOR.shaft_speed),)),
+        ("up to 2 % away", (100.0 * SLIP,)),
+    ],
 }  # fmt: skip
 
 
@@ -368,6 +388,31 @@ def test_what_lessons_say_in_words() -> None:
     nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
     assert not nothing.converged.any()
     assert naive.newton(HEALTHY, 0.0, np.zeros(5)).failure == "singular matrix"
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_signals_of_the_last_lesson_are_told_apart(seed: int) -> None:
+    """What its buttons simulate is diagnosed as its answer says, sidebands and all."""
+    lesson = lesson_of(FILES[-1])
+    html = "".join(part.html for part in lesson.parts[:-1])
+    buttons = ElementTree.fromstring(f"<div>{html}</div>").iter("button")
+    asked = [json.loads(button.attrib["data-ask"]) for button in buttons]
+    found = {}
+    for message in asked:
+        editor = SceneEditor("liew-lim")
+        lesson.begin(editor)
+        editor.choose(message["choose"])
+        editor.set(message["typed"])
+        assert message["simulate"] == {"noise": "20", "machine": "same"}
+        made = simulated(editor.scene, 20.0, False, seed)
+        found[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed, slip=SLIP)
+    assert {truth: one.fault for truth, one in found.items()} == {
+        "outer race": "outer race", "inner race": "inner race", "none": "none seen",
+    }  # fmt: skip
+    inner, outer = found["inner race"].of("inner race"), found["outer race"].of("outer race")
+    assert inner.sideband_spacing == pytest.approx(29.95, abs=0.1)
+    assert inner.sidebands[:3].mean() > 6.0
+    assert outer.sidebands[:3].mean() < 3.0
 
 
 @pytest.mark.parametrize("halfway", [False, True])
@@ -464,7 +509,10 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("So $x < y$ it is.", "", 16, "this part is empty"),
         ("set:extent_deg=62", "set:extent_deg=6200", 13, "6200° is out of range"),
         ("show:maps", "show:map", 13, "“map” is not a tab"),
-        ("show:maps", "ftp://a/b", 13, "links go to set:, show: or https:"),
+        ("show:maps", "ftp://a/b", 13, "links go to set:, show:, simulate: or https:"),
+        ("show:maps", "simulate:noise=5", 13, "noise is “5”; there are 40, 20, 10, none"),
+        ("show:maps", "simulate:machine=toy", 13, "machine is “toy”; there are same, different"),
+        ("show:maps", "simulate:extent_deg=640", 13, "640° is out of range"),
         ("3/2}", "3/2", 15, "its braces do not match"),
         ("So $x", "So\n$\\href{https://a}{x}$ $x", 18, "holds what a formula may not"),
     ],

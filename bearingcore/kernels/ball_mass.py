@@ -140,12 +140,12 @@ def row_components(q, row):
 
 
 @inlined
-def ring_state(y, rates, rotor, x):
-    """Displacements (or, of rates, velocities) of both rings into x (2, 5)."""
+def ring_state(y, rotor, x):
+    """Displacements of both rings into x (2, 5)."""
     n = rotor.active.size
     for a in range(n):
-        x[INNER, rotor.active[a]] = y[a] if not rates else y[n + a]
-        x[OUTER, rotor.active[a]] = y[2 * n + a] if not rates else y[3 * n + a]
+        x[INNER, rotor.active[a]] = y[a]
+        x[OUTER, rotor.active[a]] = y[2 * n + a]
 
 
 @inlined
@@ -396,7 +396,7 @@ def ball_rates(y, k, passage, inner, at, system, work):
     first = 4 * n
     planar = rotor.variables == PLANAR
     smooth = rotor.variables != VELOCITIES
-    ring_state(y, False, rotor, work.x)
+    ring_state(y, rotor, work.x)
     if planar:
         planar_contacts(y, first, passage, inner, at, system, work)
         speeds = first + n_balls
@@ -434,7 +434,7 @@ def ball_rates(y, k, passage, inner, at, system, work):
         k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, work)
 
 
-@inlined
+@borrowing
 def change_variable(y, race, j, sign, passage, at, system, work):
     """Take what a contact adds to w out of the state y (sign 1), or put it in (−1)."""
     rotor = system.rotor
@@ -464,7 +464,17 @@ def change_variable(y, race, j, sign, passage, at, system, work):
         y[speeds + n_balls + j] += side * damped * ez / races.mass[j]
 
 
-@inlined
+@borrowing
+def locate_contacts(y, passage, inner, at, system, work):
+    """Contacts at the state y into work, the rings' displacements being there already."""
+    first = 4 * system.rotor.active.size
+    if system.rotor.variables == PLANAR:
+        planar_contacts(y, first, passage, inner, at, system, work)
+    else:
+        find_contacts(y, first, passage, inner, at, system, work)
+
+
+@borrowing
 def true_forces(k, passage, inner, at, system, work):
     """Σ (Q + c δ̇) e of both rings into work.f, at the positions that `ball_rates` left in work."""
     first = 4 * system.rotor.active.size
@@ -474,7 +484,7 @@ def true_forces(k, passage, inner, at, system, work):
         push_contacts(k, first, passage, inner, at, system, work, False)
 
 
-@inlined
+@borrowing
 def update_released(y, k, passage, inner, at, system, work):
     """Release contacts whose damper would pull, and take up those that push again.
 
@@ -502,11 +512,7 @@ def update_released(y, k, passage, inner, at, system, work):
         for j in range(n_balls):
             if before[race, j]:
                 released[race, j] = False
-    first = 4 * system.rotor.active.size
-    if system.rotor.variables == PLANAR:
-        planar_contacts(y, first, passage, inner, at, system, work)
-    else:
-        find_contacts(y, first, passage, inner, at, system, work)
+    locate_contacts(y, passage, inner, at, system, work)
     true_forces(k, passage, inner, at, system, work)
     for race in range(2):
         for j in range(n_balls):
@@ -603,20 +609,24 @@ def march_balls(y, h, start_angle, stride, system, history, places):
             lay_out_inner(angle, half_turn, instants, system, inner)
         if step == 0:
             smooth_start(y, passage, inner, system, work)
-        for stage in range(4):
+        looking = not rotor.tension and rotor.variables != VELOCITIES
+        stage = 0
+        while stage < 4:
             at = i + (stage + 1) // 2
             part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
             before = max(stage - 1, 0)
             for r in range(size):
                 trial[r] = y[r] + part * k[before, r]
             ball_rates(trial, k[stage], passage, inner, at, system, work)
-            if stage > 0:
+            stage += 1
+            if stage > 1:
                 continue
-            sampled = step % stride == 0
-            if not rotor.tension and rotor.variables != VELOCITIES:
+            if looking:
+                looking = False
                 if update_released(y, k[0], passage, inner, at, system, work):
-                    ball_rates(y, k[0], passage, inner, at, system, work)
-            if sampled:
+                    stage = 0  # another variable, another rate
+                    continue
+            if step % stride == 0:
                 true_forces(k[0], passage, inner, at, system, work)
                 sample = step // stride
                 record_rings(history, sample, y, k[0], rotor, work)
@@ -631,18 +641,14 @@ def march_balls(y, h, start_angle, stride, system, history, places):
     return n_steps if all_finite(y) else max(n_steps - BLOCK // 2, 0)
 
 
-@inlined
+@borrowing
 def smooth_start(y, passage, inner, system, work):
     """Turn the velocities in y into w: everything that is compressed counts as pushing."""
     rotor = system.rotor
     if rotor.variables == VELOCITIES:
         return
-    first = 4 * rotor.active.size
-    ring_state(y, False, rotor, work.x)
-    if rotor.variables == PLANAR:
-        planar_contacts(y, first, passage, inner, 0, system, work)
-    else:
-        find_contacts(y, first, passage, inner, 0, system, work)
+    ring_state(y, rotor, work.x)
+    locate_contacts(y, passage, inner, 0, system, work)
     for race in range(2):
         for j in range(system.contacts.angle.size):
             if work.contact[race, j, 0] > 0.0:

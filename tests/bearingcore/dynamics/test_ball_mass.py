@@ -165,24 +165,20 @@ def energy(scene: Scene, system: kernels.BallSystem, y: np.ndarray) -> float:
 
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])
 def test_undamped_motion_keeps_its_energy_to_the_methods_order(scene: Scene) -> None:
-    """RK4 loses energy as a power of the step: 5 of an oscillation, no less than 2 where balls
-    strike, as a contact's stiffness begins like a square root.
+    """Of RK4 that is the fifth power of the step while balls stay in contact, and no less than the
+    third where they let go and strike, as a contact's stiffness begins like a square root.
     """
     system, start = undamped(scene, free=False)
+    n = system.rotor.active.size
     before = energy(scene, system, start)
-    moving = energy(scene, system, start) - energy(
-        scene, system, start * np.where(np.arange(start.size) < 0, 0, 1)
-    )
-    assert moving == 0.0
-    kinetic = 0.5 * (start[2 : 4] ** 2).sum()
-    assert kinetic > 0.0
     drift = []
-    for steps in (800, 1600, 3200, 6400):
+    for steps in (800, 1600, 3200):
         _, y = marched(system, start, 2e-3, steps)
         drift.append(abs(energy(scene, system, y) - before))
-    size = 1e-6 * 0.5 * 2.0 * len(scene.active_dofs)
-    assert drift[-1] < 1e-5 * size
-    assert math.log2(drift[0] / drift[-1]) / 3.0 > 2.0
+    pushed = 0.5 * (start[n : 2 * n] ** 2 / system.rotor.inverse_inner).sum()
+    assert drift[-1] < 1e-6 * pushed
+    order = math.log2(drift[0] / drift[-1]) / 2.0
+    assert order > (4.5 if scene is GENERAL else 2.0)
 
 
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])
@@ -281,11 +277,12 @@ def test_two_families_of_methods_agree(law: str) -> None:
     """Steps of RK4 in variables without jumps, and scipy's DOP853 and Radau on the plain law."""
     ours = simulate(entering(law), 0.006, RATE).outer_velocity
     size = ours.std(axis=0)
-    explicit, implicit = by_scipy("DOP853", law), by_scipy("LSODA", law)
-    assert np.abs(explicit - implicit).max() < 5e-3 * size.max()
-    assert np.sqrt(np.mean((ours - explicit) ** 2, axis=0)).max() < 0.02 * size.max()
-    rms = np.diff(explicit, axis=0).std(axis=0)
-    assert np.diff(ours, axis=0).std(axis=0) == pytest.approx(rms, rel=0.02)
+    explicit, implicit = by_scipy("DOP853", law), by_scipy("Radau", law)
+    assert np.abs(explicit - implicit).max() < 1e-3 * size.max()
+    allowed = 1e-4 if law == "published" else 5e-3
+    assert np.sqrt(np.mean((ours - explicit) ** 2, axis=0)).max() < allowed * size.max()
+    rms = np.diff(explicit, axis=0).std(axis=0)  # what the housing's acceleration comes to
+    assert np.diff(ours, axis=0).std(axis=0) == pytest.approx(rms, rel=10.0 * allowed)
 
 
 # --- steps -----------------------------------------------------------------------------------------

@@ -5,6 +5,12 @@ from bearingcore.dynamics.modes import Modes, contact_damping, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.model.bearing import Bearing
+from bearingcore.model.catalogue import (
+    CatalogueBearing,
+    catalogue,
+    catalogue_text,
+    read_catalogue,
+)
 from bearingcore.model.defect import EDGES, RACES, Defect
 from bearingcore.model.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.model.load import Load
@@ -15,7 +21,10 @@ from bearingcore.signals.envelope_band import impulsive_band
 from bearingcore.signals.recording import Recording, Table, read_table
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
+from bearingcore.statics.film import Film, film
+from bearingcore.statics.life import Life, dynamic_load_rating, life
 from bearingcore.statics.maps import Maps, stiffness_maps
+from bearingcore.statics.pressure import ContactPressures, contact_pressures
 from bearingcore.statics.validity import Limit, limits
 from bearingcore.warm_up import warm
 
@@ -27,8 +36,12 @@ __all__ = [
     "STIFFNESS_TERMS",
     "Bearing",
     "Candidate",
+    "CatalogueBearing",
+    "ContactPressures",
     "Defect",
     "Equilibrium",
+    "Film",
+    "Life",
     "Limit",
     "Load",
     "Maps",
@@ -43,15 +56,22 @@ __all__ = [
     "Spectrum",
     "Support",
     "Table",
+    "catalogue",
+    "catalogue_text",
     "contact_damping",
+    "contact_pressures",
+    "dynamic_load_rating",
     "envelope_spectrum",
     "equilibrium",
+    "film",
     "impulsive_band",
+    "life",
     "limits",
     "modes",
     "orbit",
     "preset_notes",
     "presets",
+    "read_catalogue",
     "read_floor",
     "read_table",
     "simulate",

@@ -30,6 +30,7 @@ SUFFIXES = {
     "mrad": "mrad",
     "s": "s",
     "ms": "ms",
+    "h": "h",
     "Hz": "hz",
     "rad/s": "rad_per_s",
     "rpm": "rpm",

@@ -27,7 +27,7 @@ Runge-Kutta steps of order 4."""
 
 def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
     """1 where balls move in their plane alone (radially), else 2 (radially and axially)."""
-    flat = scene.bearing.contact_angle == 0.0 and set(dofs) <= set(DOF_NAMES[:2])
+    flat = scene.bearing.is_flat and set(dofs) <= set(DOF_NAMES[:2])
     return 1 if flat else 2
 
 
@@ -74,13 +74,13 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
     angle = system.contacts.angle
     c, s = np.cos(angle), np.sin(angle)
     radial = system.races.centrifugal - system.races.weight * s
-    carried = np.zeros(5)
-    carried[:2] = (radial * c).sum(), (radial * s).sum()
+    arm = system.contacts.arm
+    carried = np.array([radial @ c, radial @ s, 0.0, -(radial * arm) @ s, (radial * arm) @ c])
     outer = np.zeros(5)  # the housing sinks into its support, under the balls too
     outer[number] = (bodies.force + carried[number]) / bodies.stiffness
     rings = np.zeros((4, len(dofs)))
     rings[0], rings[2] = outer[number] + q[0, number], outer[number]
-    reach, arm = system.contacts.reach, system.contacts.arm
+    reach = system.contacts.reach
     balls = place[0]
     balls[0] += (outer[0] + arm * outer[4]) * c + (outer[1] - arm * outer[3]) * s
     balls[1] += outer[2] + reach * (outer[3] * s - outer[4] * c)
@@ -90,7 +90,7 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
 
 def contact_stiffness(scene: Scene, load: float) -> tuple[float, float]:
     """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
-    n = kernels.POINT_CONTACT
+    n = scene.bearing.contact_exponent
     inner, outer = (
         n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in scene.bearing.race_factors
     )

@@ -288,7 +288,8 @@ def simulate(
     y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
     if with_mass:
         stride = a_sample
-        place = np.full((n, place_parts(scene, dofs), scene.bearing.n_balls), math.nan)
+        n_balls = packing.contacts(scene.bearing).angle.size
+        place = np.full((n, place_parts(scene, dofs), n_balls), math.nan)
         history = np.empty((n, 6, len(dofs)))
     else:
         history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))

@@ -349,7 +349,7 @@ def energy_drifts(
     rate = steps_a_period * highest
     problem = motion_problem(still, still=True)
     n = len(problem.dofs)
-    force = problem.bodies[0]
+    force = problem.system.rotor.force
     size = float(np.linalg.norm(force))
     if size == 0.0:
         raise checks.refuse("load", 0.0, "one that the free directions feel")

@@ -170,7 +170,7 @@ def find_contacts(y, first, passage, inner, at, system, work):
             if race == INNER:
                 r, z = ring_at_ball(xi, cj, sj, j, contacts)
                 r -= br + contacts.clearance[j]
-                z -= bz
+                z += contacts.offset[j] - bz
                 drop = inner.d[at, j]
             else:
                 r, z = ring_at_ball(xo, cj, sj, j, contacts)

@@ -304,6 +304,7 @@ def ring_energy(q, force, balls, places, g, H):
         sj = places.s[j]
         r, z = ring_at_ball(x, cj, sj, j, contacts)
         r -= contacts.clearance[j]
+        z += contacts.offset[j]
         W, done, rr, rz, zz = settle_ball(r, z, j, balls, places)
         settled = settled and done
         energy += W
@@ -442,7 +443,7 @@ def ball_positions(cage_angles, start, balls, load):
     places = new_places(n_balls)
     slope = np.empty(n_balls)
     circle_c, circle_s = ball_circle(balls.contacts.angle)
-    work = new_descent()
+    work = new_descent(n_balls)
     for k in range(n):
         cage = cage_angles[k]
         turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, places.c, places.s)

@@ -8,7 +8,7 @@ each index and reads before anything else in it. Another version is no index: wh
 compiled again and takes its place. Nothing is deleted, so two processes that start at once, or a
 folder that cannot be written, need no care of ours.
 
-Fast mathematics that drops NaN or reorders sums stays off: NaN is how a missing answer is told.
+Fast mathematics that drops NaN or reorders sums stays off: NaN stands where an answer is missing.
 "contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
 statics a quarter faster. NaN, signs and the order of sums are as written.
 """

@@ -72,7 +72,7 @@ def touch(x, cj, sj, drop, j, contacts):
     sa = contacts.line_z[j]
     # Equations (11) and (12), d taken along the line of contact
     r = (x[0] + arm * x[4]) * cj + (x[1] - arm * x[3]) * sj - contacts.clearance[j]
-    z = x[2] + contacts.reach[j] * (x[3] * sj - x[4] * cj)
+    z = x[2] + contacts.reach[j] * (x[3] * sj - x[4] * cj) + contacts.offset[j]
     delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, contacts.distance[j])
     return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
 

@@ -35,7 +35,7 @@ from bearingcore.kernels.contact import (
     touch,
 )
 from bearingcore.kernels.path import BLOCK, lay_out_balls, new_passage
-from bearingcore.kernels.planar import planar_forces, planar_push
+from bearingcore.kernels.planar import accelerations, planar_equations_of_motion, planar_forces
 from bearingcore.kernels.structs import (
     PLANAR,
     SMOOTH,
@@ -156,17 +156,6 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
 
 
 @inlined
-def accelerations(rotor, a, force, xo, vo):
-    """Of inner and outer ring along active direction a (Eq. 18), the contacts pushing with `force`.
-
-    xo, vo: displacement and velocity of the outer ring.
-    """
-    inner = (rotor.force[a] - force) * rotor.inverse_inner[a]
-    outer = (force - rotor.stiffness[a] * xo - rotor.damping[a] * vo) * rotor.inverse_outer[a]
-    return inner, outer
-
-
-@inlined
 def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     """dy/dt into k (4 n,); y is x, w of the inner, x, w of the outer ring, n directions each.
 
@@ -180,21 +169,18 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     f = work.f
     S = work.S
     smooth = rotor.variables != VELOCITIES
-    planar = rotor.variables == PLANAR
-    count = 0
+    if rotor.variables == PLANAR:
+        planar_equations_of_motion(y, k, passage, at, rotor, contacts)
+        return 0
     for a in range(n):
         x[active[a]] = y[a] - y[2 * n + a]
-    if planar:
-        planar_push(passage, at, rotor, contacts, work)
-    else:
-        count = find_touching(passage, at, contacts, work)
+    count = find_touching(passage, at, contacts, work)
     for a in range(n):
         jump = damping * S[active[a]] if smooth else 0.0
         k[a] = y[n + a] - rotor.inverse_inner[a] * jump
         k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * jump
         v[active[a]] = k[a] - k[2 * n + a]
-    if not planar:
-        push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
+    push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
     for a in range(n):
         k[n + a], k[3 * n + a] = accelerations(rotor, a, f[active[a]], y[2 * n + a], k[2 * n + a])
     return count
@@ -266,11 +252,11 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
                         tangent.trial[r, column] = (
                             Y[r, column] + part * tangent.k[before, r, column]
                         )
-                contact_slopes(passage, at, rotor, contacts, forces, count, slopes)
+                contact_slopes(trial, passage, at, system, forces, count, slopes)
                 tangent_rates(tangent.trial, tangent.k[stage], rotor, slopes)
             if stage == 0:
                 if rotor.variables == PLANAR:
-                    planar_forces(passage, at, rotor, contacts, forces)
+                    planar_forces(y, k[0], passage, at, rotor, contacts, forces.f)
                 elif rotor.variables == SMOOTH:
                     push_of_contacts(passage, at, rotor, contacts, forces, count, False)
                 record(history, step, y, k[0], rotor, forces.f)

@@ -171,7 +171,7 @@ def ball_circle(angle):
 
 @inlined
 def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s):
-    """Cosine and sine of each ball into c and s (n,), the cage turned by an angle told by its own.
+    """Cosine and sine of each ball into c and s (n,), those of the cage being cage_c and cage_s.
 
     A rotation instead of a sine and a cosine for each ball.
     """

@@ -7,10 +7,22 @@ from bearingcore.kernels.contact import contact_load
 
 
 @inlined
-def planar_push(passage, at, rotor, contacts, work):
-    """Σ δ e into work.S and p = Σ (Q e − c δ ė) into work.f at work.x, two components each."""
-    x0 = work.x[0]
-    x1 = work.x[1]
+def accelerations(rotor, a, force, xo, vo):
+    """Of inner and outer ring along active direction a (Eq. 18), the contacts pushing with `force`.
+
+    xo, vo: displacement and velocity of the outer ring.
+    """
+    inner = (rotor.force[a] - force) * rotor.inverse_inner[a]
+    outer = (force - rotor.stiffness[a] * xo - rotor.damping[a] * vo) * rotor.inverse_outer[a]
+    return inner, outer
+
+
+@inlined
+def planar_sums(x0, x1, passage, at, contacts):
+    """Σ Q e [N] and S = Σ δ e [m] over the loaded balls at the relative displacement x."""
+    c = passage.c
+    s = passage.s
+    d = passage.d
     clearance = contacts.clearance
     factor = contacts.factor
     exponent = contacts.exponent
@@ -19,29 +31,49 @@ def planar_push(passage, at, rotor, contacts, work):
     S0 = 0.0
     S1 = 0.0
     for j in range(clearance.size):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
-        delta = x0 * cj + x1 * sj - clearance[j] - passage.d[at, j]  # Equation (19)
+        cj = c[at, j]
+        sj = s[at, j]
+        delta = x0 * cj + x1 * sj - clearance[j] - d[at, j]  # Equation (19)
         if delta > 0.0:
             _, Q, _ = contact_load(delta, factor[j], exponent[j])
             f0 += Q * cj
             f1 += Q * sj
             S0 += delta * cj
             S1 += delta * sj
-    turning = rotor.contact_damping * rotor.cage_speed
-    work.S[0] = S0
-    work.S[1] = S1
-    work.f[0] = f0 + turning * S1
-    work.f[1] = f1 - turning * S0
+    return f0, f1, S0, S1
 
 
 @inlined
-def planar_forces(passage, at, rotor, contacts, work):
-    """Σ (Q + c δ̇) e into work.f at work.x and work.v (Eq. 18)."""
-    x0 = work.x[0]
-    x1 = work.x[1]
-    u0 = work.v[0] + rotor.cage_speed * x1  # the turning of the balls, moved over to the rings
-    u1 = work.v[1] - rotor.cage_speed * x0
+def planar_equations_of_motion(y, k, passage, at, rotor, contacts):
+    """`motion.equations_of_motion` for y (8,), from one number to the next without work space."""
+    xo0 = y[4]
+    xo1 = y[5]
+    f0, f1, S0, S1 = planar_sums(y[0] - xo0, y[1] - xo1, passage, at, contacts)
+    damping = rotor.contact_damping
+    S0 *= damping
+    S1 *= damping
+    vi0 = y[2] - rotor.inverse_inner[0] * S0
+    vi1 = y[3] - rotor.inverse_inner[1] * S1
+    vo0 = y[6] + rotor.inverse_outer[0] * S0
+    vo1 = y[7] + rotor.inverse_outer[1] * S1
+    w = rotor.cage_speed
+    ai0, ao0 = accelerations(rotor, 0, f0 + w * S1, xo0, vo0)
+    ai1, ao1 = accelerations(rotor, 1, f1 - w * S0, xo1, vo1)
+    k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7] = vi0, vi1, ai0, ai1, vo0, vo1, ao0, ao1
+
+
+@inlined
+def planar_forces(y, k, passage, at, rotor, contacts, f):
+    """Σ (Q + c δ̇) e into f (5,) at the state y (8,) whose rate is k (Eq. 18)."""
+    w = rotor.cage_speed
+    c = passage.c
+    s = passage.s
+    d = passage.d
+    d_rate = passage.d_rate
+    x0 = y[0] - y[4]
+    x1 = y[1] - y[5]
+    u0 = k[0] - k[4] + w * x1  # the turning of the balls, moved over to the rings
+    u1 = k[1] - k[5] - w * x0
     clearance = contacts.clearance
     factor = contacts.factor
     exponent = contacts.exponent
@@ -49,23 +81,23 @@ def planar_forces(passage, at, rotor, contacts, work):
     f0 = 0.0
     f1 = 0.0
     for j in range(clearance.size):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
-        delta = x0 * cj + x1 * sj - clearance[j] - passage.d[at, j]
+        cj = c[at, j]
+        sj = s[at, j]
+        delta = x0 * cj + x1 * sj - clearance[j] - d[at, j]
         if delta > 0.0:
             _, Q, _ = contact_load(delta, factor[j], exponent[j])
-            push = Q + damping * (u0 * cj + u1 * sj - passage.d_rate[at, j])
+            push = Q + damping * (u0 * cj + u1 * sj - d_rate[at, j])
             f0 += push * cj
             f1 += push * sj
-    work.f[0] = f0
-    work.f[1] = f1
+    f[0] = f0
+    f[1] = f1
 
 
 @inlined
-def planar_slopes(passage, at, rotor, contacts, work, slopes):
+def planar_slopes(y, passage, at, rotor, contacts, slopes):
     """How Σ δ e and p change with x, into slopes.Sx and slopes.Px."""
-    x0 = work.x[0]
-    x1 = work.x[1]
+    x0 = y[0] - y[4]
+    x1 = y[1] - y[5]
     clearance = contacts.clearance
     factor = contacts.factor
     exponent = contacts.exponent

@@ -220,7 +220,7 @@ def least_pivot(H, active):
     return least / greatest
 
 
-@compiled
+@inlined
 def with_factors(contacts, factor):
     """The same contacts with other load-deflection factors (n,)."""
     return Contacts(
@@ -231,28 +231,41 @@ def with_factors(contacts, factor):
         contacts.line_z,
         contacts.distance,
         contacts.clearance,
+        contacts.offset,
         factor,
         contacts.exponent,
         contacts.rows,
     )
 
 
-@compiled
-def without_faint(q, noise, place, contacts, load, g, H):
+@borrowing
+def without_faint(q, noise, place, contacts, load, work, other):
     """Whether the balls that carry more than `noise` [N] hold the ring on their own.
 
     The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
     they held the ring there. Returns the least pivot without them, whose gradient and Hessian are
-    put into g and H.
+    put into work.g[other] and work.H[other].
     """
-    factor = contacts.factor.copy()
+    factor = work.firm
     x = components(q)
     for j in range(factor.size):
         Q, _, _ = carried(x, place, j, contacts)
-        if noise >= Q:
-            factor[j] = 0.0
-    energy_gradient_hessian(q, load.force, place, with_factors(contacts, factor), g, H)
+        factor[j] = contacts.factor[j] if noise < Q else 0.0
+    firm = with_factors(contacts, factor)
+    H = work.H[other]
+    energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
     return least_pivot(H, load.active)
+
+
+@compiled
+def pressed_load(q, place, contacts):
+    """Sum [N] of what all contacts carry."""
+    x = components(q)
+    total = 0.0
+    for j in range(contacts.factor.size):
+        Q, _, _ = carried(x, place, j, contacts)
+        total += Q
+    return total
 
 
 @inlined
@@ -302,6 +315,7 @@ def descend(q, place, contacts, load, work, most):
     residual = math.inf
     limit = RESIDUAL_LIMIT
     stuck = False
+    preloaded = False
     slope = 0.0
     V = 0.0
     scale = 0.0
@@ -325,6 +339,8 @@ def descend(q, place, contacts, load, work, most):
                 norm += g[i] * g[i]
                 stiffest = max(stiffest, H[now, i, i])
             whole = math.sqrt(carried_load + max(taken, 0.0))
+            if preloaded:
+                whole = pressed_load(q, place, contacts)
             if whole <= nothing:
                 return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
             before = residual
@@ -335,7 +351,7 @@ def descend(q, place, contacts, load, work, most):
             if residual <= RESIDUAL_AIM or settled or stuck:
                 noise = FAINT * max(residual, RESIDUAL_AIM) * whole
                 if faintest < noise:
-                    least = without_faint(q, noise, place, contacts, load, G[1 - now], H[1 - now])
+                    least = without_faint(q, noise, place, contacts, load, work, 1 - now)
                     if not least > NO_PIVOT:
                         now = 1 - now
                 if least < DOUBTFUL_PIVOT:
@@ -399,11 +415,13 @@ def descend(q, place, contacts, load, work, most):
         now = 1 - now
         if iteration < 0:
             if size == 0.0:
-                # only a clearance so large that the ring, held axially, is wedged presses balls
+                # only a clearance so large that the ring, held axially, is wedged presses balls,
+                # or rows that press each other
+                preloaded = contacts.rows.shape[0] > 1
                 for i in range(5):
                     size += (G[now, i] + F[i]) ** 2
-                size = math.sqrt(size)
-                if size == 0.0 or axial:
+                size = pressed_load(q, place, contacts) if preloaded else math.sqrt(size)
+                if size == 0.0 or (axial and not preloaded):
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
                 lost = ROUNDING * (contacts.distance[hard] + contacts.clearance[hard])
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
@@ -413,37 +431,23 @@ def descend(q, place, contacts, load, work, most):
     return now, NOT_CONVERGED, residual, most, evaluations
 
 
-@inlined
+@borrowing
 def minimise_energy(q, place, contacts, load, work):
     """Move q to the minimum of V over the active directions.
 
     Returns (which, status, residual, iterations, evaluations): work.g[which] and work.H[which]
     belong to the final q.
+
+    A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
+    as wide as a compression; Newton's straight steps in it are short. Where they do not come to
+    their end it is reached with soft balls first, whose valley is wide, and from there with harder
+    ones: how far their answers lie apart is about what the softer balls are compressed.
     """
     now, status, residual, iterations, evaluations = descend(
         q, place, contacts, load, work, MOST_ITERATIONS
     )
-    if status == NOT_CONVERGED:
-        now, status, residual, more, calls = descend_from_soft(q, place, contacts, load, work)
-        iterations += more
-        evaluations += calls
-    return now, status, residual, iterations, evaluations
-
-
-@compiled
-def descend_from_soft(q, place, contacts, load, work):
-    """Move q to the minimum of V where Newton's steps do not come to their end.
-
-    A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
-    as wide as a compression; Newton's straight steps in it are short. So it is reached with soft
-    balls first, whose valley is wide, and from there with harder ones: how far their answers lie
-    apart is about what the softer balls are compressed. Returns what `minimise_energy` does.
-    """
-    now = 0
-    status = NOT_CONVERGED
-    residual = math.nan
-    iterations = 0
-    evaluations = 0
+    if status != NOT_CONVERGED:
+        return now, status, residual, iterations, evaluations
     F = load.force
     active = load.active
     size = load_size(load)
@@ -452,7 +456,8 @@ def descend_from_soft(q, place, contacts, load, work):
     exponent = contacts.exponent[one]
     soft = contacts.distance[one]  # compression of one ball under all of the load, at this softness
     hard = compression_under(size, K, exponent)
-    start = np.zeros(5)
+    start = work.start
+    soft_factor = work.soft
     for i in active:
         # of a wedged ring without a load nothing tells how soft to begin
         away = contacts.clearance[one] / contacts.line_r[one] + soft
@@ -466,13 +471,11 @@ def descend_from_soft(q, place, contacts, load, work):
             softer = size / stiff_load
         for i in active:
             q[i] = start[i]
+        for j in range(soft_factor.size):
+            soft_factor[j] = softer * contacts.factor[j]
+        softened = with_factors(contacts, soft_factor)
         now, status, residual, more, calls = descend(
-            q,
-            place,
-            with_factors(contacts, softer * contacts.factor),
-            load,
-            work,
-            MOST_PATIENT_ITERATIONS,
+            q, place, softened, load, work, MOST_PATIENT_ITERATIONS
         )
         iterations += more
         evaluations += calls
@@ -525,10 +528,17 @@ def first_guess(contacts, load, state):
 
 
 @compiled
-def new_descent():
+def new_descent(n_contacts):
     """Empty work space of Newton's descent."""
     return Descent(
-        np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5)), np.zeros(5), np.zeros(5)
+        np.zeros((2, 5)),
+        np.zeros((2, 5, 5)),
+        np.zeros((5, 5)),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(n_contacts),
+        np.zeros(n_contacts),
     )
 
 
@@ -553,7 +563,7 @@ def static_states(cage_angles, contacts, path, load):
     place = Place(np.empty(n_contacts), np.empty(n_contacts), np.zeros(n_contacts))
     slope = np.empty(n_contacts)
     circle_c, circle_s = ball_circle(contacts.angle)
-    work = new_descent()
+    work = new_descent(n_contacts)
     state = np.zeros(5)
     first_guess(contacts, load, state)
     guess = state.copy()
@@ -613,7 +623,7 @@ def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers
     for k in range(n):
         cage = cage_angles[k]
         turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, c[k], s[k])
-    work = new_descent()
+    work = new_descent(n_contacts)
     state = np.zeros(5)
     guess = np.zeros(5)
     first_guess(contacts, load, guess)

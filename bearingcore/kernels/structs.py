@@ -48,6 +48,8 @@ class Contacts(NamedTuple):
         unloaded distance A0 of the groove curvature centres.
     clearance [m]
         radial clearance r_L.
+    offset [m]
+        axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
     factor [N/m^exponent], exponent
         of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
     rows : (k, 2)
@@ -61,6 +63,7 @@ class Contacts(NamedTuple):
     line_z: Array
     distance: Array
     clearance: Array
+    offset: Array
     factor: Array
     exponent: Array
     rows: Integers
@@ -117,6 +120,10 @@ class Descent(NamedTuple):
         gradient and Hessian where the ring stands and where it is tried.
     L : (5, 5), p : (5,) [m], trial : (5,) [m]
         Cholesky factor, step, and the displacement tried.
+    start : (5,) [m]
+        where the descent with softened contacts begins.
+    soft, firm : (contacts,) [N/m^exponent]
+        factors of softened contacts, and of those that carry more than rounding.
     """
 
     g: Array
@@ -124,6 +131,9 @@ class Descent(NamedTuple):
     L: Array
     p: Array
     trial: Array
+    start: Array
+    soft: Array
+    firm: Array
 
 
 class MapPaths(NamedTuple):

@@ -28,10 +28,12 @@ def new_slopes(size, columns, n_contacts):
 
 
 @inlined
-def contact_slopes(passage, at, rotor, contacts, work, count, slopes):
-    """How Σ δ e and the force change with x and v, into slopes.Sx, Px and Pv."""
+def contact_slopes(y, passage, at, system, work, count, slopes):
+    """How Σ δ e and the force change with x and v at the state y, into slopes.Sx, Px and Pv."""
+    rotor = system.rotor
+    contacts = system.contacts
     if rotor.variables == PLANAR:
-        planar_slopes(passage, at, rotor, contacts, work, slopes)
+        planar_slopes(y, passage, at, rotor, contacts, slopes)
     else:
         swivelling_slopes(passage, at, rotor, contacts, work, count, slopes)
 

@@ -20,13 +20,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Self
 
 from bearingcore.common import checks
-from bearingcore.model import drawing
-from bearingcore.model.hertz import RaceContact, in_series, race_contact
+from bearingcore.model import drawing, scene_file
+from bearingcore.model.hertz import RaceContact, in_series, race_contact, spherical_contact
+from bearingcore.model.rows import MOST_ROWS, Row, pair
 
 STEEL_DENSITY = 7800.0
 """Density [kg/m³] of balls of bearing steel."""
@@ -34,7 +35,7 @@ STEEL_DENSITY = 7800.0
 
 @dataclass(frozen=True)
 class Bearing:
-    """A single-row ball bearing as the contact model sees it (SI units, angles in rad).
+    """A ball or roller bearing as the contact model sees it (SI units, angles in rad).
 
     Parameters
     ----------
@@ -58,7 +59,11 @@ class Bearing:
     inner_groove_radius, outer_groove_radius, youngs_modulus, poisson
         r_i, r_o [m], E [Pa] and ν where the drawing is known, all four of them: contact pressure
         needs them. `from_drawing` derives K, A0, r_d, R_o and R_i from them, `replace` again.
-
+    rows
+        none for one row at the middle of the bearing; else each `Row`. `n_balls` are those of one.
+    roller_length
+        [m] of cylindrical rollers, which stand in place of balls: line contact, K in N/m^(10/9),
+        radial directions only. None for balls.
     density
         of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
         it.
@@ -85,7 +90,9 @@ class Bearing:
     outer_groove_radius: float | None = None
     youngs_modulus: float | None = None
     poisson: float | None = None
-    density: float = STEEL_DENSITY
+    rows: tuple[Row, ...] = ()
+    roller_length: float | None = None
+    density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -135,6 +142,157 @@ class Bearing:
                 keep(name, drawing.check_groove(race, getattr(self, name), self.ball_diameter))
             keep("youngs_modulus", drawing.check_youngs_modulus(self.youngs_modulus))
             keep("poisson", drawing.check_poisson(self.poisson))
+
+        rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
+        object.__setattr__(self, "rows", tuple(rows))
+        if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
+            raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
+        if self.roller_length is not None:
+            keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
+            if self.contact_angle != 0.0 or self.rows or self.is_drawn:
+                raise checks.refuse(
+                    "roller_length",
+                    self.roller_length,
+                    "None, unless contact_angle is 0 with one row and no groove radii",
+                )
+
+    @classmethod
+    def cylindrical(
+        cls,
+        n_rollers: int,
+        roller_diameter: float,
+        roller_length: float,
+        pitch_diameter: float,
+        radial_clearance: float = 0.0,
+    ) -> Self:
+        """A cylindrical roller bearing of steel, with Palmgren's law of its line contacts.
+
+        K = 8.06e4 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
+        Lengths in m. A roller does not tilt here and carries nothing along the shaft.
+
+        Raises
+        ------
+        ValueError
+            naming the field, its value and what is allowed.
+        """
+        length = checks.number("roller_length", roller_length, above=0.0, unit="m")
+        diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
+        pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+        return cls(
+            n_balls=n_rollers,
+            ball_diameter=diameter,
+            pitch_diameter=pitch,
+            contact_angle=0.0,
+            groove_center_radius=0.5 * pitch,
+            groove_center_distance=diameter,  # of no account where contacts never swivel
+            radial_clearance=radial_clearance,
+            load_deflection_factor=8.06e4 * (1e3 * length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0),
+            outer_raceway_radius=0.5 * (pitch + diameter),
+            inner_raceway_radius=0.5 * (pitch - diameter),
+            roller_length=length,
+        )
+
+    @classmethod
+    def self_aligning(
+        cls,
+        n_balls: int,
+        ball_diameter: float,
+        sphere_radius: float,
+        inner_groove_radius: float,
+        contact_angle: float,
+        radial_clearance: float = 0.0,
+        youngs_modulus: float = 210e9,
+        poisson: float = 0.3,
+    ) -> Self:
+        """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
+
+        Parameters
+        ----------
+        n_balls
+            of each row.
+        ball_diameter, sphere_radius, inner_groove_radius
+            D_b, R_e and r_i [m].
+        contact_angle
+            α0 [rad] of both rows, above 0.
+        radial_clearance
+            r_L [m].
+        youngs_modulus, poisson
+            E [Pa] and ν; steel by default.
+
+        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
+        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
+        turning the inner ring about the middle moves no ball.
+
+        Raises
+        ------
+        ValueError
+            for a drawing that cannot be built.
+        """
+        angle = drawing.check_contact_angle(contact_angle)
+        checks.number("contact_angle", angle, above=0.0, unit="rad")
+        diameter = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
+        sphere = checks.number("sphere_radius", sphere_radius, above=diameter, unit="m")
+        drawing.check_groove("inner", inner_groove_radius, diameter)
+        centers = sphere - 0.5 * diameter
+        pitch = 2.0 * centers * math.cos(angle)
+        distance = sphere + inner_groove_radius - diameter
+        inner = race_contact(
+            "inner", diameter, pitch, inner_groove_radius, angle, youngs_modulus, poisson
+        )
+        outer = spherical_contact(diameter, sphere, youngs_modulus, poisson)
+        place = distance * math.sin(angle)
+        return cls(
+            n_balls=n_balls,
+            ball_diameter=diameter,
+            pitch_diameter=pitch,
+            contact_angle=angle,
+            groove_center_radius=distance * math.cos(angle),
+            groove_center_distance=distance,
+            radial_clearance=radial_clearance,
+            load_deflection_factor=in_series(
+                inner.load_deflection_factor, outer.load_deflection_factor
+            ),
+            outer_raceway_radius=sphere,
+            inner_raceway_radius=0.5 * pitch - 0.5 * diameter * math.cos(angle),
+            rows=(Row(-place, -1), Row(place, 1)),
+        )
+
+    def paired(self, distance: float, arrangement: str, preload: float = 0.0) -> Self:
+        """Two rows like this one, `distance` [m] apart on the shaft.
+
+        `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
+        inner grooves are pushed along the shaft against each other.
+
+        Raises
+        ------
+        ValueError
+            for a bearing that has rows already, or without a contact angle for a preload.
+        """
+        if self.rows:
+            raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
+        if preload > 0.0 and self.contact_angle == 0.0:
+            raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+        return dataclasses.replace(self, rows=pair(distance, arrangement, preload))
+
+    @property
+    def all_rows(self) -> tuple[Row, ...]:
+        """The rows, also where there is but one."""
+        return self.rows or (Row(),)
+
+    @property
+    def is_roller(self) -> bool:
+        """True for cylindrical rollers instead of balls."""
+        return self.roller_length is not None
+
+    @property
+    def contact_exponent(self) -> float:
+        """Exponent of load over compression: 3/2 for balls, 10/9 for rollers (Palmgren)."""
+        return 10.0 / 9.0 if self.is_roller else 1.5
+
+    @property
+    def is_flat(self) -> bool:
+        """True where a radial load moves nothing out of the plane of the balls."""
+        return self.contact_angle == 0.0 and all(row.place == 0.0 for row in self.all_rows)
 
     @classmethod
     def from_drawing(
@@ -292,7 +450,9 @@ class Bearing:
 
     @property
     def ball_mass(self) -> float:
-        """Mass of a ball [kg], of its density throughout."""
+        """Mass of a ball or roller [kg], of its density throughout."""
+        if self.roller_length is not None:
+            return self.density * math.pi / 4.0 * self.ball_diameter**2 * self.roller_length
         return self.density * math.pi / 6.0 * self.ball_diameter**3
 
     def centrifugal_load(self, shaft_speed: float) -> float:
@@ -301,17 +461,19 @@ class Bearing:
 
     @property
     def race_factors(self) -> tuple[float, float]:
-        """Load-deflection factors [N/m^1.5] of a ball's contacts with the inner and outer race.
+        """Load-deflection factors [N/m^n] of a ball's contacts with the inner and outer race.
 
         Their ratio is that of Hertz's contacts where the drawing is known and 1 elsewhere, and in
-        series they are `load_deflection_factor`: of both contacts alike each is 2^1.5 of it.
+        series they are `load_deflection_factor`: of both contacts alike each is 2^n of it, n being
+        `contact_exponent`.
         """
         inner, outer = (
             (self.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
             if self.is_drawn
             else (1.0, 1.0)
         )
-        scale = self.load_deflection_factor / in_series(inner, outer)
+        n = self.contact_exponent
+        scale = self.load_deflection_factor * (inner ** (-1.0 / n) + outer ** (-1.0 / n)) ** n
         return scale * inner, scale * outer
 
     @property

@@ -25,6 +25,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.floor import MeasuredFloor, RoughFloor, measured_floor
+from bearingcore.model.rows import MOST_ROWS
 
 RACES = ("outer", "inner")
 EDGES = ("published", "chord", "exact")
@@ -55,6 +56,8 @@ class Defect:
         how the ball's centre follows the edges: "published", "chord" or "exact".
     floor
         None for a flat floor, or a `RoughFloor` or `MeasuredFloor`, whose depth is then `depth`.
+    row
+        number of the row of balls that meets it, counted from 0; None where all rows do.
 
     Raises
     ------
@@ -68,6 +71,7 @@ class Defect:
     race: str = "outer"
     edge: str = "published"
     floor: RoughFloor | MeasuredFloor | None = None
+    row: int | None = None
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -84,6 +88,9 @@ class Defect:
         checks.choice("edge", self.edge, EDGES)
         if not isinstance(self.floor, RoughFloor | MeasuredFloor | None):
             raise checks.refuse("floor", self.floor, "None, a RoughFloor or a MeasuredFloor")
+        if self.row is not None:
+            number = checks.whole_number("row", self.row, at_least=0, at_most=MOST_ROWS - 1)
+            object.__setattr__(self, "row", number)
 
     @classmethod
     def none(cls) -> Self:
@@ -127,6 +134,13 @@ class Defect:
                 "the edge",
             )
 
+    def check_row(self, bearing: Bearing) -> None:
+        """Raise ValueError where `bearing` has no such row."""
+        if self.row is not None and self.row >= len(bearing.all_rows):
+            raise checks.refuse(
+                "row of a defect", self.row, f"None, or below the {len(bearing.all_rows)} rows"
+            )
+
     def check_floor(self, bearing: Bearing) -> None:
         """Raise ValueError where the floor is finer than can be computed on a race of `bearing`."""
         if isinstance(self.floor, RoughFloor):
@@ -155,7 +169,8 @@ class Defect:
             code = kernels.INNER_EXACT
         turn = self.turn_ratio(bearing)
         edge = (self.center, turn, 0.5 * self.extent, h, s_floor, code, R, r_b)
-        return np.array([*edge, 0.0, 0.0, kernels.EVERY_ROW])
+        row = kernels.EVERY_ROW if self.row is None else self.row
+        return np.array([*edge, 0.0, 0.0, row])
 
     def surface(self, angle: ArrayLike, bearing: Bearing) -> NDArray[np.float64]:
         """Actual depth [m] of the race at angles [rad], cage angle 0: what was cut."""
@@ -199,7 +214,9 @@ def edge_drop(
     rows = row[None, :].copy()
     rows[0, 0] = 0.0
     drop = np.full(away.size, math.inf)
-    drop[near] = kernels.ball_path(x, np.zeros_like(x), 0, kernels.Path(rows, np.zeros(0)))
+    drop[near] = kernels.ball_path(
+        x, np.zeros_like(x), int(max(row[-1], 0)), kernels.Path(rows, np.zeros(0))
+    )
     return drop.reshape(np.shape(s))
 
 
@@ -244,14 +261,16 @@ def drop_into(
     bearing: Bearing,
     ball_angle: ArrayLike,
     cage_angle: ArrayLike = 0.0,
+    row: int = 0,
 ) -> NDArray[np.float64]:
     """Drop [m] of a ball's centre at the ball angles [rad] into all of the defects.
 
-    `cage_angle` [rad] says how far the cage has turned; shapes broadcast.
+    `cage_angle` [rad] says how far the cage has turned, `row` which row's ball it is; shapes
+    broadcast.
     """
     angles = np.asarray(ball_angle, dtype=float) + np.zeros_like(cage_angle, dtype=float)
     cage = np.asarray(cage_angle, dtype=float) + np.zeros_like(angles)
-    drop = kernels.ball_path(angles.ravel(), cage.ravel(), 0, path_tables(defects, bearing))
+    drop = kernels.ball_path(angles.ravel(), cage.ravel(), row, path_tables(defects, bearing))
     return drop.reshape(angles.shape)
 
 
@@ -264,6 +283,7 @@ def _touching(defects: tuple[Defect, ...]) -> list[list[Defect]]:
             for group in groups
             if any(
                 other.race == defect.race
+                and (other.row is None or defect.row is None or other.row == defect.row)
                 and abs(float(_wrapped(np.array(other.center - defect.center))))
                 <= 0.5 * (other.extent + defect.extent)
                 for other in group
@@ -293,6 +313,12 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, N
     every step's corner: d(φ) = min over the stretches k of h_k + drop(angle from φ to stretch k).
     """
     first = group[0]
+    if any(defect.row != first.row for defect in group):
+        raise checks.refuse(
+            "row of a defect",
+            [defect.row for defect in group],
+            "the same where defects touch, or defects that stand apart",
+        )
     if any(defect.floor is not None or defect.edge != first.edge for defect in group):
         raise checks.refuse(
             "defect",

@@ -159,6 +159,22 @@ def race_contact(
     )
 
 
+def spherical_contact(
+    ball_diameter: float, sphere_radius: float, youngs_modulus: float, poisson: float
+) -> RaceContact:
+    """Contact of a ball with a spherical outer race of radius R_e [m]: a circle, χ = 1."""
+    return RaceContact(
+        race="outer",
+        curvature_sum=4.0 / ball_diameter - 2.0 / sphere_radius,
+        curvature_difference=0.0,
+        ellipse_ratio=1.0,
+        first_integral=0.5 * math.pi,
+        second_integral=0.5 * math.pi,
+        youngs_modulus=youngs_modulus,
+        poisson=poisson,
+    )
+
+
 def _ellipse_ratio(rest: float) -> float:
     """χ at which 2/(χ²−1)·(K/E − 1) = rest, with rest = 1 − F(ρ).
 

@@ -41,22 +41,27 @@ class BodyNumbers(NamedTuple):
 @lru_cache(maxsize=256)
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """All contacts of a bearing."""
-    n = bearing.n_balls
+    n, rows = bearing.n_balls, bearing.all_rows
 
-    def each(value: float) -> Array:
-        return np.full(n, float(value))
+    def each(*values: float) -> Array:
+        """The values of the rows, once for each of their contacts."""
+        return np.repeat(np.array(values, dtype=float), n)
+
+    def alike(value: float) -> Array:
+        return np.full(n * len(rows), float(value))
 
     return kernels.Contacts(
-        angle=bearing.ball_spacing * np.arange(n),
-        arm=each(0.0),
-        reach=each(1.0),
-        line_r=each(math.cos(bearing.contact_angle)),
-        line_z=each(math.sin(bearing.contact_angle)),
-        distance=each(bearing.groove_center_distance),
-        clearance=each(bearing.radial_clearance),
-        factor=each(bearing.load_deflection_factor),
-        exponent=each(kernels.POINT_CONTACT),
-        rows=np.array([[0, n]]),
+        angle=np.concatenate([row.turn + bearing.ball_spacing * np.arange(n) for row in rows]),
+        arm=each(*(row.place / bearing.groove_center_radius for row in rows)),
+        reach=alike(1.0),
+        line_r=alike(math.cos(bearing.contact_angle)),
+        line_z=each(*(row.facing * math.sin(bearing.contact_angle) for row in rows)),
+        distance=alike(bearing.groove_center_distance),
+        clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
+        offset=each(*(row.offset for row in rows)),
+        factor=alike(bearing.load_deflection_factor),
+        exponent=alike(bearing.contact_exponent),
+        rows=np.array([[k * n, n] for k in range(len(rows))]),
     )
 
 
@@ -74,9 +79,9 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
     bearing = scene.bearing
-    n = bearing.n_balls
+    n = bearing.n_balls * len(bearing.all_rows)
     inner, outer = bearing.race_factors
-    softer = (inner / outer) ** (1.0 / kernels.POINT_CONTACT)
+    softer = (inner / outer) ** (1.0 / bearing.contact_exponent)
     mass = bearing.ball_mass
 
     def each(*values: float) -> Array:
@@ -166,5 +171,5 @@ def is_planar(scene: Scene) -> bool:
 
     Such a motion is cheaper: its contacts never swivel.
     """
-    flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.contact_angle == 0.0
+    flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.is_flat
     return flat and scene.contact_law == "published"

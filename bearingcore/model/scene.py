@@ -64,7 +64,7 @@ class Scene:
     contact_damping: float | None = None
     contact_law: str = "published"
     dofs: tuple[str, ...] | None = None
-    balls: str = MASSLESS
+    balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
         def keep(name: str, value: object) -> None:
@@ -89,11 +89,24 @@ class Scene:
         for name, kind in (("bearing", Bearing), ("load", Load), ("support", Support)):
             if not isinstance(getattr(self, name), kind):
                 raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
+        if self.bearing.is_roller:
+            self._check_radial()
         for defect in self.defects:
+            defect.check_row(self.bearing)
             defect.check_depth(self.bearing)
             defect.check_floor(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
+
+    def _check_radial(self) -> None:
+        """Refuse what cylindrical rollers cannot carry."""
+        for name in ("fz", "mx", "my"):
+            if getattr(self.load, name) != 0.0:
+                raise checks.refuse(
+                    name, getattr(self.load, name), "0: cylindrical rollers carry radial loads only"
+                )
+        if self.dofs is not None and not set(self.dofs) <= set(DOF_NAMES[:2]):
+            raise checks.refuse("dofs", self.dofs, "x and y, where the bearing has rollers")
 
     @property
     def defects(self) -> tuple[Defect, ...]:
@@ -108,7 +121,9 @@ class Scene:
         A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
         symmetry: z, rx and ry stay zero and only x and y are needed.
         """
-        flat = self.bearing.contact_angle == 0.0
+        if self.bearing.is_roller:
+            return DOF_NAMES[:2]  # it carries nothing else
+        flat = self.bearing.is_flat
         radial = self.load.fz == self.load.mx == self.load.my == 0.0
         return DOF_NAMES[:2] if flat and radial else DOF_NAMES
 

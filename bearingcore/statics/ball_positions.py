@@ -134,7 +134,7 @@ def ball_positions(
     active = massless.dofs
     races = packing.races(scene, 0.0, weight=weight)
     if centrifugal_load is not None:
-        races = races._replace(centrifugal=np.full(scene.bearing.n_balls, float(centrifugal_load)))
+        races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
     q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
         massless.cage_angles,

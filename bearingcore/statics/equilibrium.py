@@ -96,9 +96,8 @@ class Equilibrium:
 
     @cached_property
     def ball_angle(self) -> NDArray[np.float64]:
-        """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4)."""
-        n_balls = self.scene.bearing.n_balls
-        offsets = self.scene.bearing.ball_spacing * np.arange(n_balls)
+        """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""
+        offsets = packing.contacts(self.scene.bearing).angle
         return (self.cage_angles[:, None] + offsets) % (2.0 * math.pi)
 
     @cached_property

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.model.defect import RACES, drop_into
+from bearingcore.model.packing import contacts
 from bearingcore.model.scene import Scene
 
 TWO_PI = 2.0 * math.pi
@@ -27,7 +28,7 @@ class Crossing(NamedTuple):
     cage_angle: float
     """[rad]"""
     ball: int
-    """counted from 0"""
+    """counted from 0, row after row"""
     defect: int
     """index into `scene.defects`"""
     enters: bool
@@ -54,7 +55,7 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
     A defect around the whole race has no edges and gives none.
     """
     found = []
-    spacing = scene.bearing.ball_spacing
+    angles = contacts(scene.bearing).angle.tolist()
     for index, defect in enumerate(scene.defects):
         if defect.extent >= TWO_PI:
             continue
@@ -62,9 +63,11 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
         rate = 1.0 - defect.turn_ratio(scene.bearing)
         for enters in (True, False):
             edge = defect.center - math.copysign(0.5 * defect.extent, rate) * (1 if enters else -1)
-            for ball in range(scene.bearing.n_balls):
-                # cage_angle·rate + ball·spacing = edge + 2π k
-                start = (edge - ball * spacing) / rate
+            for ball, angle in enumerate(angles):
+                if defect.row not in (None, ball // scene.bearing.n_balls):
+                    continue
+                # cage_angle·rate + angle of the ball = edge + 2π k
+                start = (edge - angle) / rate
                 period = TWO_PI / abs(rate)
                 at = start + math.ceil((first - start) / period) * period
                 while at <= last:

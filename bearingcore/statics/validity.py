@@ -41,6 +41,7 @@ from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
+from bearingcore.statics.pressure import heaviest_ball
 
 STATIC_PRESSURE = 4.2e9
 """Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
@@ -147,8 +148,7 @@ def limits(
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
-    loads = state.ball_load[_known(state)]
-    heaviest = float(loads.max()) if loads.size else math.nan
+    heaviest = heaviest_ball(state).load
     found = [
         _pressure(scene, "inner", heaviest),
         _pressure(scene, "outer", heaviest),

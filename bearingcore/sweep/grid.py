@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
+    LIFE,
     MODE,
     MODES,
     MOTION,
@@ -340,6 +342,8 @@ class Grid:
             scene.support.damping(dofs)
             for body in ("inner", "outer"):
                 scene.support.inertia(body, dofs)
+        if LIFE in self.needs:
+            race_ratings(scene.bearing, 1.0)
         if set(self.needs) & {MOTION, ORBIT} and scene.shaft_speed == 0.0:
             raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion or an orbit")
 

@@ -17,7 +17,7 @@ def test_the_helper_compiles_what_motions_call() -> None:
     told: list[str] = []
     warm(told.append)
     before = signatures()
-    assert min(before[name] for name in ("march_flat", "march_smooth", "elastic_ball_loads")) > 0
+    assert min(before[name] for name in ("march", "turn_smooth", "elastic_loads")) > 0
     warm_up.compile_motions()
     assert signatures() == before
     assert len(told) == 6

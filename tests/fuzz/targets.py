@@ -19,7 +19,7 @@ from bearing_explorer.state.address import opened, place_of, write
 from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import Scene, presets, read_floor
+from bearingcore import Scene, catalogue, catalogue_text, presets, read_catalogue, read_floor
 from bearingcore.signals.recording import read_table
 from bearingcore.sweep.file import grid_from_toml
 from tests.fuzz.inputs import bytes_like, plain_value, text_like
@@ -93,6 +93,12 @@ def _floors() -> list[str]:
         "# angle;depth\n" + "\n".join(f"{angle};{depth:.1f}" for angle, depth in rows),
         "angle,depth\n" + "\n".join(f"{angle},{depth}" for angle, depth in rows),
     ]
+
+
+def _bearings() -> list[str]:
+    own = "name,balls,ball_diameter_mm,pitch_diameter_mm,note\na,9,7.94,39.04,ours\nb,8,7,30,"
+    german = "name;balls;ball_diameter_mm;pitch_diameter_mm\n6205;9;7,94;39,04"
+    return [catalogue_text(catalogue().values()), own, german]
 
 
 def _signal(n: int = 600) -> np.ndarray:
@@ -228,7 +234,8 @@ class Session:
 
 def targets() -> list[Target]:
     """All of them."""
-    scenes, sweeps, floors = _texts(), _sweeps(), _floors()
+    scenes, sweeps, floors, bearings = _texts(), _sweeps(), _floors(), _bearings()
+    bearing_bytes = [text.encode() for text in bearings]
     tables, waves, matrices, addresses = _csv(), _wav(), _mat(), _addresses()
     session = Session()
 
@@ -239,6 +246,8 @@ def targets() -> list[Target]:
         Target("scene", lambda r: text_like(r, scenes), Scene.from_toml),
         Target("sweep", lambda r: text_like(r, sweeps), grid_from_toml),
         Target("floor", lambda r: text_like(r, floors), read_floor),
+        Target("bearings", lambda r: text_like(r, bearings), read_catalogue),
+        Target("bearings file", lambda r: bytes_like(r, bearing_bytes), read_catalogue),
         Target("csv", csv_file, _table),
         Target("wav", lambda r: bytes_like(r, waves), _table),
         Target("matlab", lambda r: bytes_like(r, matrices), _table),

@@ -66,8 +66,8 @@ _REASONS = {
     "free_direction": "the ring can move without resistance in some direction",
     "load_not_carried": "no contact can carry this load",
     "static_state_not_converged": "no static state was found",
-    "computation_refused": "this cannot be computed here: the shaft must turn, and mass, stiffness "
-    "and damping be known in each direction that moves",
+    "computation_refused": "this cannot be computed here: the shaft must turn, mass, stiffness "
+    "and damping be known in each direction that moves, and for life and pressure the groove radii",
     "no_static_start": "there is no static state to start from",
     "motion_diverged": "the motion does not stay finite",
     "orbit_not_converged": "no orbit was found",
@@ -115,6 +115,8 @@ _UNIT_NAMES = {
     "N/rad": "n_per_rad",
     "N·m/rad": "n_m_per_rad",
     "N": "n",
+    "Pa": "pa",
+    "h": "h",
     "Hz": "hz",
     "m/s²": "m_per_s2",
     "rad/s²": "rad_per_s2",
@@ -125,6 +127,11 @@ _WHICH = ("mean", "least", "greatest")
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SINGLE = {
     "ball_load_greatest": ("Balls", "greatest ball load"),
+    "contact_pressure_inner": ("Balls", "contact pressure, inner race"),
+    "contact_pressure_outer": ("Balls", "contact pressure, outer race"),
+    "life_turns": ("Life", "turns that 9 of 10 bearings reach"),
+    "life_hours": ("Life", "hours that 9 of 10 bearings reach"),
+    "life_share_of_healthy": ("Life", "life over that of the healthy bearing"),
     "converged_share": ("Balls", "cage angles with a static state, share"),
     "floquet_multiplier_greatest": ("Motion that repeats", "largest Floquet multiplier |μ|"),
 }

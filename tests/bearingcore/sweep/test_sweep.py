@@ -29,7 +29,10 @@ from bearingcore import (
     Load,
     Scene,
     Support,
+    contact_pressures,
+    dynamic_load_rating,
     equilibrium,
+    life,
     modes,
     orbit,
     presets,
@@ -136,6 +139,43 @@ def test_bands_motions_and_orbits_are_those_of_single_scenes() -> None:
             multiplier = orbit(scene).largest_multiplier
             assert at["floquet_multiplier_greatest"] == pytest.approx(multiplier, rel=1e-9)
     assert (found["status"] == code("complete")).all()
+
+
+def test_lives_and_pressures_are_those_of_single_scenes() -> None:
+    over = {"extent": [0.0, 0.1], "fy": [-1000.0, 0.0], "shaft_speed": [0.0, 50.0]}
+    deep_groove = presets["6206"]
+    outputs = ("life_*", "contact_pressure_*")
+    settings = Settings(dynamic_load_rating=19_500.0)
+    found = sweep(deep_groove, over, outputs, settings=settings)
+    for extent in over["extent"]:
+        scene = deep_groove.replace(extent=extent, fy=-1000.0, shaft_speed=50.0)
+        at = found.sel(extent=extent, fy=-1000.0, shaft_speed=50.0)
+        alone = life(scene, 19_500.0, positions="all")
+        assert at["life_turns"] == pytest.approx(1e6 * alone.million_revolutions, rel=1e-12)
+        assert at["life_hours"] == pytest.approx(alone.hours, rel=1e-12)
+        assert at["life_share_of_healthy"] == pytest.approx(alone.share_of_healthy, rel=1e-12)
+        pressure = contact_pressures(scene).inner.greatest_pressure
+        assert at["contact_pressure_inner"] == pytest.approx(pressure, rel=1e-12)
+        assert at["status"] == code("complete")
+    stands = found.sel(extent=0.1, fy=-1000.0, shaft_speed=0.0)
+    assert np.isnan(stands["life_hours"])
+    assert np.isfinite(stands["life_turns"])
+    assert stands["status"] == code("computation_refused")
+    floats = found.sel(extent=0.1, fy=0.0, shaft_speed=50.0)
+    assert np.isnan(floats["life_turns"])
+    assert floats["status"] == code("nothing_touches")
+    rated = sweep(deep_groove, {"fy": [-1000.0]}, ["life_turns"])
+    by_size = life(
+        deep_groove.replace(fy=-1000.0), dynamic_load_rating(deep_groove.bearing), positions="all"
+    )
+    assert rated["life_turns"][0] == pytest.approx(1e6 * by_size.million_revolutions, rel=1e-12)
+
+
+def test_life_needs_a_drawing() -> None:
+    with pytest.raises(ValueError, match="inner_groove_radius"):
+        sweep(RIG, {"fy": [-100.0]}, ["life_turns"])
+    with pytest.raises(ValueError, match="dynamic_load_rating"):
+        Settings(dynamic_load_rating=0.0)
 
 
 def test_failures_are_data() -> None:

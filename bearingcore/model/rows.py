@@ -1,0 +1,89 @@
+"""Rows of balls on one shaft, and how they stand to each other.
+
+A row whose contact angle has the sign of its place stands face to face with one on the other side
+(X: the lines of contact meet near the axis), one of the opposite sign back to back (O).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bearingcore.common import checks
+
+ARRANGEMENTS = ("back-to-back", "face-to-face", "tandem")
+"""How the two rows of a pair stand to each other: O, X, or one behind the other."""
+
+MOST_ROWS = 8
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of balls. All rows of a bearing have balls alike in number and size.
+
+    They keep one cage speed, as their contact angles differ by their sign alone.
+
+    Parameters
+    ----------
+    place
+        z_k [m] of its centre along the shaft.
+    facing
+        1 or -1: contact angle α0 of the bearing, or −α0.
+    clearance
+        [m] on top of the bearing's radial clearance; below 0 it preloads the row.
+    offset
+        [m] how far the inner groove stands up the shaft from where it would without preload.
+    turn
+        [rad] from the first ball of the bearing to the first of this row.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+
+    place: float = 0.0
+    facing: int = 1
+    clearance: float = 0.0
+    offset: float = 0.0
+    turn: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.facing not in (-1, 1) or isinstance(self.facing, bool):
+            raise checks.refuse("facing of a row", self.facing, "1 or -1")
+        object.__setattr__(self, "facing", int(self.facing))
+        for name, most, unit in (
+            ("place", 10.0, "m"),
+            ("clearance", 1e-2, "m"),
+            ("offset", 1e-2, "m"),
+            ("turn", 2.0 * math.pi, "rad"),
+        ):
+            value = checks.number(
+                f"{name} of a row", getattr(self, name), at_least=-most, at_most=most, unit=unit
+            )
+            object.__setattr__(self, name, value)
+
+
+def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, Row]:
+    """Two rows `distance` [m] apart, the lower one first.
+
+    `preload` [m] is how far the inner grooves are pushed along the shaft, together or apart, so
+    that both rows are pressed: half of it each.
+
+    Raises
+    ------
+    ValueError
+        for an unknown arrangement, or a preload of rows in tandem, which do not press each other.
+    """
+    checks.choice("arrangement", arrangement, ARRANGEMENTS)
+    half = 0.5 * checks.number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
+    push = 0.5 * checks.number("preload", preload, at_least=0.0, at_most=1e-3, unit="m")
+    if arrangement == "tandem":
+        if push > 0.0:
+            raise checks.refuse("preload", preload, "0: rows in tandem do not press each other")
+        return Row(-half), Row(half)
+    upper = 1 if arrangement == "face-to-face" else -1
+    return (
+        Row(-half, -upper, offset=-upper * push),
+        Row(half, upper, offset=upper * push),
+    )

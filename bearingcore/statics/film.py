@@ -1,0 +1,275 @@
+"""Thickness of the lubricant film between the heaviest loaded ball and each race.
+
+Quantity                                        | Symbol | Name               | Unit
+----------------------------------------------- | ------ | ------------------ | -----
+dynamic viscosity at the contact's temperature  | η0     | viscosity          | Pa·s
+growth of its logarithm with pressure           | ξ      | pressure_viscosity | 1/Pa
+mean speed of ball and race through the contact | u      | rolling_speed      | m/s
+radius of curvature along the rolling, ball and race together | R_x | | m
+modulus of both, E/(1 − ν²) for one material    | E'     |                    | Pa
+ellipse ratio a/b                               | k      | ellipse_ratio      |
+load of the ball                                | Q      | load               | N
+least film thickness                            | h_min  | thickness          | m
+roughness of ball and race, root mean square    | σ      | roughness          | m
+film parameter, h_min over the roughness of both | Λ     | film_parameter     |
+
+    h_min/R_x = 3.63 U^0.68 G^0.49 W^(−0.073) (1 − e^(−0.68 k)),
+    U = η0 u/(E' R_x), G = ξ E', W = Q/(E' R_x²),
+
+for hard elliptical contacts that roll without sliding, at one temperature, with as much oil as they
+take in (Hamrock and Dowson, 1977, Part III; fully flooded). It was fitted to ellipses of k = 1 to
+8, across the rolling; closer grooves have longer ones, and the last factor is 1 there anyway.
+Left out: heat of shear at the inlet, which thins the film at high speed, too little oil or grease
+(starvation), and the edges of a defect, which tear the film wherever it is.
+
+Source: Hamrock and Dowson, J. Lubrication Technology 99 (1977) 264-276; Hamrock and Anderson,
+Rolling-Element Bearings, NASA RP-1126, for the speeds and for what Λ means.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.bearing import Bearing
+from bearingcore.model.scene import Scene
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.pressure import RACES, heaviest_ball
+from bearingcore.statics.validity import Limit
+
+TOUCHING, PARTED = 1.0, 3.0
+"""Film parameter below which peaks of the surfaces touch all the time, and above which they hardly
+ever do."""
+
+LUBRICATION = ("boundary", "mixed", "full film")
+"""What there is below the first, between, and above the second."""
+
+MINERAL_OIL = 2.0e-8
+"""Pressure-viscosity coefficient ξ [1/Pa] of a usual mineral oil: 1.5 to 2.5e-8."""
+
+
+@dataclass(frozen=True)
+class RaceFilm:
+    """Film between the heaviest loaded ball and one race. NaN where it is not known.
+
+    Attributes
+    ----------
+    race
+        "inner" or "outer".
+    load [N], ellipse_ratio
+        of the contact.
+    thickness [m]
+        h_min; 0 where the shaft stands still.
+    roughness [m]
+        of ball and race together.
+    film_parameter
+        Λ.
+    lubrication
+        one of LUBRICATION; empty where the film is not known.
+    sentence
+        the same in words.
+    """
+
+    race: str
+    load: float
+    ellipse_ratio: float
+    thickness: float
+    roughness: float
+    film_parameter: float
+    lubrication: str
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Film:
+    """Lubricant film of a scene's heaviest loaded ball.
+
+    Attributes
+    ----------
+    rolling_speed [m/s]
+        u, the same at both races.
+    inner, outer
+        the film at each race.
+    """
+
+    rolling_speed: float
+    inner: RaceFilm
+    outer: RaceFilm
+
+    @property
+    def sentence(self) -> str:
+        """The thinner film in words, and what was left out."""
+        thinner = (
+            self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
+        )
+        return f"{thinner.sentence} {LEFT_OUT}"
+
+    def limits(self) -> tuple[Limit, ...]:
+        """The film parameter of each race beside the one below which surfaces touch."""
+        return tuple(
+            Limit(
+                f"film parameter, {film.race} race",
+                film.film_parameter,
+                TOUCHING,
+                "",
+                film.film_parameter < TOUCHING,
+                film.sentence,
+            )
+            for film in (self.inner, self.outer)
+        )
+
+    def table(self) -> ResultTable:
+        """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
+        races = (self.inner, self.outer)
+        return table_of(
+            ("race", "", [film.race for film in races]),
+            (
+                "rolling_speed",
+                "m/s",
+                [self.rolling_speed] * 2,
+                "mean speed of ball and race through the contact",
+            ),
+            ("ball_load", "N", [film.load for film in races], "of the heaviest loaded ball"),
+            ("film_thickness", "m", [film.thickness for film in races], "where it is least"),
+            ("roughness", "m", [film.roughness for film in races], "of ball and race together"),
+            (
+                "film_parameter",
+                "1",
+                [film.film_parameter for film in races],
+                "film thickness over roughness",
+            ),
+            ("sentence", "", [film.sentence for film in races]),
+        )
+
+
+LEFT_OUT = (
+    "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
+    "starvation are left out, and all of them make the film thinner."
+)
+
+
+def rolling_speed(bearing: Bearing, shaft_speed: float) -> float:
+    """Mean speed u [m/s] of ball and race through the contact, at a shaft speed [rad/s].
+
+    u = ω_s D_p (1 − γ²)/4 with γ = D_b cos α0/D_p, at both races, as the ball rolls on both.
+    """
+    gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
+    return 0.25 * shaft_speed * bearing.pitch_diameter * (1.0 - gamma**2)
+
+
+def rolling_radius(bearing: Bearing, race: str) -> float:
+    """Radius R_x [m] of curvature along the rolling, ball and race together.
+
+    1/R_x = 2/D_b ± 2 γ/(D_b (1 ∓ γ)), upper signs inside: R_x = D_b (1 ∓ γ)/2.
+    """
+    checks.choice("race", race, RACES)
+    gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
+    return bearing.ball_radius * (1.0 - gamma if race == "inner" else 1.0 + gamma)
+
+
+def least_thickness(
+    speed: float,
+    load: float,
+    radius: float,
+    ellipse_ratio: float,
+    modulus: float,
+    viscosity: float,
+    pressure_viscosity: float,
+) -> float:
+    """h_min [m] of Hamrock and Dowson; see the head of the module for u, Q, R_x, k, E', η0, ξ."""
+    U = viscosity * speed / (modulus * radius)
+    G = pressure_viscosity * modulus
+    W = load / (modulus * radius**2)
+    side_flow = -math.expm1(-0.68 * ellipse_ratio)
+    return 3.63 * U**0.68 * G**0.49 * W**-0.073 * side_flow * radius
+
+
+def film(
+    scene: Scene,
+    *,
+    viscosity: float,
+    pressure_viscosity: float = MINERAL_OIL,
+    roughness_inner: float = 0.1e-6,
+    roughness_outer: float = 0.1e-6,
+    roughness_ball: float = 0.05e-6,
+    state: Equilibrium | None = None,
+) -> Film:
+    """Least film thickness and film parameter at each race, where a ball carries most.
+
+    Parameters
+    ----------
+    scene
+        bearing, load and speed; the bearing needs its groove radii.
+    viscosity
+        η0 [Pa·s] of the oil (a grease's base oil) at the temperature of the contact.
+    pressure_viscosity
+        ξ [1/Pa]; a usual mineral oil by default.
+    roughness_inner, roughness_outer, roughness_ball
+        σ [m], root mean square, of each surface; usual ones of honed races by default.
+        The root of the sum of squares counts, and must be above 0.
+    state
+        the scene's static equilibrium, if it is there already; None computes one period.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+    eta = checks.number("viscosity", viscosity, above=0.0, unit="Pa·s")
+    xi = checks.number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
+    ball = checks.number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
+    sigma = {
+        race: math.hypot(
+            checks.number(
+                f"roughness_{race}",
+                value,
+                unit="m",
+                **({"at_least": 0.0} if ball > 0.0 else {"above": 0.0}),
+            ),
+            ball,
+        )
+        for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
+    }
+    contacts = {race: scene.bearing.race_contact(race) for race in RACES}
+    if state is None:
+        state = equilibrium(scene)
+    elif state.scene != scene:
+        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    load = heaviest_ball(state).load
+    u = rolling_speed(scene.bearing, scene.shaft_speed)
+    films = {}
+    for race, contact in contacts.items():
+        h = math.nan
+        if load > 0.0:
+            modulus = contact.youngs_modulus / (1.0 - contact.poisson**2)
+            radius = rolling_radius(scene.bearing, race)
+            h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
+        films[race] = _race_film(race, load, contact.ellipse_ratio, h, sigma[race])
+    return Film(u, films["inner"], films["outer"])
+
+
+def _race_film(race: str, load: float, k: float, h: float, sigma: float) -> RaceFilm:
+    name = f"film, {race} race"
+    ratio = h / sigma
+    if math.isnan(h):
+        why = "no cage angle has a static equilibrium" if math.isnan(load) else "no ball is loaded"
+        return RaceFilm(
+            race, load, k, h, sigma, ratio, "", f"{name.capitalize()}: not known, as {why}."
+        )
+    if ratio < TOUCHING:
+        kind, so = LUBRICATION[0], "their peaks carry the load and wear"
+    elif ratio < PARTED:
+        kind, so = LUBRICATION[1], "their peaks touch now and then"
+    else:
+        kind, so = LUBRICATION[2], "ball and race hardly ever touch"
+    if h == 0.0:
+        standing = f"The shaft stands still and draws no oil between ball and {race} race."
+        return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
+    sentence = (
+        f"The film on the {race} race is {h * 1e6:.3g} µm thick where a ball carries most "
+        f"({load:.4g} N), {ratio:.3g} times the roughness of the surfaces ({sigma * 1e6:.3g} µm): "
+        f"{kind} lubrication, {so}."
+    )
+    return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)

@@ -1,0 +1,149 @@
+"""Contact ellipse and pressure of the heaviest loaded ball on each race (Hertz).
+
+Quantity                                    | Symbol | Name              | Unit
+------------------------------------------- | ------ | ----------------- | ----
+load of the ball                            | Q      | load              | N
+semi-axes, across and along the rolling     | a, b   | semi_axis_across, semi_axis_along | m
+greatest pressure, in the middle            | p      | greatest_pressure | Pa
+
+The contact itself is that of `bearingcore.hertz`. On the edge of a defect the ball presses harder
+than this says: a corner has no ellipse.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.scene import Scene
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+
+RACES = ("inner", "outer")
+
+
+@dataclass(frozen=True)
+class HeaviestBall:
+    """Where a ball carries most, over the cage angles looked at. NaN where nothing is known.
+
+    Attributes
+    ----------
+    load [N]
+        Q.
+    cage_angle, ball_angle [rad]
+        φ_c and the ball's own φ_j at that moment.
+    """
+
+    load: float
+    cage_angle: float
+    ball_angle: float
+
+
+def heaviest_ball(state: Equilibrium) -> HeaviestBall:
+    """The heaviest loaded ball of all cage angles whose loads are known."""
+    loads = np.where(np.isfinite(state.ball_load), state.ball_load, -math.inf)
+    if not loads.size or np.isneginf(loads).all():
+        return HeaviestBall(math.nan, math.nan, math.nan)
+    i, j = np.unravel_index(int(np.argmax(loads)), loads.shape)
+    return HeaviestBall(
+        float(loads[i, j]), float(state.cage_angles[i]), float(state.ball_angle[i, j])
+    )
+
+
+@dataclass(frozen=True)
+class RacePressure:
+    """Contact of the heaviest loaded ball with one race. NaN where the load is not known.
+
+    Attributes
+    ----------
+    race
+        "inner" or "outer".
+    load [N]
+        Q.
+    semi_axis_across, semi_axis_along [m]
+        a and b of the ellipse, across the rolling and along it; 0 where nothing is carried.
+    greatest_pressure [Pa]
+        p, in the middle.
+    """
+
+    race: str
+    load: float
+    semi_axis_across: float
+    semi_axis_along: float
+    greatest_pressure: float
+
+
+@dataclass(frozen=True)
+class ContactPressures:
+    """Contact ellipses and pressures of a scene's heaviest loaded ball.
+
+    Attributes
+    ----------
+    ball
+        which ball it is, where and when.
+    inner, outer
+        its contact with each race.
+    """
+
+    ball: HeaviestBall
+    inner: RacePressure
+    outer: RacePressure
+
+    def table(self) -> ResultTable:
+        """A row a race: load and place of the ball, semi-axes, pressure."""
+        races = (self.inner, self.outer)
+        return table_of(
+            ("race", "", [contact.race for contact in races]),
+            ("ball_load", "N", [contact.load for contact in races], "of the heaviest loaded ball"),
+            ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
+            (
+                "semi_axis_across",
+                "m",
+                [contact.semi_axis_across for contact in races],
+                "of the contact ellipse, across the rolling",
+            ),
+            (
+                "semi_axis_along",
+                "m",
+                [contact.semi_axis_along for contact in races],
+                "of the contact ellipse, along the rolling",
+            ),
+            (
+                "greatest_pressure",
+                "Pa",
+                [contact.greatest_pressure for contact in races],
+                "in the middle of the ellipse",
+            ),
+        )
+
+
+def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:
+    """Ellipse and pressure at each race, where a ball carries most over all cage angles.
+
+    Parameters
+    ----------
+    scene
+        what to look at; its bearing needs its groove radii.
+    state
+        its static equilibrium, if it is there already; None computes one period of cage angles.
+
+    Raises
+    ------
+    ValueError
+        for a bearing without groove radii, or the equilibrium of another scene.
+    """
+    contacts = {race: scene.bearing.race_contact(race) for race in RACES}
+    if state is None:
+        state = equilibrium(scene)
+    elif state.scene != scene:
+        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    ball = heaviest_ball(state)
+    found = {}
+    for race, contact in contacts.items():
+        a, b = contact.semi_axes(ball.load)
+        p = contact.greatest_pressure(ball.load)
+        found[race] = RacePressure(race, ball.load, float(a), float(b), float(p))
+    return ContactPressures(ball, found["inner"], found["outer"])

@@ -1,0 +1,156 @@
+"""Machine code on disk is of the sources of now, whatever file a callee stands in."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from bearingcore.kernels import compiling
+
+CALLEE = """
+from typing import NamedTuple
+import numpy as np
+from mini.compiling import inlined
+
+class {struct}(NamedTuple):
+    values: np.ndarray
+
+Struct = {struct}
+
+@inlined
+def total(struct):
+    return struct.values.sum() + {number}
+"""
+CALLER = """
+from mini.callee import total
+from mini.compiling import compiled
+
+@compiled
+def doubled(struct):
+    return 2.0 * total(struct)
+"""
+RUN = """
+import numpy as np
+from mini import caller, callee, compiling
+before = compiling.on_disk(caller.doubled)
+value = caller.doubled(callee.Struct(np.ones(3)))
+print(value, sum(caller.doubled.stats.cache_hits.values()), before,
+      compiling.on_disk(caller.doubled))
+"""
+
+
+def write_callee(package: Path, struct: str, number: str) -> None:
+    """Another callee of the same length and date: neither tells that it has changed."""
+    callee = package / "callee.py"
+    callee.write_text(CALLEE.format(struct=struct, number=number))
+    os.utime(callee, (1_700_000_000, 1_700_000_000))
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A small package of compiled code, with the real `compiling`."""
+    folder = tmp_path / "mini"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    shutil.copy(compiling.__file__, folder / "compiling.py")
+    (folder / "caller.py").write_text(CALLER)
+    write_callee(folder, "Early", "1.0")
+    return folder
+
+
+def start(
+    package: Path,
+    cache: Path | None,
+    prefix: tuple[str, ...] = (),
+    environment: dict[str, str] | None = None,
+) -> subprocess.Popen[str]:
+    """A process that calls the caller; with cache None code is kept beside the sources."""
+    inherited = {**os.environ, "PYTHONPATH": str(package.parent), "PYTHONDONTWRITEBYTECODE": "1"}
+    inherited.pop("NUMBA_CACHE_DIR", None)
+    if cache is not None:
+        inherited["NUMBA_CACHE_DIR"] = str(cache)
+    return subprocess.Popen(
+        [*prefix, sys.executable, "-c", RUN],
+        env={**inherited, **(environment or {})},
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+
+
+def obeying() -> tuple[str, ...]:
+    """What makes a process obey the permissions of folders, which root does not."""
+    if os.geteuid() != 0:
+        return ()
+    command = ("setpriv", "--bounding-set", "-dac_override,-dac_read_search")
+    if shutil.which("setpriv") is None or subprocess.run([*command, "true"]).returncode:
+        pytest.skip("root may write everywhere, and nothing here takes that from it")
+    return command
+
+
+def told(process: subprocess.Popen[str]) -> tuple[float, int, bool, bool]:
+    """(value, times found on disk, on disk before, on disk after); silent otherwise."""
+    out, err = process.communicate(timeout=300.0)
+    assert err == ""
+    assert process.returncode == 0
+    value, hits, before, after = out.split()
+    return float(value), int(hits), before == "True", after == "True"
+
+
+@pytest.mark.parametrize("beside", [True, False], ids=["beside the sources", "in a folder apart"])
+def test_an_upgrade_that_changes_only_a_callee_counts(
+    package: Path, tmp_path: Path, beside: bool
+) -> None:
+    """Even where it renames a struct that the old index names."""
+    cache = None if beside else tmp_path / "cache"
+    assert told(start(package, cache)) == (8.0, 0, False, True)
+    assert told(start(package, cache)) == (8.0, 1, True, True)
+    write_callee(package, "Later", "2.0")
+    assert told(start(package, cache)) == (10.0, 0, False, True)
+    assert told(start(package, cache)) == (10.0, 1, True, True)
+    write_callee(package, "Early", "1.0")
+    assert told(start(package, cache))[0] == 8.0, "and back again"
+
+
+def test_two_processes_that_start_at_once_are_both_right(package: Path, tmp_path: Path) -> None:
+    told(start(package, tmp_path))
+    write_callee(package, "Later", "2.0")
+    both = [start(package, tmp_path) for _ in range(2)]
+    assert [told(process)[0] for process in both] == [10.0, 10.0]
+    assert told(start(package, tmp_path)) == (10.0, 1, True, True)
+
+
+def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: Path) -> None:
+    """Machine code is then kept in the user's own folder."""
+    told(start(package, None))  # machine code beside the sources, soon out of date
+    write_callee(package, "Later", "2.0")
+    home = tmp_path / "home"
+    home.mkdir()
+    own = {"XDG_CACHE_HOME": str(home), "HOME": str(home)}
+    before = {file: file.read_bytes() for file in package.rglob("*.nb?")}
+    modes = {folder: folder.stat().st_mode for folder in (package, package / "__pycache__")}
+    for folder in modes:
+        folder.chmod(0o555)
+    try:
+        assert told(start(package, None, obeying(), own))[0] == 10.0
+        assert told(start(package, None, obeying(), own))[:2] == (10.0, 1)
+    finally:
+        for folder, mode in modes.items():
+            folder.chmod(mode)
+    assert before == {file: file.read_bytes() for file in package.rglob("*.nb?")}
+
+
+def test_the_fingerprint_is_of_contents(tmp_path: Path) -> None:
+    compiling.sources.cache_clear()
+    assert compiling.sources(tmp_path) == ""
+    (tmp_path / "a.py").write_text("x")
+    compiling.sources.cache_clear()
+    first = compiling.sources(tmp_path)
+    (tmp_path / "a.py").write_text("y")
+    compiling.sources.cache_clear()
+    assert first != compiling.sources(tmp_path) != ""

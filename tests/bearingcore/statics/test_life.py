@@ -1,0 +1,401 @@
+"""Life against a commercial code's results, other sums, and what must not change it."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
+from bearingcore.statics.life import (
+    LINE_CONTACT,
+    POINT_CONTACT,
+    ContactLife,
+    dynamic_load_rating,
+    life,
+    million_revolutions,
+    race_ratings,
+    ratings_of_races,
+)
+from bearingcore.statics.race_loads import race_loads
+
+P, E = 3.0, 10.0 / 9.0
+RATING = 23_400.0
+
+ALL = ("x", "y", "z", "rx", "ry")
+
+
+def seven_balls(clearance: float, **load: float) -> Scene:
+    """The bearing that the commercial code's results belong to."""
+    D = 11.5e-3
+    bearing = Bearing.from_drawing(
+        7,
+        D,
+        43.5e-3,
+        0.52 * D,
+        0.53 * D,
+        diametral_clearance=clearance,
+        groove_center_radius=0.5 * 43.5e-3,
+    )
+    return presets["seven-ball"].replace(
+        bearing=bearing, defect=Defect.none(), load=Load(**load), dofs=None
+    )
+
+
+COMMERCIAL = [
+    pytest.param(0.0, {"fx": 1000.0}, 13163.019, 2e-4, id="radial"),
+    pytest.param(0.0, {"fz": 1000.0}, 2222.7318, 2e-4, id="axial"),
+    pytest.param(10e-6, {"fx": 1000.0}, 10795.7948, 2e-4, id="radial, clearance"),
+    pytest.param(10e-6, {"fz": 1000.0}, 3115.8781, 2e-4, id="axial, clearance"),
+    pytest.param(10e-6, {"fx": 1000.0, "fz": 1000.0}, 1630.5367, 2e-4, id="combined"),
+    pytest.param(
+        10e-6, {"fx": 1000.0, "fz": 1000.0, "mx": 1.0}, 1627.7479, 2e-4, id="combined, moment"
+    ),
+    # a moment alone presses along no line, and 0.022 % is left
+    pytest.param(0.0, {"mx": 1.0}, 785144.7521, 3e-4, id="moment"),
+]
+
+
+@pytest.mark.parametrize(("clearance", "load", "printed", "tolerance"), COMMERCIAL)
+def test_commercial_code(
+    clearance: float, load: dict[str, float], printed: float, tolerance: float
+) -> None:
+    """Printed in GitHub, minzhun/ISO16281, `Test_BallBearing.py`: C_r 23,400 N."""
+    found = life(seven_balls(clearance, **load), RATING)
+    assert found.million_revolutions == pytest.approx(printed, rel=tolerance)
+    assert found.known
+
+
+@pytest.mark.parametrize("direction_deg", [0.0, 77.0, 270.0])
+def test_radial_load_in_any_direction(direction_deg: float) -> None:
+    """A ball is put on its line, wherever that is."""
+    turn = math.radians(direction_deg)
+    scene = seven_balls(10e-6, fx=1000.0 * math.cos(turn), fy=1000.0 * math.sin(turn))
+    assert life(scene, RATING).million_revolutions == pytest.approx(10795.7948, rel=2e-4)
+
+
+def many_balls(contact_angle_deg: float = 0.0) -> Scene:
+    """Forty small balls without clearance: sums over them are nearly integrals."""
+    D = 4e-3
+    bearing = Bearing.from_drawing(
+        40, D, 80e-3, 0.52 * D, 0.53 * D, contact_angle=math.radians(contact_angle_deg)
+    )
+    scene = presets["6205"].replace(bearing=bearing, defect=Defect.none(), load=Load(fx=500.0))
+    return scene.replace(dofs=("x", "y", "z")) if contact_angle_deg else scene
+
+
+def test_radial_integral_of_half_a_load_zone() -> None:
+    """Harris: F_r = Z Q_max J_r(0.5), J_r = 0.2288 for point contact; NSK prints 4.37 = 1/J_r."""
+    scene = many_balls()
+    Q_max = equilibrium(scene, [0.0]).ball_load.max()
+    assert 500.0 / (40 * Q_max) == pytest.approx(0.2288, rel=2e-3)
+
+
+@pytest.mark.parametrize("contact_angle_deg", [25.0, 40.0])
+def test_axial_integral_of_half_a_load_zone(contact_angle_deg: float) -> None:
+    """J_a(0.5) = 0.2782, at F_a = J_a/J_r F_r tan α (NSK: 1.216 F_r tan α).
+
+    Harris takes the contact angle for equal everywhere, so some per cent are left.
+    """
+    alpha = math.radians(contact_angle_deg)
+    thrust = 1.216 * 500.0 * math.tan(alpha)
+    scene = many_balls(contact_angle_deg).replace(fz=thrust)
+    state = equilibrium(scene, [0.0])
+    assert state.loaded_balls[0] in (19, 20, 21)
+    Q_max = state.ball_load.max()
+    loaded_angle = float(np.nanmax(state.contact_angle))
+    assert 500.0 / (40 * Q_max * math.cos(loaded_angle)) == pytest.approx(0.2288, rel=0.05)
+    assert thrust / (40 * Q_max * math.sin(loaded_angle)) == pytest.approx(0.2782, rel=0.05)
+
+
+@pytest.mark.parametrize("contact_angle_deg", [0.0, 15.0, 40.0])
+def test_half_a_load_zone_is_what_the_rating_means(contact_angle_deg: float) -> None:
+    """ISO 281 rates a bearing that carries on half its balls: there both standards agree.
+
+    Loads are light, so that contact angles stay.
+    """
+    scene = many_balls(contact_angle_deg)
+    radial = 50.0
+    thrust = 1.216 * radial * math.tan(math.radians(contact_angle_deg))
+    scene = scene.replace(load=Load(fx=radial, fz=thrust))
+    C = 12_000.0
+    found = life(scene, C, positions="all")
+    assert found.million_revolutions == pytest.approx((C / radial) ** 3, rel=0.04)
+    assert found.equivalent_load == pytest.approx(radial, rel=0.013)
+
+
+@pytest.mark.parametrize(
+    ("contact", "exponent", "rows", "tolerance"),
+    [
+        (POINT_CONTACT, 1.5, 1, 2e-3),
+        (LINE_CONTACT, 10.0 / 9.0, 1, 0.02),
+        (POINT_CONTACT, 1.5, 2, 2e-3),
+        (LINE_CONTACT, 10.0 / 9.0, 2, 0.02),
+    ],
+)
+@pytest.mark.parametrize("gamma", [0.05, 0.15, 0.3])
+def test_a_load_of_the_rating_lasts_a_million_turns(
+    contact: ContactLife, exponent: float, rows: int, tolerance: float, gamma: float
+) -> None:
+    """Half a load zone, Q = Q_max cos^n φ, by sums of its own: Harris' J_r, then ISO 281's life.
+
+    Two rows carry half each, and fail as one chain.
+    """
+    phi = (np.arange(4000) + 0.5) / 4000 * 2.0 * math.pi
+    shape = np.maximum(np.cos(phi), 0.0) ** exponent
+    J_r = float(np.mean(shape * np.cos(phi)))
+    assert pytest.approx({1.5: 0.2288}.get(exponent, 0.2453), rel=3e-3) == J_r
+    Q = shape / J_r / rows  # under a radial load of Z cos α
+    p, pe = contact.load_exponent, contact.load_exponent * contact.scatter
+    loads = float(np.mean(Q**p) ** (1.0 / p)), float(np.mean(Q**pe) ** (1.0 / pe))
+    ratings = ratings_of_races(contact, 1.0, gamma, rows=rows)
+    chain = rows ** (-1.0 / contact.scatter)
+    assert chain * million_revolutions(contact, ratings, loads) == pytest.approx(1.0, rel=tolerance)
+
+
+def test_life_falls_as_the_cube_of_the_load_where_the_load_zone_stays() -> None:
+    """Without clearance a radial load is carried by the same balls, in the same shares."""
+    one = life(many_balls(), 10_000.0, positions="all").million_revolutions
+    two = life(many_balls().replace(fx=1000.0), 10_000.0, positions="all").million_revolutions
+    assert one / two == pytest.approx(8.0, rel=2e-3)  # 2e-3: the shares change with A, a little
+
+
+def test_life_grows_as_the_cube_of_the_rating() -> None:
+    scene = presets["6206"]
+    ratio = life(scene, 20_000.0).million_revolutions / life(scene, 10_000.0).million_revolutions
+    assert ratio == pytest.approx(8.0, rel=1e-12)
+
+
+# --- the averages ---------------------------------------------------------------------------
+
+
+def damaged(race: str, **changes: float) -> Scene:
+    """A deep-groove bearing with a spall that balls fall into."""
+    return presets["6206"].replace(race=race, **changes)
+
+
+def by_counting(scene: Scene, places: int, every: int) -> tuple[float, float]:
+    """Q_ei, Q_ee by equal bins of both races: every ball at every place at every shaft angle.
+
+    places in a ball spacing; shaft angles `every` so many places.
+    """
+    bearing = scene.bearing
+    N_b = bearing.n_balls
+    total = N_b * places
+    used_inner, used_outer, hits = np.zeros(total), np.zeros(total), np.zeros(total)
+    cage = (np.arange(places) + 0.5) * bearing.ball_spacing / places
+    for k in range(0, total, every):
+        psi = k * 2.0 * math.pi / total
+        for i, c in enumerate(cage):
+            turned = tuple(
+                dataclasses.replace(d, center=d.center + psi - c / bearing.cage_ratio)
+                if d.race == "inner"
+                else d
+                for d in scene.defects
+            )
+            Q = equilibrium(dataclasses.replace(scene, defect=turned), [c]).ball_load[0]
+            at = i + places * np.arange(N_b)
+            used_outer[at] += Q**P
+            used_inner[(at - k) % total] += Q**P
+            hits[at] += 1
+    root = 1.0 / (P * E)
+    passes = hits[0]
+    assert np.all(hits == passes)
+    return (
+        float(np.mean((used_inner / passes) ** E) ** root),
+        float(np.mean((used_outer / passes) ** E) ** root),
+    )
+
+
+def test_a_defect_of_the_inner_race_by_counting() -> None:
+    scene = damaged("inner", extent=math.radians(20.0))
+    found = race_loads(scene, P, E)
+    inner, outer = by_counting(scene, places=24, every=4)
+    assert found.inner == pytest.approx(inner, rel=2e-3)
+    assert found.outer == pytest.approx(outer, rel=2e-3)
+
+
+def test_defects_of_both_races_by_counting() -> None:
+    scene = damaged("inner", extent=math.radians(20.0))
+    assert isinstance(scene.defect, Defect)
+    other = dataclasses.replace(scene.defect, race="outer", center=math.radians(260.0))
+    scene = dataclasses.replace(scene, defect=(scene.defect, other))
+    found = race_loads(scene, P, E)
+    inner, outer = by_counting(scene, places=48, every=4)
+    assert found.inner == pytest.approx(inner, rel=2e-3)
+    assert found.outer == pytest.approx(outer, rel=2e-3)
+
+
+@pytest.mark.parametrize("name", ["6205", "6206", "7208-25deg"])
+def test_a_defect_of_the_outer_race_by_equal_steps(name: str) -> None:
+    scene = presets[name]
+    found = race_loads(scene, P, E)
+    angles = (np.arange(20_000) + 0.5) * scene.bearing.ball_spacing / 20_000
+    Q = equilibrium(scene, angles).ball_load
+    assert found.inner == pytest.approx(float(np.mean(Q**P) ** (1 / P)), rel=2e-5)
+    assert found.outer == pytest.approx(float(np.mean(Q ** (P * E)) ** (1 / (P * E))), rel=2e-5)
+
+
+def test_a_defect_that_no_ball_feels_changes_nothing() -> None:
+    """1 nm deep, in the turning race: the other sum gives the healthy bearing's loads."""
+    scene = damaged("inner", depth=1e-9)
+    found, healthy = race_loads(scene, P, E), race_loads(scene.sound(), P, E)
+    assert found.inner == pytest.approx(healthy.inner, rel=1e-4)
+    assert found.outer == pytest.approx(healthy.outer, rel=1e-4)
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_turning_the_whole_scene_changes_nothing(race: str) -> None:
+    scene = damaged(race)
+    assert isinstance(scene.defect, Defect)
+    turn = 0.37
+    turned = scene.replace(
+        fx=-scene.load.fy * math.sin(turn),
+        fy=scene.load.fy * math.cos(turn),
+        center=scene.defect.center + turn,
+    )
+    before, after = life(scene, 19_500.0), life(turned, 19_500.0)
+    assert after.million_revolutions == pytest.approx(before.million_revolutions, rel=2e-4)
+
+
+def test_where_a_defect_of_the_turning_race_begins_does_not_matter() -> None:
+    lives = [
+        life(damaged("inner", center=center), 19_500.0).million_revolutions
+        for center in (0.0, 1.0, 4.0)
+    ]
+    assert lives == pytest.approx([lives[0]] * 3, rel=2e-4)
+
+
+def test_a_wider_defect_in_the_load_zone_costs_more() -> None:
+    shares = [
+        life(damaged("outer", extent=math.radians(extent)), 19_500.0).share_of_healthy
+        for extent in (2.0, 6.0, 12.0)
+    ]
+    assert 1.0 > shares[0] > shares[1] > shares[2] > 0.3
+
+
+def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
+    scene = presets["6205"].sound()
+    inner, outer = life(scene, 14e3), life(scene, 14e3, turning_race="outer")
+    Q = equilibrium(scene, [1.5 * math.pi % scene.bearing.ball_spacing]).ball_load
+    cubic, tenthirds = float(np.mean(Q**3) ** (1 / 3)), float(np.mean(Q ** (10 / 3)) ** 0.3)
+    assert (inner.inner_load, inner.outer_load) == pytest.approx((cubic, tenthirds), rel=1e-12)
+    assert (outer.inner_load, outer.outer_load) == pytest.approx((tenthirds, cubic), rel=1e-12)
+
+
+# --- what is told ---------------------------------------------------------------------------
+
+
+def test_hours() -> None:
+    found = life(presets["6206"], 19_500.0)
+    assert found.hours == pytest.approx(found.million_revolutions * 1e6 / (1470.0 * 60.0))
+    standing = life(presets["6206"].replace(shaft_speed=0.0), 19_500.0)
+    assert math.isnan(standing.hours)
+    assert standing.million_revolutions == found.million_revolutions
+    assert "stands still" in standing.sentence
+
+
+def test_a_damaged_race_is_no_promise() -> None:
+    found = life(presets["6206"], 19_500.0)
+    assert found.share_of_healthy < 1.0
+    for words in ("upper bound", "not a promise", "edges"):
+        assert words in found.sentence
+    assert "promise" not in life(presets["6206"].sound(), 19_500.0).sentence
+
+
+def test_a_heavy_load_is_beyond_the_standard() -> None:
+    assert "does not vouch" in life(presets["6205"].replace(fy=-9000.0), 14e3).sentence
+    assert "does not vouch" not in life(presets["6205"], 14e3).sentence
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_no_equilibrium_no_life(race: str) -> None:
+    """Two balls let a ring go sideways: no cage angle but those under the load carries it."""
+    scene = presets["6205"].replace(n_balls=2, race=race)
+    for looked_at in (scene, scene.sound()):
+        found = life(looked_at, 14e3)
+        assert not found.known
+        assert math.isnan(found.hours)
+        assert math.isnan(found.equivalent_load)
+        assert math.isnan(found.share_of_healthy)
+        assert "not known" in found.sentence
+
+
+def test_a_bearing_without_drawing_is_refused() -> None:
+    with pytest.raises(ValueError, match="inner_groove_radius"):
+        life(presets["liew-lim"], 36e3)
+
+
+def test_no_load_no_fatigue() -> None:
+    found = life(presets["6205"].replace(fy=0.0), 14e3)
+    assert math.isinf(found.million_revolutions)
+    assert found.equivalent_load == 0.0
+    assert found.share_of_healthy == 1.0
+    assert "nothing tires" in found.sentence
+
+
+def test_table_repeats_the_result() -> None:
+    found = life(presets["6206"], 19_500.0)
+    table = found.table()
+    for name in table:
+        assert table[name].size == 1
+        assert table[name][0] == getattr(found, "hours" if name == "life" else name)
+    assert table.unit("inner_load") == "N"
+
+
+@pytest.mark.parametrize(
+    ("changes", "name"),
+    [
+        ({"dynamic_load_rating": 0.0}, "dynamic_load_rating"),
+        ({"dynamic_load_rating": math.inf}, "dynamic_load_rating"),
+        ({"positions": "load line"}, "positions"),
+        ({"positions": "some"}, "positions"),
+        ({"turning_race": "outer"}, "turning_race"),
+        ({"turning_race": "cage"}, "turning_race"),
+    ],
+)
+def test_bad_input_is_named(changes: dict[str, object], name: str) -> None:
+    arguments = {"dynamic_load_rating": 14e3, **changes}
+    with pytest.raises(ValueError, match=name):
+        life(presets["6206"], **arguments)  # type: ignore[arg-type]
+
+
+# --- the rating of a bearing from its dimensions ----------------------------------------------
+
+ISO_281_TABLE = {
+    0.05: 46.7,
+    0.08: 52.8,
+    0.10: 55.5,
+    0.12: 57.5,
+    0.16: 59.6,
+    0.20: 59.9,
+    0.24: 59.0,
+    0.28: 57.1,
+    0.30: 56.0,
+}
+"""f_c of single-row deep-groove and angular-contact ball bearings over D cos α / D_pw."""
+
+
+@pytest.mark.parametrize(("gamma", "factor"), ISO_281_TABLE.items())
+def test_rating_follows_the_table_of_iso_281(gamma: float, factor: float) -> None:
+    D = 10.0
+    bearing = Bearing.from_drawing(
+        7, D / 1e3, D / gamma / 1e3, 0.52 * D / 1e3, 0.53 * D / 1e3, contact_angle=0.0
+    )
+    printed = 1.3 * factor * 7 ** (2 / 3) * D**1.8
+    assert dynamic_load_rating(bearing) == pytest.approx(printed, rel=2e-3)
+
+
+def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:
+    usual = presets["6205"].bearing
+    D = usual.ball_diameter
+    rating = dynamic_load_rating(usual)
+    assert dynamic_load_rating(usual.replace(inner_groove_radius=0.54 * D)) < 0.9 * rating
+    assert dynamic_load_rating(usual.replace(inner_groove_radius=0.51 * D)) == rating
+
+
+def test_ratings_of_the_races_need_the_drawing() -> None:
+    with pytest.raises(ValueError, match="inner_groove_radius"):
+        race_ratings(presets["fan-rig"].bearing, 1e4)

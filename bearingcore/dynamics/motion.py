@@ -22,7 +22,7 @@ from bearingcore.dynamics.ball_motion import (
 )
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
 from bearingcore.model import packing
-from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
 
@@ -148,8 +148,10 @@ class Motion:
             self.dofs,
             self.history[first:last],
             self.ball_place[first:last],
-            (first * self.scene.cage_speed / self.sample_rate,
-             self.scene.cage_speed / self.sample_rate),
+            (
+                first * self.scene.cage_speed / self.sample_rate,
+                self.scene.cage_speed / self.sample_rate,
+            ),
         )
 
     def _with_mass(self) -> NDArray[np.float64]:
@@ -338,7 +340,19 @@ def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[
 def moving_system(
     scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
 ) -> kernels.System:
-    """What the kernels need of a scene that moves along `dofs`; see `packing.rotor`."""
+    """What the kernels need of a scene with massless balls that moves along `dofs`.
+
+    See `packing.rotor`.
+
+    Raises
+    ------
+    ValueError
+        for balls with mass: only `simulate` knows them.
+    """
+    if scene.balls != MASSLESS:
+        raise checks.refuse(
+            "balls", scene.balls, f"{MASSLESS} here: only a simulated motion knows their mass"
+        )
     return kernels.System(
         packing.rotor(scene, dofs, contact_damping(scene), velocities=velocities),
         packing.contacts(scene.bearing),

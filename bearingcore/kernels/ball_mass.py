@@ -20,9 +20,10 @@ and the rings feel Q_i and Q_e. Drops d into defects of the inner race act on th
 those into the outer race on the outer one. Both contacts have the guard of `contact`.
 
 What is marched is as in `motion`: variables that do not jump as a contact closes. For a ball that
-is w = v − (c_i δ_i e_i − c_e δ_e e_e)/m. Where a damper may not pull, a contact whose damper would is
-*released*: it pushes no more, and its part leaves w, so that v does not jump. Releases are looked
-for at the end of each step: the force is zero there, and a late look errs by the square of a step.
+is w = v − (c_i δ_i e_i − c_e δ_e e_e)/m. Where a damper may not pull, a contact whose damper would
+is *released*: it pushes no more, and its part leaves w, so that v does not jump. Releases are
+looked for at the end of each step: the force is zero there, and a late look errs by the square of a
+step.
 """
 
 from __future__ import annotations
@@ -714,4 +715,3 @@ def loads_of_races(place, loads, i, system, march):
                 _, loads[race, i, j], _ = contact_load(
                     delta, system.races.factor[race, j], system.contacts.exponent[j]
                 )
-

@@ -88,9 +88,7 @@ class BallPlaces(NamedTuple):
 def contact_terms(r, z, drop, race, j, balls):
     """Energy, load, e and the stiffness (rr, rz, zz) of one contact that (r, z) closes."""
     races = balls.races
-    delta, er, ez, bend = race_touch(
-        r, z, drop, races.distance[race, j], j, balls.contacts
-    )
+    delta, er, ez, bend = race_touch(r, z, drop, races.distance[race, j], j, balls.contacts)
     if delta <= 0.0:
         return 0.0, 0.0, er, ez, 0.0, 0.0, 0.0
     energy, Q, k1 = contact_load(delta, races.factor[race, j], balls.contacts.exponent[j])
@@ -108,7 +106,7 @@ def contact_terms(r, z, drop, race, j, balls):
 
 @inlined
 def first_place(r, z, force, j, balls, places):
-    """A place (radial, axial) of ball j from which Newton's method sets out, and whether it touches.
+    """A place (radial, axial) of ball j to set out from, and whether it touches there.
 
     (r, z) is the displacement of the inner groove's centre, clearance taken off.
     """
@@ -220,9 +218,7 @@ def settle_ball(r, z, j, balls, places):
         residual = norm / size
         stiff = max(i_rr + e_rr, i_zz + e_zz)
         lost = ROUNDING * (abs(r) + abs(z) + abs(br) + abs(bz)) * stiff / size
-        if residual <= BALL_AIM or (
-            residual <= max(BALL_LIMIT, lost) and residual >= 0.5 * before
-        ):
+        if residual <= BALL_AIM or (residual <= max(BALL_LIMIT, lost) and residual >= 0.5 * before):
             settled = True
             break
         before = residual

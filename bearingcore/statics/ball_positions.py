@@ -168,6 +168,63 @@ def ball_positions(
     )
 
 
+@dataclass(frozen=True)
+class CentrifugalEffect:
+    """What centrifugal load changes of a scene's static state, the greatest over its cage angles.
+
+    Attributes
+    ----------
+    force [N]
+        F_c of a ball.
+    load
+        change of a load at the outer race over the heaviest load.
+    contact_angle [rad]
+        between the two contacts of a ball that both carry.
+    stiffness
+        change of k_xx, k_yy or k_zz over the greatest of its term.
+    converged
+        True where both states have an answer at all cage angles.
+    """
+
+    force: float
+    load: float
+    contact_angle: float
+    stiffness: float
+    converged: bool
+
+    @property
+    def sentence(self) -> str:
+        """In a line, with the numbers."""
+        if not self.converged:
+            return "Centrifugal load: not known, as a cage angle has no static state."
+        return (
+            f"Centrifugal load of {self.force:.3g} N a ball changes loads by up to "
+            f"{100.0 * self.load:.2g} % of the heaviest, stiffness by up to "
+            f"{100.0 * self.stiffness:.2g} %, and parts the contact angles of the races by up to "
+            f"{math.degrees(self.contact_angle):.2g}°."
+        )
+
+
+def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> CentrifugalEffect:
+    """Static states with and without centrifugal load, compared; see `ball_positions`."""
+    without = ball_positions(scene, cage_angles, centrifugal_load=0.0)
+    with_load = ball_positions(scene, without.cage_angles)
+    both = without.converged & with_load.converged
+    if not both.all():
+        nan = math.nan
+        return CentrifugalEffect(with_load.centrifugal_load, nan, nan, nan, False)
+    load = np.abs(with_load.load[1] - without.load[1]).max() / max(without.load.max(), 1e-300)
+    parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
+    changes = [
+        np.abs(with_load.term(name) - without.term(name)).max() / max(without.term(name).max(), 1.0)
+        for name in ("k_xx", "k_yy", "k_zz")
+    ]
+    apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
+    return CentrifugalEffect(
+        with_load.centrifugal_load, float(load), apart, float(max(changes)), True
+    )
+
+
 def static_balls(scene: Scene, races: kernels.Races) -> kernels.StaticBalls:
     """What `kernels.ball_positions` needs of a scene."""
     return kernels.StaticBalls(

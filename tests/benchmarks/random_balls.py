@@ -1,8 +1,9 @@
-"""Random scenes with centrifugal load, none wrong silently: ``python -m tests.benchmarks.random_balls``.
+"""Random scenes with centrifugal load: ``python -m tests.benchmarks.random_balls``.
 
-Each answer is judged by sums that share nothing with the solver (`tests.two_contacts`): what is left
-on every ball and on the ring. Prints how many converged, how many said why not, and every answer
-that is wrong without saying so; ends with status 1 where there is one.
+None may be wrong silently. Each answer is judged by sums that share nothing with the solver
+(`tests.two_contacts`): what is left on every ball and on the ring. Prints how many converged, how
+many said why not, and every answer that is wrong without saying so; ends with status 1 where there
+is one.
 """
 
 from __future__ import annotations

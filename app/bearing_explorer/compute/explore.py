@@ -30,6 +30,7 @@ from bearingcore.diagnosis.sizing_error import extent_error
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
+    MASS,
     MOTION,
     ORBIT,
     OUTPUTS,
@@ -134,6 +135,7 @@ _SINGLE = {
     "life_share_of_healthy": ("Life", "life over that of the healthy bearing"),
     "converged_share": ("Balls", "cage angles with a static state, share"),
     "floquet_multiplier_greatest": ("Motion that repeats", "largest Floquet multiplier |μ|"),
+    "mass_share": ("Vibration of the housing", "share of the power that the balls' mass adds"),
 }
 
 
@@ -442,7 +444,7 @@ class Survey:
             return
         grid = self.question.grid
         rows, columns = at
-        if choice.needs in (MOTION, ORBIT):
+        if choice.needs in (MOTION, ORBIT, MASS):
             rows, columns = self._without_too_long(rows, columns)
             if not rows.size * columns.size:
                 return

@@ -132,7 +132,9 @@ def undamped(scene: Scene, *, free: bool) -> tuple[kernels.BallSystem, np.ndarra
     return system._replace(rotor=rotor, races=races), start
 
 
-def marched(system: kernels.BallSystem, start: np.ndarray, duration: float, steps: int):  # noqa: ANN201
+def marched(
+    system: kernels.BallSystem, start: np.ndarray, duration: float, steps: int
+) -> tuple[np.ndarray, np.ndarray]:
     """History (2, 6, n) and state at the end."""
     n = system.rotor.active.size
     balls = system.contacts.angle.size
@@ -239,7 +241,7 @@ def test_a_quarter_of_all_ball_time_is_free_flight() -> None:
     assert 0.15 < flying.mean() < 0.35
 
 
-# --- another family --------------------------------------------------------------------------------
+# --- another family ------------------------------------------------------------------------------
 
 
 @cache
@@ -285,7 +287,7 @@ def test_two_families_of_methods_agree(law: str) -> None:
     assert np.diff(ours, axis=0).std(axis=0) == pytest.approx(rms, rel=10.0 * allowed)
 
 
-# --- steps -----------------------------------------------------------------------------------------
+# --- steps ---------------------------------------------------------------------------------------
 
 
 def test_steps_follow_the_contact_resonance_and_are_counted_before_they_begin() -> None:

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from bearingcore import Bearing, Load, Scene, equilibrium, presets
-from bearingcore.statics.ball_positions import ball_positions
+from bearingcore.statics.ball_positions import ball_positions, centrifugal_effect
 from tests.benchmarks.random_balls import faults, random_scene
 from tests.two_contacts import TwoContacts
 
@@ -117,7 +117,7 @@ def test_force_balance_of_harris_and_mindel() -> None:
     equilibrium of its angles); the other three numbers then follow from balance alone.
     """
 
-    def at(contact_angle: float):  # noqa: ANN202
+    def at(contact_angle: float):
         bearing = Bearing.from_drawing(
             21, 22.225e-3, 205e-3, 0.52 * 22.225e-3, 0.52 * 22.225e-3, contact_angle=contact_angle
         )
@@ -149,3 +149,19 @@ def test_random_scenes_are_right_or_say_that_they_are_not() -> None:
         solved += int(found.converged[0])
         assert faults(found, 0) == ""
     assert solved >= 140
+
+
+def test_the_effect_of_centrifugal_load_is_measured() -> None:
+    """Next to nothing at the fan rig's 7 Hz, much at 15,000 rpm, and it grows with the speed."""
+    slow = centrifugal_effect(presets["fan-rig"], [0.0, 0.1, 0.2])
+    assert slow.load < 1e-3
+    fast = [
+        centrifugal_effect(
+            presets["7208-25deg"].replace(shaft_speed=rpm * math.pi / 30.0), [0.0, 0.1]
+        )
+        for rpm in (5_000, 15_000)
+    ]
+    assert fast[1].load > 4.0 * fast[0].load > 0.0
+    assert fast[1].contact_angle > math.radians(2.0)
+    assert fast[1].stiffness > 0.01
+    assert "parts the contact angles" in fast[1].sentence

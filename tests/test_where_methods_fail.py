@@ -24,6 +24,7 @@ from bearingcore import (
     spectrum,
 )
 from bearingcore.dynamics.orbit import orbit
+from bearingcore.statics.ball_positions import ball_positions
 from tests.helpers import naive
 from tests.helpers.independent import Balls, verdict
 
@@ -283,3 +284,60 @@ def test_shooting_ends_on_an_orbit_that_no_motion_follows() -> None:
     size = np.ptp(marched, axis=0).max()
     assert np.abs(marched[passes:] - marched[:-passes]).max() > 0.05 * size
     assert np.abs(marched[2 * passes :] - marched[: -2 * passes]).max() < 0.01 * size
+
+
+# --- balls with mass -----------------------------------------------------------------------------
+
+
+def test_a_step_that_rings_can_take_is_too_long_for_the_ball() -> None:
+    """At 65,536 steps a second, twice what the rings ask for, a ball between its contacts blows up.
+
+    Its motion there decays 232,000 times a second, 3.5 times a step, of which RK4 takes 2.785.
+    Nothing shows in the rings' own frequencies. Ours takes more steps by itself; made to take these
+    it says that it diverged, and gives no number from there on.
+    """
+    scene = FAN_RIG.replace(balls="with mass", contact_damping=122.0)
+    made_to = simulate(scene, 0.1, RATE, step_rate=RATE)
+    assert simulate(scene.replace(balls="massless"), 0.01, RATE).step_rate < RATE
+    assert not made_to.completed
+    assert "too few" in made_to.status
+    assert np.isnan(made_to.outer_acceleration[-1]).all()
+    assert np.isnan(made_to.race_loads(6000, 6010)).all()
+    by_itself = simulate(scene, 0.1, RATE)
+    assert by_itself.completed
+    assert by_itself.step_rate > 2.0 * RATE
+
+
+def test_a_ball_is_stuck_between_its_contacts() -> None:
+    """What one thinks of first never finds the place of a ball, in the gap or under load.
+
+    In the gap neither contact has any stiffness, and Newton's method has nothing to divide by. A
+    loaded ball that is put where its outer contact carries what the inner one presses with, again
+    and again, swings farther each time where the inner contact is the stiffer one, until it hops
+    from contact to contact for ever. Ours rests in either case.
+    """
+    scene = presets["6205"].healthy()
+    bearing = scene.bearing
+    inner, outer = bearing.race_factors
+    assert inner > outer
+    force = bearing.centrifugal_load(15_000 * math.pi / 30.0)
+    found = ball_positions(scene, [0.0], centrifugal_load=force)
+    assert found.converged[0]
+
+    gap = 0.5 * bearing.radial_clearance
+    assert 1.5 * inner * max(-gap, 0.0) ** 0.5 + 1.5 * outer * max(-gap, 0.0) ** 0.5 == 0.0
+    unloaded = found.load[0, 0] == 0.0
+    assert unloaded.sum() >= 3
+    assert found.load[1, 0, unloaded] == pytest.approx(force, rel=1e-9)
+
+    heaviest = int(np.argmax(found.load[0, 0]))
+    Q_i, Q_e = found.load[:, 0, heaviest]
+    assert Q_e - Q_i == pytest.approx(force, rel=1e-9)
+    place = (Q_e / outer) ** (2.0 / 3.0)
+    both = place + (Q_i / inner) ** (2.0 / 3.0)
+    visited = [place * (1.0 + 1e-6)]
+    for _ in range(2000):
+        pressed = inner * max(both - visited[-1], 0.0) ** 1.5
+        visited.append(((pressed + force) / outer) ** (2.0 / 3.0))
+    assert abs(visited[-1] - visited[-2]) > 0.5 * both
+    assert abs(visited[-1] - visited[-3]) < 1e-9 * both

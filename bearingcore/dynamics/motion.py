@@ -13,9 +13,16 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.ball_motion import (
+    ball_start,
+    ball_step_rate,
+    ball_system,
+    loads_of_races,
+    place_parts,
+)
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
 from bearingcore.model import packing
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
 
@@ -56,7 +63,10 @@ class Motion:
     inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
         the outer one is what a sensor on the housing measures.
     ball_load : (n, N_b) [N] or None
-        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if they were asked for.
+        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if they were asked for; of balls with mass
+        those of the outer race.
+    ball_place : (n, 1 or 2, N_b) [m] or None
+        radial, and where they move along the shaft axial, place of balls that have mass.
     """
 
     scene: Scene
@@ -69,6 +79,7 @@ class Motion:
     time: NDArray[np.float64]
     ball_load: NDArray[np.float64] | None
     history: NDArray[np.float64] = field(repr=False)
+    ball_place: NDArray[np.float64] | None = field(default=None, repr=False)
 
     @cached_property
     def cage_angle(self) -> NDArray[np.float64]:
@@ -105,14 +116,68 @@ class Motion:
         """(n, len(dofs)) [m/s², rad/s²]"""
         return self._sampled("outer", 2)
 
+    @cached_property
+    def ball_position(self) -> NDArray[np.float64]:
+        """(n, 2, N_b) [m] radial and axial place of each ball.
+
+        Against that of the unloaded ball that touches the outer race, the rings concentric.
+
+        Raises
+        ------
+        ValueError
+            for balls without mass, which have no place of their own.
+        """
+        place = self._with_mass()
+        full = np.zeros((len(place), 2, place.shape[2]))
+        full[:, : place.shape[1]] = place
+        return full
+
+    @cached_property
+    def ball_load_inner(self) -> NDArray[np.float64]:
+        """(n, N_b) [N] elastic loads at the inner race; see `race_loads`."""
+        return self.race_loads()[0]
+
+    @cached_property
+    def ball_load_outer(self) -> NDArray[np.float64]:
+        """(n, N_b) [N] elastic loads at the outer race; see `race_loads`."""
+        return self.race_loads()[1]
+
+    def race_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
+        """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
+
+        Of balls without mass both are the same.
+        """
+        if self.ball_place is None:
+            loads = self.ball_loads(start, stop)
+            return np.stack([loads, loads])
+        first, last = slice(start, stop).indices(len(self.time))[:2]
+        return loads_of_races(
+            self.scene,
+            self.dofs,
+            self.history[first:last],
+            self.ball_place[first:last],
+            (
+                first * self.scene.cage_speed / self.sample_rate,
+                self.scene.cage_speed / self.sample_rate,
+            ),
+        )
+
+    def _with_mass(self) -> NDArray[np.float64]:
+        if self.ball_place is None:
+            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
+        return self.ball_place
+
     def ball_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
 
-        Fewer samples cost less: a short stretch is all that a figure of contact forces needs.
+        Of balls with mass those at the outer race. Fewer samples cost less: a short stretch is all
+        that a figure of contact forces needs.
         """
+        if self.ball_place is not None:
+            return self.race_loads(start, stop)[1]
         samples = slice(start, stop).indices(len(self.time))[:2]
         inner, outer = (
-            _sample(self.history, body, 0, self.sample_rate, self.step_rate, *samples)
+            _sample(self.history, body, 0, self.sample_rate, self._history_rate, *samples)
             for body in ("inner", "outer")
         )
         scene = self.scene
@@ -143,11 +208,15 @@ class Motion:
             *((f"ball_{j + 1}_load", "N", load, f"load of ball {j + 1}") for j, load in loads),
         )
 
+    @property
+    def _history_rate(self) -> float:
+        """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
+        return self.step_rate if self.ball_place is None else self.sample_rate
+
     def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
         """A quantity of one body at the sample times, between steps by quintic interpolation."""
-        scaled = _sample(
-            self.history, body, derivative, self.sample_rate, self.step_rate, 0, len(self.time)
-        )
+        rate = self._history_rate
+        scaled = _sample(self.history, body, derivative, self.sample_rate, rate, 0, len(self.time))
         return scaled / packing.length_units(self.scene, self.dofs)
 
 
@@ -176,6 +245,7 @@ def simulate(
         [Hz] steps a second: a multiple or a whole fraction of the sample rate. None takes enough
         for STEPS_A_CYCLE steps in a period of the highest natural frequency and STEPS_A_PASSAGE
         while a ball passes the defect. Samples between steps come from quintic interpolation.
+        Balls with mass take a multiple of the sample rate, see `ball_step_rate`.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
@@ -207,9 +277,18 @@ def simulate(
             f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
             f"of {highest:.0f} Hz",
         )
+    with_mass = scene.balls == WITH_MASS
     if step_rate is None:
         step_rate = default_step_rate(scene, sample_rate, highest)
-    _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
+        if with_mass:
+            step_rate = max(ball_step_rate(scene, sample_rate), step_rate)
+    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
+    if with_mass and a_step > 1:
+        raise checks.refuse(
+            "step_rate",
+            step_rate,
+            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
+        )
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
@@ -220,6 +299,7 @@ def simulate(
     n = max(round(duration * sample_rate), 1)
     n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
     time = np.arange(n) / sample_rate
+    n_balls = packing.contacts(scene.bearing).angle.size
     if n_steps > most_steps:
         # NaN everywhere, without the memory of it
         nothing = np.broadcast_to(np.float64(math.nan), (n_steps + 1, 6, len(dofs)))
@@ -229,20 +309,32 @@ def simulate(
         )
         return Motion(
             scene, dofs, sample_rate, step_rate, False, status, 0, time,
-            np.full((n, scene.bearing.n_balls), math.nan) if ball_loads else None, nothing,
+            np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
         )  # fmt: skip
-    history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
-    y = static_start(scene, dofs)
+    h = 1.0 / step_rate
+    stride, place = 1, None
+    y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
+    if with_mass:
+        stride = a_sample
+        place = np.full((n, place_parts(scene, dofs), n_balls), math.nan)
+        history = np.empty((n, 6, len(dofs)))
+    else:
+        history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
     if y is None:
         history[:] = math.nan
         reason = equilibrium(scene, [0.0], dofs).reason(0)
         done, status = 0, f"no static state to start from: {reason}"
     else:
-        h = 1.0 / step_rate
-        done = march_from(scene, y, h, history)
+        if place is None:
+            done = march_from(scene, y, h, history)
+        else:
+            system = ball_system(scene, dofs)
+            done = int(kernels.march_balls(y, h, 0.0, stride, system, history, place))
         status = "completed"
         if done < n_steps:
-            history[done + 1 :] = math.nan
+            history[done // stride + 1 :] = math.nan
+            if place is not None:
+                place[done // stride + 1 :] = math.nan
             status = f"diverged after {done * h:.3g} s: {step_rate:g} steps a second are too few"
     motion = Motion(
         scene=scene,
@@ -255,6 +347,7 @@ def simulate(
         time=time,
         ball_load=None,
         history=history,
+        ball_place=place,
     )
     return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
 
@@ -272,7 +365,19 @@ def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[
 def moving_system(
     scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
 ) -> kernels.System:
-    """What the kernels need of a scene that moves along `dofs`; see `packing.rotor`."""
+    """What the kernels need of a scene with massless balls that moves along `dofs`.
+
+    See `packing.rotor`.
+
+    Raises
+    ------
+    ValueError
+        for balls with mass: only `simulate` knows them.
+    """
+    if scene.balls != MASSLESS:
+        raise checks.refuse(
+            "balls", scene.balls, f"{MASSLESS} here: only a simulated motion knows their mass"
+        )
     return kernels.System(
         packing.rotor(scene, dofs, contact_damping(scene), velocities=velocities),
         packing.contacts(scene.bearing),

@@ -5,6 +5,14 @@ arguments. `compiling` says how functions are compiled and kept on disk.
 """
 
 from bearingcore.kernels.adaptive import march_adaptive
+from bearingcore.kernels.ball_mass import (
+    BallSystem,
+    Races,
+    ball_motion_rates,
+    march_balls,
+    race_loads,
+)
+from bearingcore.kernels.ball_positions import StaticBalls, ball_positions
 from bearingcore.kernels.compiling import on_disk
 from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.motion import (
@@ -73,23 +81,30 @@ __all__ = [
     "TABLE",
     "VELOCITIES",
     "Adaptive",
+    "BallSystem",
     "Contacts",
     "MapAnswers",
     "MapMemory",
     "MapPaths",
     "Path",
+    "Races",
     "Rotor",
+    "StaticBalls",
     "StaticLoad",
     "System",
+    "ball_motion_rates",
     "ball_path",
+    "ball_positions",
     "between_steps",
     "contact_angles",
     "elastic_loads",
     "march",
     "march_adaptive",
+    "march_balls",
     "march_with_tangent",
     "motion_rates",
     "on_disk",
+    "race_loads",
     "roll_over",
     "static_maps",
     "static_states",

@@ -13,20 +13,24 @@ load-deflection factor of a ball            | K      | load_deflection_factor   
 outer, inner raceway radius (groove bottom) | R_o, R_i | outer_, inner_raceway_radius | m
 inner, outer groove radius, if known        | r_i, r_o | inner_, outer_groove_radius | m
 Young's modulus and Poisson's ratio, if known | E, ν | youngs_modulus, poisson  | Pa,
+density and mass of a ball                  | ρ, m   | density, ball_mass       | kg/m³, kg
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Self
 
 from bearingcore.common import checks
-from bearingcore.model import drawing
+from bearingcore.model import drawing, scene_file
 from bearingcore.model.hertz import RaceContact, in_series, race_contact, spherical_contact
 from bearingcore.model.rows import MOST_ROWS, Row, pair
+
+STEEL_DENSITY = 7800.0
+"""Density [kg/m³] of balls of bearing steel."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,9 @@ class Bearing:
     roller_length
         [m] of cylindrical rollers, which stand in place of balls: line contact, K in N/m^(10/9),
         radial directions only. None for balls.
+    density
+        of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
+        it.
 
     Raises
     ------
@@ -85,6 +92,7 @@ class Bearing:
     poisson: float | None = None
     rows: tuple[Row, ...] = ()
     roller_length: float | None = None
+    density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -101,6 +109,7 @@ class Bearing:
             "inner_raceway_radius",
         ):
             keep(name, checks.number(name, getattr(self, name), above=0.0))
+        keep("density", checks.number("density", self.density, above=0.0, unit="kg/m³"))
         keep("contact_angle", drawing.check_contact_angle(self.contact_angle))
         keep(
             "radial_clearance",
@@ -438,6 +447,47 @@ class Bearing:
     def ball_radius(self) -> float:
         """Ball radius r_b [m]."""
         return 0.5 * self.ball_diameter
+
+    @property
+    def ball_mass(self) -> float:
+        """Mass of a ball or roller [kg], of its density throughout."""
+        if self.roller_length is not None:
+            return self.density * math.pi / 4.0 * self.ball_diameter**2 * self.roller_length
+        return self.density * math.pi / 6.0 * self.ball_diameter**3
+
+    def centrifugal_load(self, shaft_speed: float) -> float:
+        """Centrifugal load F_c = m ω_c² D_p/2 [N] of a ball on the pitch circle; speed in rad/s."""
+        return self.ball_mass * self.cage_speed(shaft_speed) ** 2 * 0.5 * self.pitch_diameter
+
+    @property
+    def race_factors(self) -> tuple[float, float]:
+        """Load-deflection factors [N/m^n] of a ball's contacts with the inner and outer race.
+
+        Their ratio is that of Hertz's contacts where the drawing is known and 1 elsewhere, and in
+        series they are `load_deflection_factor`: of both contacts alike each is 2^n of it, n being
+        `contact_exponent`.
+        """
+        inner, outer = (
+            (self.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
+            if self.is_drawn
+            else (1.0, 1.0)
+        )
+        n = self.contact_exponent
+        scale = self.load_deflection_factor * (inner ** (-1.0 / n) + outer ** (-1.0 / n)) ** n
+        return scale * inner, scale * outer
+
+    @property
+    def race_distances(self) -> tuple[float, float]:
+        """Unloaded distances [m] of a ball's centre from the inner and outer groove's centre.
+
+        r_i − D_b/2 and r_o − D_b/2, in proportion to make A0; halves of it without a drawing.
+        """
+        inner, outer = 1.0, 1.0
+        if self.inner_groove_radius is not None and self.outer_groove_radius is not None:
+            inner = self.inner_groove_radius - self.ball_radius
+            outer = self.outer_groove_radius - self.ball_radius
+        scale = self.groove_center_distance / (inner + outer)
+        return scale * inner, scale * outer
 
     @property
     def ball_spacing(self) -> float:

@@ -20,6 +20,9 @@ from bearingcore.model.scene import DOF_NAMES, Scene
 
 Array = NDArray[np.float64]
 
+STANDARD_GRAVITY = 9.80665
+"""[m/s²], along −y."""
+
 
 class BodyNumbers(NamedTuple):
     """Both bodies along n directions, each (n,), tilts scaled to lengths.
@@ -62,9 +65,36 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
     )
 
 
-def path(scene: Scene) -> kernels.Path:
-    """The way of a ball's centre over all defects of a scene."""
-    return path_tables(scene.defects, scene.bearing)
+def path(scene: Scene, race: str | None = None) -> kernels.Path:
+    """The way of a ball's centre over all defects of a scene, or over those of one race."""
+    defects = tuple(defect for defect in scene.defects if race in (None, defect.race))
+    return path_tables(defects, scene.bearing)
+
+
+def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Races:
+    """Both contacts of each ball, its mass and the loads on it.
+
+    contact_damping: c [N·s/m] of both contacts in series. It is shared so that balls without mass
+    would move as the published law has them: damping over stiffness alike on both sides. Alike
+    contacts have 2 c each. `weight`: whether the balls' weight acts.
+    """
+    bearing = scene.bearing
+    n = bearing.n_balls * len(bearing.all_rows)
+    inner, outer = bearing.race_factors
+    softer = (inner / outer) ** (1.0 / bearing.contact_exponent)
+    mass = bearing.ball_mass
+
+    def each(*values: float) -> Array:
+        return np.ascontiguousarray(np.outer(values, np.ones(n)))
+
+    return kernels.Races(
+        factor=each(inner, outer),
+        distance=each(*bearing.race_distances),
+        damping=each(contact_damping * (1.0 + softer), contact_damping * (1.0 + 1.0 / softer)),
+        mass=each(mass)[0],
+        centrifugal=each(bearing.centrifugal_load(scene.shaft_speed))[0],
+        weight=each(mass * STANDARD_GRAVITY if weight else 0.0)[0],
+    )
 
 
 def typical_compression(bearing: Bearing, load: float) -> float:

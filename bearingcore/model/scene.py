@@ -23,6 +23,12 @@ CONTACT_LAWS = ("published", "no tension")
 `no tension`: the same, never below zero."""
 
 
+MASSLESS, WITH_MASS = "massless", "with mass"
+BALLS = (MASSLESS, WITH_MASS)
+"""What a simulated motion takes balls for. `massless`: each is a spring between the rings (Eq. 13).
+`with mass`: each has its place, its inertia, centrifugal load and weight, and two contacts."""
+
+
 @dataclass(frozen=True)
 class Scene:
     """A bearing, its defect or defects, load, speed and support: all that decides an answer.
@@ -42,6 +48,8 @@ class Scene:
         "published" or "no tension".
     dofs
         free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs.
+    balls
+        "massless" or "with mass", of simulated motions.
 
     Raises
     ------
@@ -57,6 +65,7 @@ class Scene:
     contact_damping: float | None = None
     contact_law: str = "published"
     dofs: tuple[str, ...] | None = None
+    balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
         def keep(name: str, value: object) -> None:
@@ -69,6 +78,7 @@ class Scene:
                 checks.number("contact_damping", self.contact_damping, at_least=0.0),
             )
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
+        checks.choice("balls", self.balls, BALLS)
         if self.dofs is not None:
             keep("dofs", check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):

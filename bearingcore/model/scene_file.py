@@ -42,15 +42,21 @@ LARGEST_TEXT = 2_000_000
 MOST_TABLES = 20
 """Parts of one kind, defects for example, that are read at the most."""
 
+LEFT_OUT = types.MappingProxyType({"left_out": True})
+"""Metadata of a field that came after files were about: its default is not written."""
+
 T = TypeVar("T")
 
 
 def to_data(value: Any) -> dict[str, Any]:
-    """A dataclass as dictionaries, lists, numbers and strings, without what is None or empty."""
+    """A dataclass as dictionaries, lists, numbers and strings, without what is None or empty.
+
+    A field marked LEFT_OUT is left out too where it has its default.
+    """
     data: dict[str, Any] = {}
     for field in dataclasses.fields(value):
         held = getattr(value, field.name)
-        if held is None or held == ():
+        if held is None or held == () or (field.metadata == LEFT_OUT and held == field.default):
             continue
         named = len(_parts(type(value))[field.name]) > 1
         data[field.name] = _plain(held, named)

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from bearingcore.dynamics.modes import modes
 from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.orbit import NO_PERIOD, Orbit, common_ball_passes, orbit
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.plan.balls import plan_with_mass
 from bearingcore.plan.pilot import (
     PILOT,
     SAFETY,
@@ -44,6 +45,8 @@ def plan_motion(
     step_rate: float | None,
     march: bool,
 ) -> Plan:
+    if scene.balls == WITH_MASS:
+        return plan_with_mass(scene, view, budget, began, duration, sample_rate, step_rate)
     pilot = Pilot(scene, budget, sample_rate)
     fixed = way = pilot.fixed(step_rate)
     # where the force jumps, fixed steps have order 1; where it does not, nothing beats them

@@ -46,9 +46,6 @@ from bearingcore.statics.pressure import heaviest_ball
 STATIC_PRESSURE = 4.2e9
 """Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
 
-STEEL_DENSITY = 7850.0
-"""Density of the balls [kg/m³]."""
-
 CENTRIFUGAL_SHARE = {"most": 0.1, "least": 1.0}
 """Centrifugal force over contact load up to which it may be left out. On the most loaded ball a
 tenth already shifts loads and angles; the least loaded one it may lift off the inner race."""
@@ -232,10 +229,8 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float) -> Limit:
 
 
 def centrifugal_force(scene: Scene) -> float:
-    """Centrifugal force F_c = m ω_c² D_p/2 [N] of a steel ball on the pitch circle."""
-    bearing = scene.bearing
-    mass = STEEL_DENSITY * math.pi / 6.0 * bearing.ball_diameter**3
-    return mass * scene.cage_speed**2 * 0.5 * bearing.pitch_diameter
+    """Centrifugal force F_c = m ω_c² D_p/2 [N] of a ball on the pitch circle."""
+    return scene.bearing.centrifugal_load(scene.shaft_speed)
 
 
 def _centrifugal(scene: Scene, state: Equilibrium, heaviest: float) -> tuple[Limit, Limit]:
@@ -273,7 +268,7 @@ def _share(which: str, force: float, load: float, limit: float, so_what: str) ->
     share = force / load
     crossed = share > limit
     sentence = (
-        f"A steel ball's centrifugal force of {force:.3g} N is {_percent(share)} of the "
+        f"A ball's centrifugal force of {force:.3g} N is {_percent(share)} of the "
         f"{load:.4g} N on the {which}"
         + (f": {so_what}." if crossed else f", below the {100.0 * limit:.0f} % that matter.")
     )

@@ -20,6 +20,7 @@ from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
     LIFE,
+    MASS,
     MODE,
     MODES,
     MOTION,
@@ -214,7 +215,7 @@ class Grid:
         """
         if scenes is None:
             seconds = SECONDS_IN_A_ROW if self.in_rows else sum(SECONDS[n] for n in self.needs)
-            if len(self.dofs) > 2 and set(self.needs) & {MODES, MOTION, ORBIT}:
+            if len(self.dofs) > 2 and set(self.needs) & {MODES, MOTION, ORBIT, MASS}:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
         left = max(scenes, 1)
@@ -336,7 +337,7 @@ class Grid:
     def _try(self, index: Sequence[int]) -> None:
         """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
         scene = self.scene_at(index)
-        if set(self.needs) & {MODES, MOTION, ORBIT}:
+        if set(self.needs) & {MODES, MOTION, ORBIT, MASS}:
             dofs = scene.active_dofs
             scene.support.stiffness(dofs)
             scene.support.damping(dofs)
@@ -344,7 +345,7 @@ class Grid:
                 scene.support.inertia(body, dofs)
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
-        if set(self.needs) & {MOTION, ORBIT} and scene.shaft_speed == 0.0:
+        if set(self.needs) & {MOTION, ORBIT, MASS} and scene.shaft_speed == 0.0:
             raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion or an orbit")
 
     # ---------------------------------------------------------------------------- in words

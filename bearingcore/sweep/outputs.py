@@ -25,6 +25,7 @@ from bearingcore.dynamics.orbit import (
 )
 from bearingcore.dynamics.speed_run import SETTLING
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene
+from bearingcore.plan.balls import mass_share
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     TERM_SYMBOLS,
@@ -38,9 +39,9 @@ from bearingcore.statics.pressure import contact_pressures
 
 Array = NDArray[np.float64]
 
-STATICS, LIFE, MODES, MOTION, ORBIT = "statics", "life", "modes", "motion", "orbit"
+STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
 
-SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 8e-3, MOTION: 2e-2, ORBIT: 1e-2}
+SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 8e-3, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
 """Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
 a task. Five directions cost about ten times as much, but for statics and life; life takes fifteen
 times as long with a defect of the inner race."""
@@ -205,6 +206,14 @@ def _table() -> dict[str, Output]:
         "largest Floquet multiplier |μ|",
         ORBIT,
     )
+    table["mass_share"] = Output(
+        "1",
+        "share of the housing's power along x and y in the settings' band that the balls' mass "
+        "adds, in simulated motions with and without it",
+        "Vibration of the housing",
+        "share of the power that the balls' mass adds",
+        MASS,
+    )
     return table
 
 
@@ -258,12 +267,16 @@ class Settings:
         [Hz] of simulated motions.
     dynamic_load_rating
         C_r [N] that lives are computed with; None: that of each bearing by ISO 281.
+    band_low, band_high
+        [Hz] of the band whose share of the power that mass adds is asked for.
     """
 
     cage_angles: int = 121
     duration: float = 1.4
     sample_rate: float = 65536.0
     dynamic_load_rating: float | None = None
+    band_low: float = 2100.0
+    band_high: float = 10_000.0
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -274,6 +287,9 @@ class Settings:
         for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
             value = checks.number(name, getattr(self, name), above=0.0, at_most=most, unit=unit)
             keep(name, value)
+        keep("band_low", checks.number("band_low", self.band_low, above=0.0, unit="Hz"))
+        band_high = checks.number("band_high", self.band_high, above=self.band_low, unit="Hz")
+        keep("band_high", band_high)
         if self.dynamic_load_rating is not None:
             rating = checks.number(
                 "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
@@ -309,6 +325,17 @@ def of_scene(
             numbers["band_least"], numbers["band_greatest"] = edges.T
         if MOTION in needs:
             codes.append(_motion(scene, settings, numbers))
+        if MASS in needs:
+            if settings.band_high > 0.5 * settings.sample_rate:
+                raise checks.refuse("band_high", settings.band_high, "at most half the sample_rate")
+            share = mass_share(
+                scene,
+                settings.band_low,
+                settings.band_high,
+                settings.duration,
+                settings.sample_rate,
+            )
+            numbers["mass_share"] = np.array(share)
         if ORBIT in needs:
             found = orbit(scene)
             numbers["floquet_multiplier_greatest"] = np.array(found.largest_multiplier)

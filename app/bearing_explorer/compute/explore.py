@@ -32,6 +32,7 @@ from bearingcore.diagnosis.sizing_error import extent_error
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
+    MASS,
     MOTION,
     ORBIT,
     OUTPUTS,
@@ -379,7 +380,7 @@ class Survey:
             return
         grid = self.question.grid
         rows, columns = at
-        if output.needs in (MOTION, ORBIT):
+        if output.needs in (MOTION, ORBIT, MASS):
             rows, columns = self._without_too_long(rows, columns)
             if not rows.size * columns.size:
                 return

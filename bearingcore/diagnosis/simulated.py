@@ -1,0 +1,91 @@
+"""Simulated measurements: what a sensor on the housing would record of a scene."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from bearingcore.common import checks
+from bearingcore.dynamics.motion import simulate
+from bearingcore.model.defect import Defect
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.signals.recording import DIRECTIONS, Recording
+
+SETTLING = 0.12
+"""[s] of motion before the recording begins: several times the slowest mode's decay."""
+
+
+def pit(scene: Scene, length: float, race: str = "outer", depth: float | None = None) -> Defect:
+    """A small pit of a race, in the middle of the load zone, with the edges that geometry asks for.
+
+    Parameters
+    ----------
+    scene
+        whose bearing and load it is for.
+    length
+        along the race [m]; seeded pits of test rigs are 0.2 to 0.5 mm.
+    race
+        "outer" or "inner".
+    depth
+        [m]; None: deep enough that no ball reaches the floor, as far as a ball goes.
+
+    Raises
+    ------
+    ValueError
+        for a length that is not above 0, or a depth that the ball does not roll over.
+    """
+    length = checks.number("length", length, above=0.0, unit="m")
+    bearing = scene.bearing
+    if depth is None:
+        depth = min(0.25 * length, 0.5 * bearing.ball_radius)
+    center = math.atan2(scene.load.fy, scene.load.fx) if scene.load.vector[:2].any() else 0.0
+    made = Defect(0.0, depth, center, race, "exact")
+    extent = min(length / made.raceway_radius(bearing), 2.0 * math.pi)
+    return dataclasses.replace(made, extent=extent)
+
+
+def simulated_recording(
+    scene: Scene,
+    duration: float = 1.0,
+    sample_rate: float = 65536.0,
+    *,
+    noise: float = 0.0,
+    seed: int = 0,
+    with_mass: bool | None = None,
+) -> Recording:
+    """What an accelerometer on the housing would record of a scene, its transient left out.
+
+    Parameters
+    ----------
+    scene
+        what is measured.
+    duration, sample_rate
+        [s], [Hz] of the recording.
+    noise
+        standard deviation [m/s²] of the sensor's white noise, another for each `seed`.
+    with_mass
+        whether balls have mass; None: as the scene says. With mass a small pit gives what real ones
+        give: a step as a ball enters, an impulse as it strikes the far edge.
+
+    Raises
+    ------
+    ValueError
+        where the motion has no answer, in its words, or x and y do not move.
+    """
+    checks.number("duration", duration, above=0.0, unit="s")
+    noise = checks.number("noise", noise, at_least=0.0, unit="m/s²")
+    if with_mass is not None:
+        scene = scene.replace(balls=WITH_MASS if with_mass else MASSLESS)
+    directions = tuple(name for name in DIRECTIONS if name in scene.active_dofs)
+    if not directions:
+        raise checks.refuse("dofs", scene.active_dofs, "x or y among them, where sensors stand")
+    motion = simulate(scene, SETTLING + duration, sample_rate)
+    if not motion.completed:
+        raise checks.refuse("scene", motion.status, "one whose motion can be simulated")
+    columns = [motion.dofs.index(name) for name in directions]
+    signal = motion.outer_acceleration[-max(round(duration * sample_rate), 1) :, columns]
+    if noise > 0.0:
+        signal = signal + np.random.default_rng(seed).normal(0.0, noise, signal.shape)
+    return Recording(signal, sample_rate, directions, f"simulated, balls {scene.balls}")

@@ -1,0 +1,151 @@
+"""Balls with mass in a simulated motion: where they start, what resonates, how finely to step."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import kernels
+from bearingcore.dynamics.modes import contact_damping
+from bearingcore.model import packing
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.ball_positions import static_balls
+from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+
+Array = NDArray[np.float64]
+
+STEPS_A_CONTACT_CYCLE = 5.0
+"""Steps in a period of the contact resonance, by default; stable down to 2.2."""
+
+STABLE_DECAY = 2.4
+"""Decay of a ball's motion in its contacts, times the step, that is taken; 2.785 is the limit of
+Runge-Kutta steps of order 4."""
+
+
+def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
+    """1 where balls move in their plane alone (radially), else 2 (radially and axially)."""
+    flat = scene.bearing.is_flat and set(dofs) <= set(DOF_NAMES[:2])
+    return 1 if flat else 2
+
+
+def ball_system(
+    scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
+) -> kernels.BallSystem:
+    """What the kernels need of a scene with heavy balls that moves along `dofs`.
+
+    `velocities` asks for these as variables, which general-purpose integrators take; places are
+    then radial and axial always.
+    """
+    c = contact_damping(scene)
+    flat = place_parts(scene, dofs) == 1
+    variables = kernels.VELOCITIES if velocities else kernels.PLANAR if flat else kernels.SMOOTH
+    return kernels.BallSystem(
+        packing.rotor(scene, dofs, c)._replace(variables=variables),
+        packing.contacts(scene.bearing),
+        packing.races(scene, c, weight=True),
+        packing.path(scene, "inner"),
+        packing.path(scene, "outer"),
+    )
+
+
+def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) -> Array | None:
+    """State of rings and balls at rest at cage angle 0, at the scene's speed.
+
+    Displacements and velocities of both rings, places of the balls, their velocities. None where
+    there is no static state.
+    """
+    massless = equilibrium(scene, [0.0], dofs)
+    if massless.status[0] >= kernels.NOT_CARRIED:
+        return None
+    system = ball_system(scene, dofs)
+    q, _, _, place, _, status, _, _ = kernels.ball_positions(
+        massless.cage_angles,
+        massless.state,
+        static_balls(scene, system.races),
+        packing.static_load(scene, dofs),
+    )
+    if status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+        return None
+    bodies = packing.body_numbers(scene, dofs)
+    number = packing.direction_numbers(dofs)
+    angle = system.contacts.angle
+    c, s = np.cos(angle), np.sin(angle)
+    radial = system.races.centrifugal - system.races.weight * s
+    arm = system.contacts.arm
+    carried = np.array([radial @ c, radial @ s, 0.0, -(radial * arm) @ s, (radial * arm) @ c])
+    outer = np.zeros(5)  # the housing sinks into its support, under the balls too
+    outer[number] = (bodies.force + carried[number]) / bodies.stiffness
+    rings = np.zeros((4, len(dofs)))
+    rings[0], rings[2] = outer[number] + q[0, number], outer[number]
+    reach = system.contacts.reach
+    balls = place[0]
+    balls[0] += (outer[0] + arm * outer[4]) * c + (outer[1] - arm * outer[3]) * s
+    balls[1] += outer[2] + reach * (outer[3] * s - outer[4] * c)
+    kept = balls[: place_parts(scene, dofs) if parts is None else parts]
+    return np.concatenate([rings.ravel(), kept.ravel(), np.zeros(kept.size)])
+
+
+def contact_stiffness(scene: Scene, load: float) -> tuple[float, float]:
+    """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
+    n = scene.bearing.contact_exponent
+    inner, outer = (
+        n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in scene.bearing.race_factors
+    )
+    return inner, outer
+
+
+@lru_cache(maxsize=512)
+def heaviest_load(scene: Scene) -> float:
+    """Greatest static load [N] of a ball over a period of cage angles; 0 where none is known."""
+    load = equilibrium(scene, default_cage_angles(scene, 31)).ball_load
+    known = load[np.isfinite(load)]
+    return float(known.max()) if known.size else 0.0
+
+
+def contact_resonance(scene: Scene) -> float:
+    """Frequency sqrt((k_i + k_e)/m_b)/2π [Hz] of the heaviest loaded ball between its contacts."""
+    stiffness = sum(contact_stiffness(scene, heaviest_load(scene)))
+    return math.sqrt(stiffness / scene.bearing.ball_mass) / (2.0 * math.pi)
+
+
+def fastest_decay(scene: Scene) -> float:
+    """The fastest decay [1/s] of a ball's motion between its contacts, 0 where it is undamped."""
+    damping = float(packing.races(scene, contact_damping(scene), weight=False).damping[:, 0].sum())
+    return damping / scene.bearing.ball_mass
+
+
+def ball_step_rate(scene: Scene, sample_rate: float) -> float:
+    """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
+
+    As many as the contact resonance of the heaviest loaded ball and its decay ask for.
+    """
+    needed = max(
+        STEPS_A_CONTACT_CYCLE * contact_resonance(scene), fastest_decay(scene) / STABLE_DECAY
+    )
+    return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
+
+
+def loads_of_races(
+    scene: Scene,
+    dofs: tuple[str, ...],
+    history: Array,
+    place: Array,
+    turning: tuple[float, float],
+) -> Array:
+    """Elastic loads (2, n, N_b) [N] at inner and outer race of a motion's rows; NaN as they are.
+
+    turning: cage angle [rad] of the first row, and from row to row.
+    """
+    loads = kernels.race_loads(
+        np.ascontiguousarray(history[:, 0]),
+        np.ascontiguousarray(history[:, 3]),
+        np.ascontiguousarray(place),
+        packing.direction_numbers(dofs),
+        turning,
+        ball_system(scene, dofs),
+    )
+    loads[:, ~np.isfinite(history[:, 0, 0])] = math.nan
+    return np.asarray(loads)

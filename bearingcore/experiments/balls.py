@@ -1,0 +1,200 @@
+"""Work and precision of ways to march balls that have mass.
+
+Balls in free flight make single lines of a spectrum sensitive to anything: errors are those of
+third octaves, means over many lines and ball passes. Their own spread, between two motions whose
+balls weigh one part in ten thousand more or less, is told with the reference.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
+from bearingcore.experiments.ball_steps import march_implicit_balls
+from bearingcore.experiments.points import Experiment, Point, Reference, failed, least_time
+from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.signals.spectrum import spectrum
+
+Array = NDArray[np.float64]
+
+BANDS = {"0.3-2.1 kHz": (300.0, 2100.0), "2.1-5 kHz": (2100.0, 5e3), "5-10 kHz": (5e3, 1e4)}
+
+ERRORS = {
+    name: f"greatest error of a third octave of the housing's spectrum in {name}, x and y [dB]"
+    for name in BANDS
+}
+
+FINEST = 32
+"""Steps a sample of the reference."""
+
+LEFT_OUT = (
+    "an exponential step for the ball's own direction, which takes two exponentials or a sine and "
+    "a cosine a contact where the implicit one takes a division; general-purpose methods, which "
+    "hold to tolerances between strikes and take five times as long (they are what tests compare with)"
+)
+
+
+@dataclass(frozen=True)
+class BallMarch:
+    """A motion of the rings, (samples, 6, 2), what it cost, and why it failed, if it did."""
+
+    history: Array
+    calls: int
+    failure: str
+
+
+Marcher = Callable[[Scene, int, float, float], BallMarch]
+"""(scene, steps a sample, duration [s], sample rate [Hz]) -> BallMarch"""
+
+
+def _explicit(*, velocities: bool) -> Marcher:
+    def march(scene: Scene, stride: int, duration: float, sample_rate: float) -> BallMarch:
+        dofs = scene.active_dofs
+        parts = 2 if velocities else place_parts(scene, dofs)
+        n = round(duration * sample_rate)
+        history = np.full((n, 6, len(dofs)), math.nan)
+        place = np.empty((n, parts, scene.bearing.n_balls))
+        y = _start(scene, parts)
+        system = ball_system(scene, dofs, velocities=velocities)
+        h = 1.0 / (stride * sample_rate)
+        done = kernels.march_balls(y, h, 0.0, stride, system, history, place)
+        return BallMarch(history, 4 * done, _failure(done, stride * (n - 1)))
+
+    return march
+
+
+def _implicit(substeps: int) -> Marcher:
+    def march(scene: Scene, stride: int, duration: float, sample_rate: float) -> BallMarch:
+        n = round(duration * sample_rate)
+        history = np.full((n, 6, 2), math.nan)
+        h = 1.0 / (stride * sample_rate)
+        system = ball_system(scene, scene.active_dofs)
+        done, calls = march_implicit_balls(_start(scene, 1), h, substeps, stride, system, history)
+        return BallMarch(history, int(calls), _failure(int(done), stride * (n - 1)))
+
+    return march
+
+
+def _start(scene: Scene, parts: int) -> Array:
+    start = ball_start(scene, scene.active_dofs, parts)
+    if start is None:
+        raise checks.refuse("scene", "without a static state", "one that a motion can start from")
+    return start
+
+
+def _failure(done: int, steps: int) -> str:
+    return "" if done >= steps else f"diverged after {done} of {steps} steps"
+
+
+BALL_METHODS: dict[str, Marcher] = {
+    "RK4": _explicit(velocities=False),
+    "RK4 in velocities": _explicit(velocities=True),
+    "implicit balls": _implicit(1),
+    "implicit balls, 4 sub-steps": _implicit(4),
+}
+"""By name: the program's own, the same steps in variables that jump as a contact closes, implicit
+midpoint steps of the balls with the rings' leapfrog steps, and four of them in a rings' step."""
+
+
+def third_octaves(history: Array, sample_rate: float) -> dict[str, Array]:
+    """Power in third octaves [dB] of the housing's acceleration along x and y, by band."""
+    frequency, density = spectrum(history[:, 5], sample_rate)
+    levels = {}
+    for name, (low, high) in BANDS.items():
+        edges = np.geomspace(low, high, max(round(3.0 * math.log2(high / low)), 1) + 1)
+        inside = [
+            density[(frequency >= a) & (frequency < b)].sum(axis=0) for a, b in pairwise(edges)
+        ]
+        levels[name] = 10.0 * np.log10(np.array(inside))
+    return levels
+
+
+def apart(one: dict[str, Array], other: dict[str, Array]) -> dict[str, float]:
+    """Greatest difference [dB] in each band."""
+    return {name: float(np.abs(one[name] - other[name]).max()) for name in BANDS}
+
+
+def balls_experiment(
+    scene: Scene,
+    *,
+    duration: float = 1.4,
+    sample_rate: float = 65536.0,
+    steps: tuple[int, ...] = (1, 2, 3, 4, 8, 16),
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> Experiment:
+    """Error against cost of ways to march balls with mass, contacts in the plane.
+
+    Parameters
+    ----------
+    scene
+        of two directions, x and y, and contact angle 0; its balls are taken to have mass.
+    duration, sample_rate
+        [s], [Hz]
+    steps
+        a sample: the settings at which each method is measured.
+    progress, cancelled
+        see `points`.
+
+    Raises
+    ------
+    ValueError
+        for a scene that leaves the plane.
+    """
+    scene = scene.replace(balls=WITH_MASS)
+    if scene.active_dofs != ("x", "y") or place_parts(scene, scene.active_dofs) != 1:
+        raise checks.refuse("dofs", scene.active_dofs, "x and y, at contact angle 0")
+    began = time.perf_counter()
+    if progress is not None:
+        progress(0.0, "reference by two families")
+
+    def levels(method: str, at: Scene = scene) -> dict[str, Array]:
+        march = BALL_METHODS[method](at, FINEST, duration, sample_rate)
+        return third_octaves(march.history, sample_rate)
+
+    truth = levels("RK4")
+    heavier = scene.replace(density=1.0001 * scene.bearing.density)
+    spread = apart(levels("RK4", heavier), truth)
+    agreement = apart(levels("implicit balls"), truth)
+    told = ", ".join(f"{name} {value:.2f} dB" for name, value in spread.items())
+    reference = Reference(
+        ("RK4", "implicit balls"),
+        agreement,
+        all(agreement[name] <= max(2.0 * spread[name], 0.3) for name in BANDS),
+        time.perf_counter() - began,
+        f"spread with balls heavier by a part in ten thousand: {told}",
+    )
+    points = []
+    tasks = [(name, stride) for name in BALL_METHODS for stride in steps]
+    for name, stride in in_turn(tasks, str, progress, cancelled, begin=0.3):
+        words = f"{stride * sample_rate:.0f} steps/s"
+
+        def work(name: str = name, stride: int = stride) -> BallMarch:
+            return BALL_METHODS[name](scene, stride, duration, sample_rate)
+
+        march, seconds, runs = least_time(work)
+        if march.failure:
+            points.append(failed(name, words, stride, march.failure, seconds, march.calls))
+            continue
+        errors = apart(third_octaves(march.history, sample_rate), truth)
+        points.append(Point(name, words, stride, errors, seconds, runs, march.calls))
+    return Experiment(
+        "balls",
+        f"Ways to march balls with mass over {duration:g} s",
+        ERRORS,
+        "evaluations of all contacts",
+        {"": reference},
+        tuple(points),
+        LEFT_OUT,
+        completed=len(points) == len(tasks),
+    )

@@ -1,0 +1,193 @@
+"""Balls with or without mass: below which frequency massless ones will do, and what mass costs."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.plan.plans import SETTLED, Plan
+from bearingcore.signals.spectrum import spectrum
+
+Array = NDArray[np.float64]
+
+BUDGET = 0.1
+"""[dB]"""
+
+LOWEST = 300.0
+"""[Hz] of the lowest third octave that is compared, the lower end of the paper's band."""
+
+SETTLING = 0.12
+"""[s] of motion that is left out, several times the slowest mode's decay."""
+
+
+@dataclass(frozen=True)
+class BallComparison:
+    """One scene with massless balls and with balls that have mass.
+
+    Attributes
+    ----------
+    scene, budget [dB]
+        what was compared, and how much may be off.
+    edges : (m + 1,) [Hz]
+        of the third octaves that are compared.
+    added : (m, d) [dB]
+        what mass adds to the power of the housing's acceleration in each, along x and y.
+    massless_up_to
+        [Hz] frequency up to which massless balls are within the budget, in all directions; NaN
+        where they are not even in the lowest third octave.
+    massless_seconds, seconds
+        [s] a second of motion takes without and with mass.
+    """
+
+    scene: Scene
+    budget: float
+    edges: Array
+    added: Array
+    massless_up_to: float
+    massless_seconds: float
+    seconds: float
+
+    @property
+    def sentence(self) -> str:
+        """In a line: up to where massless balls will do, and what mass costs."""
+        if math.isnan(self.massless_up_to):
+            told = f"massless: more than {self.budget:g} dB off from {LOWEST / 1e3:.1f} kHz on"
+        else:
+            told = f"massless: within {self.budget:g} dB up to {self.massless_up_to / 1e3:.1f} kHz"
+        return f"{told}, with mass {self.seconds / self.massless_seconds:.0f} times the time"
+
+
+@lru_cache(maxsize=64)
+def compare_balls(
+    scene: Scene, budget: float = BUDGET, duration: float = 0.7, sample_rate: float = 65536.0
+) -> BallComparison:
+    """Simulate a scene with massless balls and with balls that have mass, and compare.
+
+    Powers are those of third octaves, means over lines and ball passes: balls in free flight make
+    single lines sensitive to anything.
+
+    Parameters
+    ----------
+    scene
+        its own choice of balls does not matter.
+    budget
+        [dB]
+    duration, sample_rate
+        [s] after the transient, [Hz].
+
+    Raises
+    ------
+    ValueError
+        where a motion has no answer.
+    """
+    checks.number("budget", budget, above=0.0, unit="dB")
+    powers, seconds = [], []
+    edges = third_octave_edges(sample_rate)
+    for balls in (MASSLESS, WITH_MASS):
+        begin = time.perf_counter()
+        motion = simulate(scene.replace(balls=balls), SETTLING + duration, sample_rate)
+        seconds.append((time.perf_counter() - begin) / (SETTLING + duration))
+        if not motion.completed:
+            raise checks.refuse("scene", motion.status, f"one that moves with balls {balls}")
+        powers.append(band_powers(motion, edges))
+    added = 10.0 * np.log10(powers[1] / powers[0])
+    within = np.abs(added).max(axis=1) <= budget
+    good = len(within) if within.all() else int(np.argmin(within))
+    return BallComparison(
+        scene, budget, edges, added, float(edges[good]) if good else math.nan, *seconds
+    )
+
+
+def third_octave_edges(sample_rate: float) -> Array:
+    """[Hz] from LOWEST to below half the sample rate."""
+    count = math.floor(3.0 * math.log2(0.49 * sample_rate / LOWEST))
+    return LOWEST * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
+
+
+def band_powers(motion: Motion, edges: Array) -> Array:
+    """Power (m, d) [(m/s²)²] of the housing's settled acceleration along x and y between edges."""
+    columns = [motion.dofs.index(name) for name in ("x", "y") if name in motion.dofs]
+    first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
+    frequency, density = spectrum(
+        motion.outer_acceleration[first:, columns], motion.sample_rate, 0.1 * LOWEST
+    )
+    step = frequency[1] - frequency[0]
+    return np.array(
+        [
+            step * density[(frequency >= low) & (frequency < high)].sum(axis=0)
+            for low, high in pairwise(edges)
+        ]
+    )
+
+
+def mass_share(scene: Scene, low: float, high: float, duration: float, sample_rate: float) -> float:
+    """Share of the housing's power between two frequencies [Hz] that the balls' mass adds.
+
+    1 − P(massless)/P(with mass), all of x and y: 0 where mass changes nothing, near 1 where next to
+    all comes from it, below 0 where it takes power away.
+    """
+    edges = np.array([low, high])
+    massless, heavy = (
+        band_powers(simulate(scene.replace(balls=balls), duration, sample_rate), edges).sum()
+        for balls in (MASSLESS, WITH_MASS)
+    )
+    return float(1.0 - massless / heavy) if heavy > 0.0 else math.nan
+
+
+def plan_with_mass(
+    scene: Scene,
+    view: str,
+    budget: float,
+    began: float,
+    duration: float,
+    sample_rate: float,
+    step_rate: float | None,
+) -> Plan:
+    """A plan for a scene whose balls have mass: fixed steps, no orbit.
+
+    The error is measured on a pilot against half the step, in third octaves up to 5 kHz.
+    """
+    pilot = min(duration, 0.35) + SETTLING
+    edges = third_octave_edges(sample_rate)
+    edges = edges[edges <= max(5e3, edges[1])]
+    begin = time.perf_counter()
+    usual = simulate(scene, pilot, sample_rate, step_rate=step_rate)
+    seconds = (time.perf_counter() - begin) / pilot
+    fine = simulate(scene, pilot, sample_rate, step_rate=2.0 * usual.step_rate)
+    error = math.inf
+    if usual.completed and fine.completed:
+        apart = band_powers(usual, edges) / band_powers(fine, edges)
+        error = float(np.abs(10.0 * np.log10(apart)).max())
+    drop = SETTLING if view == SETTLED else 0.0
+    length = drop + duration
+    return Plan(
+        scene=scene,
+        view=view,
+        error_budget=budget,
+        dofs=scene.active_dofs,
+        cage_angles=None,
+        step_rate=usual.step_rate,
+        tolerance=math.nan,
+        duration=length,
+        drop=drop,
+        sample_rate=sample_rate,
+        orbit=None,
+        predicted_error=error,
+        met=error <= budget,
+        evaluations=round(4.0 * usual.step_rate * length),
+        seconds=seconds * length,
+        full_evaluations=round(8.0 * usual.step_rate * length),
+        full_seconds=2.0 * seconds * length,
+        full_error=math.nan,
+        planning_seconds=time.perf_counter() - began,
+        note=compare_balls(scene, sample_rate=sample_rate).sentence,
+    )

@@ -1,0 +1,235 @@
+"""Static equilibrium of fast bearings: centrifugal load gives each race its own contact angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore import kernels
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model import packing
+from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.statics.equilibrium import REASONS, TERM_INDICES, equilibrium
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class BallPositions:
+    """Static equilibrium of a scene whose balls find their own places, at n cage angles.
+
+    NaN stands where there is no answer. Of what has a row a race, the inner race comes first.
+
+    Attributes
+    ----------
+    scene, dofs, cage_angles : (n,) [rad]
+        what was solved, along which free directions.
+    centrifugal_load
+        F_c [N] of each ball.
+    displacement : (n, 5) [m, rad]
+        of the inner ring.
+    load : (2, n, N_b) [N]
+        of the contacts with the inner and outer race.
+    contact_angle : (2, n, N_b) [rad]
+        of each; NaN where a contact carries nothing.
+    position : (n, 2, N_b) [m]
+        of each ball, radial and axial, against the ball that touches the outer race at the unloaded
+        contact angle. A ball that carries nothing has its position inside the clearance.
+    stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
+    status, residual, iterations : (n,)
+        as of `Equilibrium`; a load that no contact can carry is not solved again.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    cage_angles: Array
+    centrifugal_load: float
+    displacement: Array
+    load: Array
+    contact_angle: Array
+    position: Array
+    stiffness: Array
+    status: NDArray[np.int8]
+    residual: Array
+    iterations: NDArray[np.int64]
+
+    @cached_property
+    def converged(self) -> NDArray[np.bool_]:
+        """(n,) True where there is one equilibrium and it was found."""
+        return self.status == kernels.CONVERGED
+
+    def term(self, name: str) -> Array:
+        """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        i, j = TERM_INDICES[name]
+        return self.stiffness[:, i, j]
+
+    def reason(self, i: int) -> str:
+        """In words, what became of cage angle i."""
+        return REASONS[int(self.status[i])].format(
+            free=" or ".join(self.dofs), residual=self.residual[i]
+        )
+
+    def table(self) -> ResultTable:
+        """A row a cage angle: displacements, stiffness, and of each ball both loads and angles."""
+        balls = range(self.load.shape[2])
+        return table_of(
+            ("cage_angle", "rad", self.cage_angles),
+            *(
+                (f"displacement_{dof}", "rad" if dof.startswith("r") else "m", values)
+                for dof, values in zip(DOF_NAMES, self.displacement.T, strict=True)
+            ),
+            *(
+                (f"ball_{j + 1}_{race}_load", "N", self.load[i, :, j])
+                for i, race in enumerate(("inner", "outer"))
+                for j in balls
+            ),
+            *(
+                (f"ball_{j + 1}_{race}_contact_angle", "rad", self.contact_angle[i, :, j])
+                for i, race in enumerate(("inner", "outer"))
+                for j in balls
+            ),
+        )
+
+
+def ball_positions(
+    scene: Scene,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+    *,
+    centrifugal_load: float | None = None,
+    weight: bool = False,
+) -> BallPositions:
+    """Static equilibrium of `scene` under the centrifugal load of its balls.
+
+    Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
+    Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
+    a ball, which has no potential, is left out: it matters where balls turn fast about an axis far
+    from the shaft's, at large contact angles.
+
+    Parameters
+    ----------
+    scene, cage_angles, dofs
+        as of `equilibrium`.
+    centrifugal_load
+        F_c [N] of each ball; None: at the scene's speed.
+    weight
+        whether the balls' weight acts, along −y.
+
+    Returns
+    -------
+    BallPositions
+        with a status for each cage angle.
+
+    Raises
+    ------
+    ValueError
+        for cage angles that are not finite or unknown names in `dofs`.
+    """
+    massless = equilibrium(scene, cage_angles, dofs)
+    active = massless.dofs
+    races = packing.races(scene, 0.0, weight=weight)
+    if centrifugal_load is not None:
+        races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
+    start = np.where(np.isfinite(massless.state), massless.state, 0.0)
+    q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
+        massless.cage_angles,
+        start,
+        static_balls(scene, races),
+        packing.static_load(scene, active),
+    )
+    status = np.where(massless.status == kernels.NOT_CARRIED, kernels.NOT_CARRIED, status)
+    units = packing.length_units(scene)
+    gone = status >= kernels.NOT_CARRIED
+    displacement = q / units
+    stiffness *= units[:, None] * units
+    for values in (displacement, place, stiffness):
+        values[gone] = math.nan
+    load[:, gone] = angle[:, gone] = math.nan
+    loose = np.isin(status, (kernels.NOTHING_TOUCHES, kernels.FREE_DIRECTION))
+    displacement[np.ix_(loose, packing.direction_numbers(active))] = math.nan
+    return BallPositions(
+        scene,
+        active,
+        massless.cage_angles,
+        float(races.centrifugal[0]),
+        displacement,
+        load,
+        angle,
+        place,
+        stiffness,
+        status.astype(np.int8),
+        residual,
+        iterations,
+    )
+
+
+@dataclass(frozen=True)
+class CentrifugalEffect:
+    """What centrifugal load changes of a scene's static state, the greatest over its cage angles.
+
+    Attributes
+    ----------
+    force [N]
+        F_c of a ball.
+    load
+        change of a load at the outer race over the heaviest load.
+    contact_angle [rad]
+        between the two contacts of a ball that both carry.
+    stiffness
+        change of k_xx, k_yy or k_zz over the greatest of its term.
+    converged
+        True where both states have an answer at all cage angles.
+    """
+
+    force: float
+    load: float
+    contact_angle: float
+    stiffness: float
+    converged: bool
+
+    @property
+    def sentence(self) -> str:
+        """In a line, with the numbers."""
+        if not self.converged:
+            return "Centrifugal load: not known, as a cage angle has no static state."
+        return (
+            f"Centrifugal load of {self.force:.3g} N a ball changes loads by up to "
+            f"{100.0 * self.load:.2g} % of the heaviest, stiffness by up to "
+            f"{100.0 * self.stiffness:.2g} %, and parts the contact angles of the races by up to "
+            f"{math.degrees(self.contact_angle):.2g}°."
+        )
+
+
+def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> CentrifugalEffect:
+    """Static states with and without centrifugal load, compared; see `ball_positions`."""
+    without = ball_positions(scene, cage_angles, centrifugal_load=0.0)
+    with_load = ball_positions(scene, without.cage_angles)
+    both = without.converged & with_load.converged
+    if not both.all():
+        nan = math.nan
+        return CentrifugalEffect(with_load.centrifugal_load, nan, nan, nan, False)
+    load = np.abs(with_load.load[1] - without.load[1]).max() / max(without.load.max(), 1e-300)
+    parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
+    changes = [
+        np.abs(with_load.term(name) - without.term(name)).max() / max(without.term(name).max(), 1.0)
+        for name in ("k_xx", "k_yy", "k_zz")
+    ]
+    apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
+    return CentrifugalEffect(
+        with_load.centrifugal_load, float(load), apart, float(max(changes)), True
+    )
+
+
+def static_balls(scene: Scene, races: kernels.Races) -> kernels.StaticBalls:
+    """What `kernels.ball_positions` needs of a scene."""
+    return kernels.StaticBalls(
+        packing.contacts(scene.bearing),
+        races,
+        packing.path(scene, "inner"),
+        packing.path(scene, "outer"),
+    )

@@ -1,0 +1,312 @@
+"""Balls with mass: limits, conservation, published bands, another family of methods."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from bearingcore import Motion, Scene, kernels, presets, simulate, spectrum
+from bearingcore.dynamics.ball_motion import (
+    ball_start,
+    ball_step_rate,
+    ball_system,
+    contact_resonance,
+    contact_stiffness,
+    heaviest_load,
+)
+from bearingcore.model import packing
+from tests.two_contacts import GRAVITY, TwoContacts
+
+RATE = 65536.0
+FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0, density=7850.0, balls="with mass")
+GENERAL = presets["7208-25deg"].replace(dofs=None, balls="with mass")
+
+
+# --- numbers ------------------------------------------------------------------------------------
+
+
+def test_contact_resonance_of_a_6205() -> None:
+    """Its heaviest loaded ball under 1 kN: 532.30 N, 1.06189e8 and 1.00856e8 N/m, 2.04435 g."""
+    scene = presets["6205"].healthy()
+    assert scene.bearing.ball_mass == pytest.approx(2.04435e-3, rel=1e-5)
+    assert heaviest_load(scene) == pytest.approx(532.30, rel=2e-4)
+    assert contact_stiffness(scene, 532.30) == pytest.approx((1.06189e8, 1.00856e8), rel=1e-5)
+    assert contact_resonance(scene) == pytest.approx(50.65e3, rel=1e-4)
+
+
+def test_races_in_series_are_the_contact_of_the_massless_ball() -> None:
+    """Load-deflection factors, dampers and groove distances of both contacts, together."""
+    for name in presets:
+        scene = presets[name]
+        bearing = scene.bearing
+        both = sum(K ** (-2.0 / 3.0) for K in bearing.race_factors) ** -1.5
+        assert both == pytest.approx(bearing.load_deflection_factor, rel=1e-12)
+        assert sum(bearing.race_distances) == pytest.approx(bearing.groove_center_distance)
+        dampers = packing.races(scene, 122.0, weight=True).damping[:, 0]
+        assert 1.0 / (1.0 / dampers).sum() == pytest.approx(122.0, rel=1e-12)
+    assert presets["fan-rig"].bearing.race_factors[0] == pytest.approx(2.0**1.5 * 5453e6)
+    assert packing.races(FAN_RIG, 122.0, weight=True).damping[:, 0] == pytest.approx([244.0, 244.0])
+
+
+# --- limits -------------------------------------------------------------------------------------
+
+
+def test_ever_lighter_balls_move_as_massless_ones() -> None:
+    """The housing's velocity comes nearer in proportion to the mass: order 1."""
+    massless = simulate(FAN_RIG.replace(balls="massless"), 0.01, RATE, step_rate=32 * RATE)
+    errors = []
+    for part in (1.0, 0.1, 0.01):
+        motion = simulate(FAN_RIG.replace(density=7850.0 * part), 0.01, RATE)
+        assert motion.completed
+        apart = motion.outer_velocity - massless.outer_velocity
+        errors.append(float(np.sqrt(np.mean(apart**2)) / massless.outer_velocity.std()))
+    order = np.diff(np.log10(errors)) * -1.0
+    assert errors[0] < 0.1
+    assert order == pytest.approx([1.0, 1.0], abs=0.15)
+
+
+@pytest.mark.parametrize("scene", [FAN_RIG, GENERAL, presets["liew-lim"]], ids=lambda s: s.dofs)
+def test_the_start_at_rest_stays_at_rest(scene: Scene) -> None:
+    """At speed 0 nothing accelerates in the static state, balls' weight and all directions on."""
+    scene = scene.replace(shaft_speed=0.0, balls="with mass")
+    start = ball_start(scene, scene.active_dofs, 2)
+    assert start is not None
+    system = ball_system(scene, scene.active_dofs, velocities=True)
+    rates = kernels.ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
+    rings = 4 * len(scene.active_dofs)
+    force = np.linalg.norm(scene.load.vector[:3])
+    assert np.abs(rates[:rings]).max() < 1e-9 * force
+    assert np.abs(rates[rings:]).max() * scene.bearing.ball_mass < 1e-9 * force
+
+
+@pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])
+def test_loads_and_places_are_those_of_independent_sums(scene: Scene) -> None:
+    """Loads at both contacts from the places that a motion returns, and vice versa."""
+    scene = scene.replace(extent=math.radians(12.9), center=0.02 + 1.5 * math.pi)
+    motion = simulate(scene, 0.01, RATE)
+    assert motion.completed
+    full = np.zeros((2, 5))
+    index = packing.direction_numbers(motion.dofs)
+    for i in (0, 100, 400):
+        full[0, index], full[1, index] = motion.inner_displacement[i], motion.outer_displacement[i]
+        sums = TwoContacts(scene, motion.cage_angle[i], *full, motion.ball_position[i])
+        for race, load in enumerate((motion.ball_load_inner, motion.ball_load_outer)):
+            assert load[i] == pytest.approx(sums.load[race], rel=1e-7, abs=1e-6)
+    part = motion.race_loads(90, 110)
+    assert np.array_equal(part[1], motion.ball_loads(90, 110))
+    assert part[0] == pytest.approx(motion.ball_load_inner[90:110], rel=1e-9, abs=1e-9)
+
+
+def test_massless_motions_have_the_same_load_on_both_sides_and_no_places() -> None:
+    motion = simulate(FAN_RIG.replace(balls="massless"), 0.002, RATE)
+    assert np.array_equal(motion.ball_load_inner, motion.ball_load_outer)
+    with pytest.raises(ValueError, match="with mass"):
+        _ = motion.ball_position
+
+
+# --- conservation -------------------------------------------------------------------------------
+
+
+def undamped(scene: Scene, *, free: bool) -> tuple[kernels.BallSystem, np.ndarray]:
+    """A scene that stands still in its frame, without damping, pushed off; free: nothing outside
+    acts on it at all.
+    """
+    scene = scene.replace(contact_damping=0.0, contact_law="published")
+    dofs = scene.active_dofs
+    still = scene.replace(shaft_speed=0.0)
+    system = ball_system(still, dofs)
+    rotor = system.rotor._replace(damping=0.0 * system.rotor.damping)
+    start = ball_start(still, dofs)
+    assert start is not None
+    n = len(dofs)
+    start[n : 2 * n] = 1e-3 * np.arange(1, n + 1)  # so fast that balls let go and strike
+    start[3 * n : 4 * n] = -2e-3
+    races = system.races
+    if free:
+        rotor = rotor._replace(stiffness=0.0 * rotor.stiffness, force=0.0 * rotor.force)
+        races = races._replace(weight=0.0 * races.weight)
+    return system._replace(rotor=rotor, races=races), start
+
+
+def marched(
+    system: kernels.BallSystem, start: np.ndarray, duration: float, steps: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """History (2, 6, n) and state at the end."""
+    n = system.rotor.active.size
+    balls = system.contacts.angle.size
+    history = np.empty((2, 6, n))
+    place = np.empty((2, (start.size - 4 * n) // (2 * balls), balls))
+    y = start.copy()
+    done = kernels.march_balls(y, duration / steps, 0.0, steps, system, history, place)
+    assert done == steps
+    return history, y
+
+
+def energy(scene: Scene, system: kernels.BallSystem, y: np.ndarray) -> float:
+    """Kinetic, in contacts and support, of load and weight [J]; velocities in y are true ones."""
+    rotor, races = system.rotor, system.races
+    n, balls = rotor.active.size, system.contacts.angle.size
+    x_i, v_i, x_o, v_o = y[: 4 * n].reshape(4, n)
+    place, speed = y[4 * n :].reshape(2, -1, balls)
+    full = np.zeros((2, 5))
+    units = packing.length_units(scene)
+    full[0, rotor.active], full[1, rotor.active] = x_i, x_o
+    where = np.zeros((2, balls))
+    where[: len(place)] = place
+    sums = TwoContacts(scene, 0.0, full[0] / units, full[1] / units, where)
+    kinetic = (v_i**2 / rotor.inverse_inner).sum() + (v_o**2 / rotor.inverse_outer).sum()
+    kinetic += (races.mass * speed**2).sum()
+    potential = 0.5 * (rotor.stiffness * x_o**2).sum() - (rotor.force * x_i).sum()
+    potential += (races.weight * np.sin(system.contacts.angle) * where[0]).sum()
+    return float(0.5 * kinetic + potential + sums.energy)
+
+
+@pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])
+def test_undamped_motion_keeps_its_energy_to_the_methods_order(scene: Scene) -> None:
+    """Of RK4 that is the fifth power of the step while balls stay in contact, and no less than the
+    third where they let go and strike, as a contact's stiffness begins like a square root.
+    """
+    system, start = undamped(scene, free=False)
+    n = system.rotor.active.size
+    before = energy(scene, system, start)
+    drift = []
+    for steps in (800, 1600, 3200):
+        _, y = marched(system, start, 2e-3, steps)
+        drift.append(abs(energy(scene, system, y) - before))
+    pushed = 0.5 * (start[n : 2 * n] ** 2 / system.rotor.inverse_inner).sum()
+    assert drift[-1] < 1e-6 * pushed
+    order = math.log2(drift[0] / drift[-1]) / 2.0
+    assert order > (4.5 if scene is GENERAL else 2.0)
+
+
+@pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])
+def test_without_support_momentum_stays(scene: Scene) -> None:
+    """Rings and balls together, along x, y and z, to rounding."""
+    system, start = undamped(scene, free=True)
+    rotor, races = system.rotor, system.races
+    n, balls = rotor.active.size, system.contacts.angle.size
+    angle = system.contacts.angle
+
+    def momentum(y: np.ndarray) -> np.ndarray:
+        _, v_i, _, v_o = y[: 4 * n].reshape(4, n)
+        speed = y[4 * n :].reshape(2, -1, balls)[1] * races.mass
+        along = [(speed[0] * np.cos(angle)).sum(), (speed[0] * np.sin(angle)).sum()]
+        along += [speed[1].sum()] if len(speed) > 1 else []
+        rings = v_i / rotor.inverse_inner + v_o / rotor.inverse_outer
+        return rings[: len(along)] + along
+
+    _, y = marched(system, start, 2e-3, 2000)
+    before, after = momentum(start), momentum(y)
+    moved = np.abs(start[n : 2 * n] - y[n : 2 * n]).max()
+    assert moved > 1e-4  # something happened
+    assert np.abs(after - before).max() < 1e-12 * np.abs(before).max()
+
+
+# --- the question of the paper --------------------------------------------------------------------
+
+BANDS = ((300.0, 2100.0), (2100.0, 5000.0), (5e3, 1e4), (1e4, 2e4), (2e4, 3.2e4))
+
+
+def levels(motion: Motion) -> np.ndarray:
+    """Power of the housing's vertical acceleration in each band [dB]."""
+    frequency, density = spectrum(motion.outer_acceleration[:, 1], RATE)
+    return np.array(
+        [
+            10.0 * np.log10(density[(frequency >= low) & (frequency < high)].sum())
+            for low, high in BANDS
+        ]
+    )
+
+
+@pytest.mark.parametrize(
+    ("speed", "table"),
+    [(7.0, (0.06, 0.1, 10.0, 16.0, 18.0)), (30.0, (-0.01, -0.6, 5.5, 14.0, 17.0))],
+)
+def test_what_mass_adds_in_each_band(speed: float, table: tuple[float, ...]) -> None:
+    """Fan rig, 12.9°, against massless balls as published; contacts of heavy balls never pull."""
+    scene = FAN_RIG.replace(shaft_speed=2.0 * math.pi * speed)
+    massless = simulate(scene.replace(balls="massless"), 1.4, RATE, step_rate=4 * RATE)
+    heavy = simulate(scene.replace(contact_law="no tension"), 1.4, RATE)
+    assert heavy.completed
+    assert levels(heavy) - levels(massless) == pytest.approx(table, abs=0.5)
+
+
+def test_a_quarter_of_all_ball_time_is_free_flight() -> None:
+    motion = simulate(FAN_RIG.replace(contact_law="no tension"), 0.7, RATE)
+    flying = (motion.ball_load_inner == 0.0) & (motion.ball_load_outer == 0.0)
+    assert 0.15 < flying.mean() < 0.35
+
+
+# --- another family ------------------------------------------------------------------------------
+
+
+@cache
+def by_scipy(method: str, law: str) -> np.ndarray:
+    """The housing's velocity (n, 2) [m/s] over 6 ms while a ball enters and strikes."""
+    scene = entering(law)
+    system = ball_system(scene, scene.active_dofs, velocities=True)
+    start = ball_start(scene, scene.active_dofs, 2)
+    assert start is not None
+
+    def rate(t: float, y: np.ndarray) -> np.ndarray:
+        return kernels.ball_motion_rates(np.array([t]), y[None], 0.0, system)[0]
+
+    time = np.arange(round(0.006 * RATE)) / RATE
+    scale = np.full(start.size, 1e-13)
+    scale[2:4] = scale[6:8] = scale[36:] = 1e-9
+    answer = solve_ivp(rate, (0.0, time[-1]), start, method, time, rtol=1e-7, atol=scale)
+    assert answer.success
+    return answer.y[6:8].T
+
+
+def entering(law: str) -> Scene:
+    """30 Hz, a ball about to enter the defect; no defect elsewhere."""
+    first = 1.5 * math.pi - 10 * FAN_RIG.bearing.ball_spacing
+    return FAN_RIG.replace(
+        shaft_speed=2.0 * math.pi * 30.0,
+        contact_law=law,
+        center=1.5 * math.pi - first + math.radians(6.5),
+        extent=math.radians(12.9),
+    )
+
+
+@pytest.mark.parametrize("law", ["published", "no tension"])
+def test_two_families_of_methods_agree(law: str) -> None:
+    """Steps of RK4 in variables without jumps, and scipy's DOP853 and Radau on the plain law."""
+    ours = simulate(entering(law), 0.006, RATE).outer_velocity
+    size = ours.std(axis=0)
+    explicit, implicit = by_scipy("DOP853", law), by_scipy("Radau", law)
+    assert np.abs(explicit - implicit).max() < 1e-3 * size.max()
+    allowed = 1e-4 if law == "published" else 5e-3
+    assert np.sqrt(np.mean((ours - explicit) ** 2, axis=0)).max() < allowed * size.max()
+    rms = np.diff(explicit, axis=0).std(axis=0)  # what the housing's acceleration comes to
+    assert np.diff(ours, axis=0).std(axis=0) == pytest.approx(rms, rel=10.0 * allowed)
+
+
+# --- steps ---------------------------------------------------------------------------------------
+
+
+def test_steps_follow_the_contact_resonance_and_are_counted_before_they_begin() -> None:
+    scene = presets["6205"].replace(balls="with mass")
+    rate = ball_step_rate(scene, RATE)
+    assert rate % RATE == 0.0
+    assert rate > 5.0 * contact_resonance(scene)
+    with pytest.raises(ValueError, match="duration"):
+        simulate(scene, 100.0, RATE)
+    with pytest.raises(ValueError, match="multiple of the sample_rate"):
+        simulate(scene, 0.1, RATE, step_rate=0.5 * RATE)
+
+
+def test_a_scene_with_mass_is_read_back_from_its_text() -> None:
+    scene = presets["6205"].replace(balls="with mass", density=3200.0)
+    assert Scene.from_toml(scene.to_toml()) == scene
+    assert "with mass" in scene.to_toml()
+    with pytest.raises(ValueError, match="balls"):
+        scene.replace(balls="heavy")
+    with pytest.raises(ValueError, match="density"):
+        scene.replace(density=0.0)
+    assert GRAVITY == packing.STANDARD_GRAVITY

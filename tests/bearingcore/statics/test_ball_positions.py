@@ -1,0 +1,167 @@
+"""Static ball positions under centrifugal load, held to force balance and to independent sums."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, minimize
+
+from bearingcore import Bearing, Load, Scene, equilibrium, presets
+from bearingcore.statics.ball_positions import ball_positions, centrifugal_effect
+from tests.benchmarks.random_balls import faults, random_scene
+from tests.two_contacts import TwoContacts
+
+POUND = 4.4482216152605
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_without_centrifugal_load_it_is_the_massless_state(name: str) -> None:
+    """Both contacts lie on one line: displacement, loads and stiffness to 1e-12."""
+    scene = presets[name]
+    massless = equilibrium(scene)
+    found = ball_positions(scene, centrifugal_load=0.0)
+    standing = ball_positions(scene.replace(shaft_speed=0.0))
+    for one in (found, standing):
+        assert one.converged.all()
+        size = np.abs(massless.displacement).max()
+        assert np.abs(one.displacement - massless.displacement).max() <= 1e-12 * size
+        assert np.abs(one.load - massless.ball_load).max() <= 1e-12 * massless.ball_load.max()
+        terms = np.abs(massless.stiffness).max(axis=0)
+        assert np.all(np.abs(one.stiffness - massless.stiffness).max(axis=0) <= 1e-12 * terms.max())
+        loaded = massless.ball_load > 1e-6 * massless.ball_load.max()
+        for race in range(2):
+            angle = one.contact_angle[race][loaded]
+            assert angle == pytest.approx(massless.contact_angle[loaded], abs=1e-9)
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_balls_and_ring_balance_at_speed(name: str) -> None:
+    """15,000 rpm: each ball's two loads and F_c cancel, the inner loads carry the ring's load."""
+    scene = presets[name].replace(shaft_speed=15_000 * math.pi / 30.0)
+    found = ball_positions(scene)
+    assert found.converged.all()
+    free = [("x", "y", "z", "rx", "ry").index(dof) for dof in found.dofs]
+    for i in (0, 17, 60):
+        sums = TwoContacts(
+            scene,
+            found.cage_angles[i],
+            found.displacement[i],
+            np.zeros(5),
+            found.position[i],
+        )
+        left = sums.on_balls(centrifugal=found.centrifugal_load, weight=False)
+        assert np.abs(left).max() <= 1e-9 * found.load.max()
+        lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
+        ring = (sums.force(0) - scene.load.vector) / lever
+        assert np.abs(ring[free]).max() <= 1e-9 * np.linalg.norm(scene.load.vector)
+        assert np.abs(sums.load - found.load[:, i]).max() <= 1e-9 * found.load.max()
+
+
+def test_centrifugal_loads_as_published() -> None:
+    """Fan rig at 7 Hz 0.0154 N (7850 kg/m³); 6205 at 1796 rpm 0.224 N, at 15,000 rpm 15.62 N."""
+    bearing = presets["6205"].bearing
+    assert bearing.centrifugal_load(15_000 * math.pi / 30.0) == pytest.approx(15.62, abs=0.01)
+    assert bearing.centrifugal_load(1796 * math.pi / 30.0) == pytest.approx(0.224, abs=0.001)
+    fan = presets["fan-rig"].bearing.replace(density=7850.0)
+    assert fan.centrifugal_load(2.0 * math.pi * 7.0) == pytest.approx(0.0154, abs=1e-4)
+
+
+def test_stiffness_is_the_derivative_of_the_load() -> None:
+    """Central differences of the load that the ring needs, in all five directions."""
+    scene = presets["7208-25deg"].replace(shaft_speed=12_000 * math.pi / 30.0, dofs=None)
+    at = [0.02]
+    found = ball_positions(scene, at)
+    assert found.converged[0]
+    flexibility = np.zeros((5, 5))
+    names = ("fx", "fy", "fz", "mx", "my")
+    for i, name in enumerate(names):
+        h = 1e-3 if i < 3 else 1e-5
+        old = getattr(scene.load, name)
+        up, down = (
+            ball_positions(scene.replace(**{name: old + sign * h}), at).displacement[0]
+            for sign in (1.0, -1.0)
+        )
+        flexibility[:, i] = (up - down) / (2.0 * h)
+    size = np.sqrt(np.abs(np.diag(found.stiffness[0])))
+    error = (found.stiffness[0] @ flexibility - np.eye(5)) * np.outer(1.0 / size, size)
+    assert np.abs(error).max() < 1e-4
+
+
+def test_the_state_is_the_least_energy_that_another_method_finds() -> None:
+    """BFGS over the ring and all balls together, on the independent energy."""
+    scene = presets["7208-15deg"].replace(shaft_speed=14_000 * math.pi / 30.0)
+    found = ball_positions(scene, [0.1])
+    n, scale = scene.bearing.n_balls, 1e-6
+    F = scene.load.vector[:3]
+
+    def energy(unknown: np.ndarray) -> float:
+        q = np.concatenate([scale * unknown[:3], np.zeros(2)])
+        place = scale * unknown[3:].reshape(2, n)
+        sums = TwoContacts(scene, 0.1, q, np.zeros(5), place)
+        return 1e3 * (sums.energy - found.centrifugal_load * place[0].sum() - F @ q[:3])
+
+    answer = np.concatenate([found.displacement[0, :3], found.position[0].ravel()]) / scale
+    away = answer + np.random.default_rng(3).normal(0.0, 0.3, answer.size)
+    other = minimize(energy, away, method="BFGS", options={"gtol": 1e-7, "maxiter": 2000})
+    assert energy(answer) <= other.fun + 1e-9 * abs(other.fun)
+    assert other.fun == pytest.approx(energy(answer), rel=1e-7)
+    assert np.abs(other.x[:3] - answer[:3]).max() < 5e-3
+
+
+def test_force_balance_of_harris_and_mindel() -> None:
+    """Fig. 15 of Harris and Mindel (1973): 21 balls, 3000 lb along the shaft, F_c 303.45 lb.
+
+    The contact angle is chosen so that the inner one comes out as printed (its geometry is not an
+    equilibrium of its angles); the other three numbers then follow from balance alone.
+    """
+
+    def at(contact_angle: float):
+        bearing = Bearing.from_drawing(
+            21, 22.225e-3, 205e-3, 0.52 * 22.225e-3, 0.52 * 22.225e-3, contact_angle=contact_angle
+        )
+        scene = Scene(bearing, presets["fan-rig"].healthy().defect, Load(fz=3000.0 * POUND), 1e3,
+                      presets["fan-rig"].support)  # fmt: skip
+        return ball_positions(scene, [0.0], centrifugal_load=303.45 * POUND)
+
+    printed = math.radians(29.762)
+    angle = brentq(
+        lambda a: at(a).contact_angle[0, 0, 0] - printed, math.radians(5.0), math.radians(35.0)
+    )
+    found = at(angle)
+    Q_i, Q_e = found.load[:, 0, 0] / POUND
+    alpha_i, alpha_e = found.contact_angle[:, 0, 0]
+    assert Q_i == pytest.approx(287.76, rel=1e-3)
+    assert Q_e == pytest.approx(571.07, rel=1e-3)
+    assert math.degrees(alpha_e) == pytest.approx(14.475, rel=1e-3)
+    assert 21 * Q_i * math.sin(alpha_i) == pytest.approx(2999.7, rel=1e-3)
+    assert Q_e * math.cos(alpha_e) - Q_i * math.cos(alpha_i) == pytest.approx(303.14, rel=1.1e-3)
+
+
+def test_random_scenes_are_right_or_say_that_they_are_not() -> None:
+    """The small version of ``python -m tests.benchmarks.random_balls``."""
+    rng = np.random.default_rng(7)
+    solved = 0
+    for _ in range(150):
+        scene = random_scene(rng)
+        found = ball_positions(scene, [rng.uniform(0.0, 6.3)], weight=bool(rng.integers(2)))
+        solved += int(found.converged[0])
+        assert faults(found, 0) == ""
+    assert solved >= 140
+
+
+def test_the_effect_of_centrifugal_load_is_measured() -> None:
+    """Next to nothing at the fan rig's 7 Hz, much at 15,000 rpm, and it grows with the speed."""
+    slow = centrifugal_effect(presets["fan-rig"], [0.0, 0.1, 0.2])
+    assert slow.load < 1e-3
+    fast = [
+        centrifugal_effect(
+            presets["7208-25deg"].replace(shaft_speed=rpm * math.pi / 30.0), [0.0, 0.1]
+        )
+        for rpm in (5_000, 15_000)
+    ]
+    assert fast[1].load > 4.0 * fast[0].load > 0.0
+    assert fast[1].contact_angle > math.radians(2.0)
+    assert fast[1].stiffness > 0.01
+    assert "parts the contact angles" in fast[1].sentence

@@ -40,7 +40,7 @@ FINEST = 32
 LEFT_OUT = (
     "an exponential step for the ball's own direction, which takes two exponentials or a sine and "
     "a cosine a contact where the implicit one takes a division; general-purpose methods, which "
-    "hold to tolerances between strikes and take five times as long (they are what tests compare with)"
+    "hold to tolerances between strikes and take five times as long (tests compare with them)"
 )
 
 

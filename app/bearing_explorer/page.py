@@ -20,6 +20,7 @@ from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
 from bearing_explorer.views.depth_profile import DepthProfile
+from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
 from bearing_explorer.views.load_distribution import LoadDistribution
@@ -50,7 +51,11 @@ SECTIONS = (
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
     Section("explore", "Explore", (ExplorePlane,), "Tools"),
-    Section("sizing", "Sizing", (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize)),
+    Section(
+        "diagnosis",
+        "Diagnosis",
+        (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
+    ),
     Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
     Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
     Section("model", "Model", (ModelEditor, DofDifferences)),

@@ -447,6 +447,8 @@ class Explorer:
             self._show_controls(state=self.editor.state())
         self._tab_asked(message if lesson is None else {"show": lesson.tab})
         self._asked(message)  # the mark, and what a button changes
+        if isinstance(wish := message.get("simulate"), dict):
+            self.measurement.asked({"simulate": wish})
 
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None

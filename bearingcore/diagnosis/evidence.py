@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.parts import PARTS
 from bearingcore.signals.filter_bank import Band
 
@@ -162,3 +163,36 @@ class Diagnosis:
             if one.part == part:
                 return one
         raise KeyError(part)
+
+    def table(self) -> ResultTable:
+        """A row a part with its evidence; beside them the spectrum of the envelope, if any."""
+        parts, spectrum = self.evidence, self.spectrum
+        count = len(parts[0].harmonics) if parts else 0
+        columns = table_of(
+            ("part", "", [one.part for one in parts]),
+            ("frequency", "Hz", [one.frequency for one in parts], "of its strongest lines"),
+            ("nominal_frequency", "Hz", [one.nominal_frequency for one in parts], "by geometry"),
+            ("order", "1", [one.order for one in parts], "turns of the shaft"),
+            ("nominal_order", "1", [one.nominal_order for one in parts]),
+            ("slip", "1", [one.slip for one in parts]),
+            ("level", "dB", [one.level for one in parts], "of all harmonics but the loudest"),
+            ("noise", "dB", [one.noise for one in parts], "reached in one of a thousand signals"),
+            *(
+                (f"harmonic_{k + 1}", "dB", [one.harmonics[k] for one in parts])
+                for k in range(count)
+            ),
+            ("sidebands", "dB", [one.sidebands.mean() for one in parts], "their mean"),
+            ("sideband_spacing", "Hz", [one.sideband_spacing for one in parts]),
+            ("envelope_swing", "1", [one.depth for one in parts], "at the lines, of its mean"),
+            ("band_low", "Hz", [one.band.low for one in parts]),
+            ("band_high", "Hz", [one.band.high for one in parts]),
+            ("direction", "", [one.direction for one in parts]),
+            ("kurtosis", "1", [one.kurtosis for one in parts]),
+            ("false_alarm", "1", [one.false_alarm for one in parts], "as good by noise alone"),
+        )
+        if spectrum is None:
+            return columns
+        return columns | table_of(
+            ("envelope_frequency", "Hz", spectrum.frequency),
+            ("envelope_level", "dB", spectrum.level, "over the surroundings"),
+        )

@@ -12,6 +12,7 @@ shift of the simulated pass that fits best     | τ      | lag              | ra
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
 from collections.abc import Sequence
@@ -150,6 +151,12 @@ class Target:
         power = self.window @ measured.power[self.kept]
         self.floor = DYNAMIC_RANGE * power.max(axis=0) + 1e-300
         self.log_power = np.log(power + self.floor)
+
+    def with_harmonics(self, harmonics: NDArray[np.complex128]) -> Target:
+        """The same with other coefficients (n, d) of the harmonics that are kept."""
+        other = copy.copy(self)
+        other.harmonics = harmonics
+        return other
 
     def match(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d)."""

@@ -9,7 +9,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearingcore.common.kept import kept
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.defect import floor_bytes
 from bearingcore.model.packing import contacts
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
@@ -135,7 +137,7 @@ def modes_at(state: Equilibrium) -> Modes:
     return Modes(scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body)
 
 
-@lru_cache(maxsize=512)
+@kept(512, 32_000_000, lambda _, scene: 1000 + floor_bytes(scene.defects))
 def highest_natural_frequency(scene: Scene) -> float:
     """The greatest undamped natural frequency [Hz] of a scene over one period of cage angles.
 

@@ -25,7 +25,15 @@ error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim 
 directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
 that asks for them, as steps stay stable down to 2.2."""
 
-MOST_STEPS = 10_000_000
+MOST_STEPS = 1_000_000
+"""Steps that a motion, or the periods of one orbit, take at most unless told otherwise: up to
+15 s of marching in five directions, 40 s with the tangent."""
+
+MOST_SAMPLES = 10_000_000
+"""Samples of a motion."""
+
+TOO_MANY_STEPS = "too many steps"
+"""How the status of a motion begins that was not begun, as it would have taken too long."""
 
 
 @dataclass(frozen=True)
@@ -150,6 +158,7 @@ def simulate(
     *,
     ball_loads: bool = False,
     step_rate: float | None = None,
+    most_steps: int = MOST_STEPS,
 ) -> Motion:
     """Motion of `scene` from its static state at cage angle 0, by Runge-Kutta steps of order 4.
 
@@ -167,12 +176,16 @@ def simulate(
         [Hz] steps a second: a multiple or a whole fraction of the sample rate. None takes enough
         for STEPS_A_CYCLE steps in a period of the highest natural frequency and STEPS_A_PASSAGE
         while a ball passes the defect. Samples between steps come from quintic interpolation.
+    most_steps
+        steps that may be taken. They are counted before the first: where there are more, none is
+        taken, and the status says how many there would be. A light body on a stiff support needs
+        hundreds of millions a second.
 
     Returns
     -------
     Motion
-        with a status: a motion that diverges, or a scene without a static state to start from, is
-        said there.
+        with a status: a motion that diverges, one of too many steps, or a scene without a static
+        state to start from, is said there.
 
     Raises
     ------
@@ -197,15 +210,27 @@ def simulate(
     if step_rate is None:
         step_rate = default_step_rate(scene, sample_rate, highest)
     _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
-    n = max(round(duration * sample_rate), 1)
-    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
-    if n_steps > MOST_STEPS:
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
+    if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
             "duration",
             duration,
-            f"at most {MOST_STEPS / step_rate:.3g} s at {step_rate:.6g} steps a second",
+            f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
         )
+    n = max(round(duration * sample_rate), 1)
+    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
     time = np.arange(n) / sample_rate
+    if n_steps > most_steps:
+        # NaN everywhere, without the memory of it
+        nothing = np.broadcast_to(np.float64(math.nan), (n_steps + 1, 6, len(dofs)))
+        status = (
+            f"{TOO_MANY_STEPS}: {n_steps:.3g} of {1.0 / step_rate:.3g} s each, allowed are "
+            f"most_steps = {most_steps}"
+        )
+        return Motion(
+            scene, dofs, sample_rate, step_rate, False, status, 0, time,
+            np.full((n, scene.bearing.n_balls), math.nan) if ball_loads else None, nothing,
+        )  # fmt: skip
     history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
     y = static_start(scene, dofs)
     if y is None:

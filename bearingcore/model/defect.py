@@ -14,7 +14,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from typing import Self
 
@@ -23,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.kept import kept
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.floor import MeasuredFloor, RoughFloor, measured_floor
 from bearingcore.model.rows import MOST_ROWS
@@ -220,7 +220,22 @@ def edge_drop(
     return drop.reshape(np.shape(s))
 
 
-@lru_cache(maxsize=256)
+def floor_bytes(defects: tuple[Defect, ...]) -> int:
+    """Bytes that the numbers of measured floors take: two tuples of floats each."""
+    floors = [defect.floor for defect in defects]
+    return sum(64 * len(floor.places) for floor in floors if isinstance(floor, MeasuredFloor))
+
+
+def _bytes_of_tables(
+    found: kernels.Path,
+    defects: tuple[Defect, ...],
+    bearing: Bearing,
+) -> int:
+    return found.defects.nbytes + found.tables.nbytes + floor_bytes(defects)
+
+
+# of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
+@kept(256, 64_000_000, _bytes_of_tables)
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """What the kernels need to know of all defects: rows of numbers, and paths as tables.
 

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.kept import kept
 from bearingcore.common.number_table import read_numbers
 
 SAMPLES_A_LENGTH = 10
@@ -82,7 +82,7 @@ class RoughFloor:
         return np.maximum(depth + np.interp(angle * radius, place, heights), 0.0)
 
 
-@lru_cache(maxsize=16)
+@kept(16, 64_000_000, lambda heights, *_: heights.nbytes)
 def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package

@@ -16,8 +16,13 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.modes import modes_at
-from bearingcore.dynamics.motion import simulate
-from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
+from bearingcore.dynamics.motion import TOO_MANY_STEPS, simulate
+from bearingcore.dynamics.orbit import (
+    NO_PERIOD,
+    NO_START,
+    NOT_CONVERGED,
+    orbit,
+)
 from bearingcore.dynamics.speed_run import SETTLING
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
@@ -57,6 +62,7 @@ STATUSES = (
     "orbit_not_converged",
     "no_common_period",
     "arithmetic_failed",
+    "too_many_steps",
 )
 """What became of a scene, by code: `complete`, or the first thing that kept something from being
 known. Nothing touches, a free direction and what follows: at some cage angle at least; a free
@@ -78,6 +84,7 @@ _FROM_ORBIT = {
     NOT_CONVERGED: "orbit_not_converged",
     NO_PERIOD: "no_common_period",
     NO_START: "no_static_start",
+    TOO_MANY_STEPS: "too_many_steps",
 }
 
 MODE = "mode"
@@ -397,4 +404,7 @@ def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> str:
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()
     if motion.completed:
         return "complete"
-    return "no_static_start" if motion.status.startswith(NO_START) else "motion_diverged"
+    for begins, code in ((NO_START, "no_static_start"), (TOO_MANY_STEPS, "too_many_steps")):
+        if motion.status.startswith(begins):
+            return code
+    return "motion_diverged"

@@ -48,7 +48,7 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
 ) -> None:
     page, _ = watch
     assert len(recording) > 1.5 * PIECE
-    open_page(page, explorer, "sizing")
+    open_page(page, explorer, "diagnosis")
     said = page.locator(".view-measurement p.words")
     expect(said).to_contain_text("No signal yet")
     assert page.locator(".view-measured-spectrum canvas:visible").count() == 0
@@ -91,6 +91,11 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     page.locator("#measurement-sample_rate").press("Tab")
     expect(page.locator("#measurement-sample_rate-refusal")).to_have_text("")
 
+    # the part, found by itself
+    part = page.locator(".view-diagnosis section.part")
+    expect(part).to_have_attribute("data-mood", "fault", timeout=30000)
+    expect(part.locator("h3")).to_have_text(re.compile("The outer race is (probably )?damaged"))
+
     # the size: the scene says 12.9°, the signal knows better
     assert value(page, "extent_deg") == pytest.approx(12.9)
     page.get_by_role("button", name="Find the size").click()
@@ -131,7 +136,7 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     expect(candidates.first).to_be_hidden()
     expect(page.locator("#measurement-x")).to_be_hidden()
     show(page, "load")
-    show(page, "sizing")
+    show(page, "diagnosis")
     expect(said).to_contain_text("broken.csv cannot be used")
 
     # those who have no file simulate one, and see the truth marked
@@ -141,3 +146,62 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     expect(candidates.first).to_be_hidden()
     page.get_by_role("button", name="Find the size").click()
     expect(page.locator(".view-sizing .truth")).to_have_text(re.compile(r"true 38\.\d°"))
+
+
+def test_the_part_is_named_marked_and_zoomed_to(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    """An old link, a signal made on the spot by a lesson, its part, its lines, its evidence."""
+    page, _ = watch
+    page.goto(f"{explorer.url}?v=1&preset=6205&race=inner&tab=sizing")
+    page.wait_for_function("window.__frames >= 1")
+    page.wait_for_function("window.__tab == 'diagnosis'")
+    part = page.locator(".view-diagnosis section.part")
+    expect(part).to_be_hidden()
+    assert page.locator(".view-diagnosis canvas:visible").count() == 0
+    page.get_by_role("button", name="Simulate a signal").click()
+    expect(part).to_have_attribute("data-mood", "fault")
+    expect(part.locator("h3")).to_have_text("The inner race is damaged")
+    expect(part.locator("svg")).to_have_attribute("aria-label", "Bearing, inner race marked")
+    assert part.locator("svg path.marked").count() == 1
+    said = page.locator(".view-diagnosis p").last
+    expect(said).to_contain_text("Damage on the inner race")
+    expect(said).to_contain_text("The signal is simulated: the inner race is damaged.")
+    assert "100 %" not in page.locator(".view-diagnosis").inner_text()
+
+    # the lines that count
+    expect(page.locator(".view-diagnosis canvas:visible").first).to_be_visible()
+    settle(page)
+    lines = source(page, "diagnosis_inner_race_lines")
+    assert lines["frequency"][0] == pytest.approx(162.2, rel=0.01)
+    assert lines["alpha"][0] > 2.0 * source(page, "diagnosis_outer_race_lines")["alpha"][0]
+    assert len(source(page, "diagnosis_spectrum")["frequency"]) > 200
+    rows = page.locator(".view-diagnosis tbody tr")
+    assert rows.count() == 3
+    expect(page.locator(".view-diagnosis tr.leads")).to_contain_text("inner race")
+
+    # zoom to a line by its number in the table, by the keyboard as well
+    before = pixels(page, "diagnosis")
+    line = page.locator(".view-diagnosis tr.leads button.line").nth(1)
+    line.focus()
+    line.press("Enter")
+    expect(line).to_have_attribute("aria-pressed", "true")
+    settle(page)
+    assert pixels(page, "diagnosis") != before
+    shown = source(page, "diagnosis_spectrum")["frequency"]
+    assert 200.0 < min(shown) < 324.0 < max(shown) < 450.0
+
+    # the size of an inner-race defect is not looked for, and no figure is left empty
+    expect(page.locator(".view-sizing")).to_contain_text("its size cannot be had this way")
+    page.get_by_role("button", name="Find the size").click()
+    expect(page.locator(".view-sizing form .words")).to_contain_text("There is no size to look for")
+    assert page.locator(".view-sizing canvas:visible").count() == 0
+
+    # a healthy one is told so
+    page.goto(f"{explorer.url}?v=1&preset=6205&extent_deg=0&tab=diagnosis")
+    page.wait_for_function("window.__tab == 'diagnosis'")
+    page.get_by_role("button", name="Simulate a signal").click()
+    expect(part).to_have_attribute("data-mood", "healthy")
+    expect(part.locator("h3")).to_have_text("No damage seen")
+    expect(part.locator(".hand-on")).to_contain_text("Measure again at the usual time.")
+    assert part.locator("svg .marked").count() == 0

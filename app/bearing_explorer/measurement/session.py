@@ -19,6 +19,8 @@ import numpy as np
 
 from bearing_explorer.compute.jobs import Change
 from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.measurement.background import noise_level, true_part
+from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
     Asked,
     FormError,
@@ -35,6 +37,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.diagnosis.variants import Tolerances, variant
 
@@ -43,17 +46,12 @@ log = logging.getLogger(__name__)
 MOST_NUMBERS = 4_000_000
 """Numbers of a table that a session keeps; later rows are left out."""
 
-NOISES: Mapping[str, float] = {"40": 40.0, "20": 20.0, "10": 10.0, "none": math.inf}
-"""Signal over noise [dB] of simulated measurements."""
-
-MACHINES = ("same", "different")
-"""Whether the measured machine has the numbers of the scene, or only about those."""
-
 RATE = 25_600.0
 """[Hz] of simulated measurements."""
 
-PASSES = 60.0
-"""Ball passes in one, where that is neither very short nor very long."""
+PASSES = 200.0
+"""Ball passes in one, where that is neither very short nor very long: enough to tell lines apart
+that lie a turn of the shaft beside each other."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
 SETTLING = 0.3  # [s] before a simulated measurement begins
@@ -133,6 +131,8 @@ class Measurement:
         self._editor = editor
         self._assign = assign
         self._draw = draw
+        #: which part is damaged, looked for in the background
+        self.diagnoses = Diagnoses(assign, draw)
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
         self._cut = ""
@@ -147,6 +147,7 @@ class Measurement:
         """The session is over."""
         self._ended = True
         self._upload = self._table = None
+        self.diagnoses.stop()
 
     def redraw(self) -> None:
         """Draw again with what the views have been told."""
@@ -465,7 +466,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     signal = motion.outer_acceleration[first:, columns]
     if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
         raise ValueError("Not possible: the simulated housing does not move along x or y.")
-    level = np.sqrt(np.mean(signal**2, axis=0)) * 10.0 ** (-noise_db / 20.0)
+    level = noise_level(truth, signal, columns, noise_db, settings)
     noisy = signal + level * rng.standard_normal(signal.shape)
     name = "Simulated" + (f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else "")
     directions = tuple(motion.dofs[index] for index in columns)
@@ -473,4 +474,8 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         recording = Recording(noisy, motion.sample_rate, directions, name)
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
-    return Measured(recording, scene.shaft_speed, scene.defects[0].extent if single else None)
+    extent = scene.defects[0].extent if single else None
+    return Measured(
+        recording, scene.shaft_speed, extent,
+        true_part=true_part(scene), noiseless=math.isinf(noise_db),
+    )  # fmt: skip

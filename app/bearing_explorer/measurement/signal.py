@@ -62,12 +62,18 @@ class Measured:
         [rad] of the defect where the signal is a simulated one, else None.
     origin
         the file, where it comes from one.
+    true_part
+        the part that is damaged, or "none", where the signal is a simulated one; else "".
+    noiseless
+        whether it is simulated without any noise.
     """
 
     recording: Recording
     shaft_speed: float
     true_extent: float | None = None
     origin: Origin | None = None
+    true_part: str = ""
+    noiseless: bool = False
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False

@@ -79,6 +79,9 @@ LONGEST_TEXT = 2_500_000
 _MOST_FIELDS = 400
 _LONGEST_NUMBER = 40
 
+FORMER_TABS = {"sizing": "diagnosis"}
+"""What tabs were called in links that people have."""
+
 _OWN_WORDS = (
     *("v", "preset", "defects", "selected", "dofs", "tab", CAGE_ANGLE),
     *(choice.name for choice in OF_SCENE),
@@ -297,6 +300,7 @@ def _read(given: dict[str, str]) -> Place:
     dofs = _dofs(given.pop("dofs", None), base)
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
+    tab = FORMER_TABS.get(tab, tab)
     defects, notes = [], []
     for number in range(count):
         own = {

@@ -21,7 +21,7 @@ class MeasuredEnvelope(FrequencyView):
 
     name = "measured-envelope"
     prefix = "measured_envelope"
-    title = "3  Its envelope: how often something knocks"
+    title = "Beside the model: the envelope"
     about = (
         "Knocks make something ring, and the ringing swells with each of them: lines at BPFO speak "
         "for the outer race, at BPFI for the inner race, at twice BSF for a ball. Unless you give "

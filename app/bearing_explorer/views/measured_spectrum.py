@@ -35,7 +35,7 @@ class MeasuredSpectrum(FrequencyView):
 
     name = "measured-spectrum"
     prefix = "measured_spectrum"
-    title = "2  Its spectrum"
+    title = "Beside the model: the spectrum"
     about = (
         "Thin: measured. Coloured: simulated, for the scene beside. Shaded: the bands of its "
         "natural frequencies. Where measured resonances lie in the bands, the scene is like the "

@@ -17,9 +17,10 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.excerpt import least_and_greatest
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.measurement.session import MACHINES, NOISES, Measurement, MeasurementState
+from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN

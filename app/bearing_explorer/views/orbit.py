@@ -25,6 +25,7 @@ from bearing_explorer.views.vibration_spectrum import (
     drawn_levels,
 )
 from bearing_explorer.widgets.status import StatusLine, scientific
+from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
 
 if TYPE_CHECKING:
@@ -199,6 +200,8 @@ class SteadyOrbit(View):
             )
         if orbit.status == NO_START:
             return "There is no static state to begin from, so no orbit was looked for."
+        if orbit.status == TOO_MANY_STEPS:
+            return f"The search would take too long: {orbit.cost}."
         if orbit.status == NOT_CONVERGED and results.moving:
             return (
                 "A short search found no motion that repeats with every ball pass; it goes on when "

@@ -67,6 +67,7 @@ KINDS = (
     Kind("no common period", "", "no common period", "#8B929A"),
     Kind("no static state to start from", "", "no static state", "#B9BEC4"),
     Kind("refused", "", "no such scene", "#DDE0E3"),
+    Kind("too many steps", "", "too many steps", "#767C83"),
 )
 """In the order of their codes in the picture."""
 

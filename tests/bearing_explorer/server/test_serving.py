@@ -15,7 +15,11 @@ from typing import Any
 import pytest
 from bearing_explorer.page import page
 from bearing_explorer.server import serving
-from bearing_explorer.server.serving import Limits, by_name, make_server, policy, welcome
+from bearing_explorer.server.allowed_messages import by_name, welcome
+from bearing_explorer.server.headers import policy
+from bearing_explorer.server.limits import Limits
+from bearing_explorer.server.serving import make_server
+from bearing_explorer.server.small_pages import message_page
 from bokeh.model import util as model_util
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPResponse
 from tornado.websocket import websocket_connect
@@ -43,7 +47,6 @@ def served(
             for socket in list(serving.sockets):
                 socket.close()
             server.stop()
-            serving.sockets.clear()
 
     run(both())
 
@@ -113,6 +116,8 @@ def test_whoever_comes_too_late_is_asked_to_come_back() -> None:
         there = [PageClient(url) for _ in range(SMALL.sessions)]
         for client in there:
             assert await client.open_page() == 200
+        for client in there[1:]:
+            await client.open_socket(origin(url))
         late = await get(url)
         assert late.code == 503
         assert late.headers["Retry-After"] == "60"
@@ -449,7 +454,7 @@ def _slow_walk(document: Any) -> set[Any]:
 
 
 def test_messages_are_plain(tmp_path: Path) -> None:
-    page_text = serving.message_page("<b>", "a & b")
+    page_text = message_page("<b>", "a & b")
     assert "&lt;b&gt;" in page_text
     assert "a &amp; b" in page_text
     assert json.dumps(page_text)

@@ -193,7 +193,7 @@ def test_a_stiffness_term_that_does_not_exist() -> None:
         ("duration", -1.0, "-1", "above 0"),
         ("duration", NAN, "nan", "above 0"),
         ("duration", INF, "inf", "finite"),
-        ("duration", 1e6, "1e+06", "steps a second"),
+        ("duration", 1e6, "1e+06", "sample_rate"),
         ("sample_rate", 0.0, "0", "above 0"),
         ("sample_rate", NAN, "nan", "above 0"),
         ("sample_rate", 1000.0, "1000", "twice the highest natural frequency"),

@@ -2,13 +2,14 @@
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
 
 from bearingcore import Defect, Scene, simulate
-from bearingcore.diagnosis.fitting import Search
-from bearingcore.diagnosis.sizing import Sizing, _status, size_defect
+from bearingcore.diagnosis.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
+from bearingcore.diagnosis.sizing import Sizing, judged, size_defect
 from bearingcore.diagnosis.synthesis import Target, comparison_band, synthesise
 from bearingcore.diagnosis.variants import Tolerances, variant
 from bearingcore.signals.averaging import average_passes
@@ -73,15 +74,60 @@ def test_the_paper_s_two_defects_are_told_apart(paper, extent, turns):
     assert len(extents) >= 4
 
 
-def test_an_answer_that_leaves_much_unexplained_says_so(paper):
-    """Seen where the load is a fifth off: the answer stands, and so does the doubt."""
+def test_an_answer_that_leaves_much_unexplained_is_refused(paper):
     sized = paper[12.9]
     poor = dataclasses.replace(sized.best, waveform_misfit=np.array([0.4, 0.6]))
     others = [c for c in sized.candidates if c is not sized.best]
-    conclusive, words = _status((poor, *others), sized.extent_uncertainty, sized.passes)
-    assert conclusive
-    assert words.startswith("The defect extends over 12.9°")
+    conclusive, bound, words = judged(dataclasses.replace(sized, candidates=(poor, *others)))
+    assert not conclusive
+    assert not bound
+    assert words.startswith("The signal cannot tell")
     assert "leaves 50 % of the mean ball pass unexplained" in words
+
+
+def test_a_pass_that_lives_on_one_tone_or_is_explained_by_chance_is_refused(paper):
+    sized = paper[12.9]
+    tone = dataclasses.replace(sized.quality, strongest=0.8, harmonics=1.5)
+    conclusive, _, words = judged(dataclasses.replace(sized, quality=tone))
+    assert not conclusive
+    assert "one harmonic carries 80 %" in words
+    conclusive, _, words = judged(dataclasses.replace(sized, chance=0.2))
+    assert not conclusive
+    assert "by chance" in words
+
+
+def test_an_extent_at_an_end_of_the_search_is_a_bound(paper):
+    sized = paper[12.9]
+    others = [c for c in sized.candidates if c is not sized.best]
+    for extent, bound, words in (
+        (LEAST_EXTENT, "at most", "at most: shorter ones than 1°"),
+        (GREATEST_EXTENT, "at least", "at least"),
+    ):
+        edge = dataclasses.replace(sized.best, extent=extent)
+        answer = judged(dataclasses.replace(sized, candidates=(edge, *others)))
+        assert not answer[0]
+        assert answer[1] == bound
+        assert words in answer[2]
+
+
+def test_no_size_is_looked_for_where_another_part_is_accused_or_none():
+    """Noise, and a signal of an inner race: knocks at 8.28 times the shaft, louder in its turn."""
+    rng = np.random.default_rng(5)
+    noise = Recording(rng.standard_normal((round(2.0 * RATE), 1)), RATE, ("y",))
+    sized = size_defect(noise, RIG.replace(shaft_speed=2.0 * math.pi * 20.0))
+    assert sized.candidates == ()
+    assert not sized.conclusive
+    assert sized.diagnosis is not None
+    assert sized.status == sized.diagnosis.status
+    with pytest.raises(ValueError, match=re.escape(sized.status[:20])):
+        _ = sized.best
+    assert len(sized.table()["extent"]) == 0
+
+
+def test_only_outer_races_can_be_told_by_hand():
+    noise = Recording(np.random.default_rng(5).standard_normal((40_000, 1)), RATE, ("y",))
+    with pytest.raises(ValueError, match="fault is 'inner race'; allowed: outer race"):
+        size_defect(noise, RIG, fault="inner race")
 
 
 @pytest.mark.parametrize("extent", [12.9, 38.6])

@@ -809,3 +809,35 @@ def test_importing_the_core_does_not_import_what_sweeps_need() -> None:
     )
     told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert told.stdout.strip() == "[]"
+
+
+def test_a_full_disk_is_said_in_one_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    import errno
+
+    from bearingcore.sweep import store as stores
+
+    def full(region: object) -> bool:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(stores, "finish", full)
+    with pytest.raises(OSError, match=r"the disk is full\. What is finished is kept") as found:
+        sweep(presets["fan-rig"], {"fy": [-50.0, -100.0]}, ["k_xx_mean"], store=tmp_path / "r")
+    assert found.value.filename == str(tmp_path / "r")
+    said = capfd.readouterr()
+    assert "Traceback" not in said.err + said.out
+    assert "Compute Failed" not in said.err + said.out
+
+
+def test_a_worker_that_dies_while_it_starts_is_told_of_in_words(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    import distributed
+
+    def dying(*_: object, **__: object) -> object:
+        raise RuntimeError("Nanny failed to start.")
+
+    monkeypatch.setattr(distributed, "LocalCluster", dying)
+    with pytest.raises(RuntimeError, match="a worker ended while it was starting"):
+        sweep(presets["fan-rig"], {"fy": [-50.0]}, ["k_xx_mean"], processes=True, workers=2)

@@ -25,7 +25,7 @@ import numpy as np
 from scipy.io import loadmat
 
 from bearingcore import Bearing, Recording
-from bearingcore.signals.recording import UNITS
+from bearingcore.signals.units import UNITS
 
 TABLE = "records.csv"
 HEALTHY, UNKNOWN = "healthy", "unknown"

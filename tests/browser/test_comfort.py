@@ -84,6 +84,7 @@ def colors(page: Page) -> set[str]:
     return {str(color).upper() for color in found if color is not None}
 
 
+@pytest.mark.proof
 def test_every_tab_in_light_in_dark_and_on_a_phone(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

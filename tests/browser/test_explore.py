@@ -75,7 +75,7 @@ def words(page: Page) -> Locator:
     return page.locator(".view-explore form .words")
 
 
-def wait(page: Page, done: Callable[[], bool], seconds: float = 60.0) -> None:
+def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
     end = time.monotonic() + seconds
     while not done():
         assert time.monotonic() < end, "it did not happen in time"

@@ -1,7 +1,7 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
 
 from bearingcore.diagnosis.diagnose import diagnose
-from bearingcore.diagnosis.evidence import Diagnosis
+from bearingcore.diagnosis.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, modes
 from bearingcore.dynamics.motion import Motion, simulate
@@ -52,6 +52,7 @@ __all__ = [
     "Modes",
     "Motion",
     "Orbit",
+    "PartEvidence",
     "Recording",
     "RoughFloor",
     "Scene",

@@ -77,12 +77,12 @@ def _noise(quarters: int) -> tuple[NDArray[np.float64], float, float]:
     """Sorted comb levels of noise, and the tail: its edge and the decibels in which it falls by e.
 
     A line's power is a mean of so many quarters of independent spectra, the greatest of three
-    neighbours at half the resolution, which is that of 1.6 independent ones.
+    neighbours at half the resolution, which is that of 1.8 independent ones.
     """
     averages = 0.25 * quarters
     rng = np.random.default_rng(quarters)
     draws = rng.gamma(averages, 1.0 / averages, (2, HARMONICS, _DRAWS))
-    greater = np.where(rng.random((HARMONICS, _DRAWS)) < 0.6, draws.max(axis=0), draws[0])
+    greater = np.where(rng.random((HARMONICS, _DRAWS)) < 0.8, draws.max(axis=0), draws[0])
     lines = np.clip(10.0 * np.log10(np.maximum(greater, 1e-12)), FAINTEST, LOUDEST)
     levels = np.sort(comb_level(lines))
     count = round(_TAIL * _DRAWS)

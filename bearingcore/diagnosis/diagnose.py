@@ -55,7 +55,7 @@ from bearingcore.signals.recording import Recording
 NOISE_MARGIN = 2.0
 """[dB] above the level that noise reaches in one of a thousand signals."""
 
-PART_MARGIN = 3.0
+PART_MARGIN = 2.5
 """[dB] above the combs of the other parts."""
 
 OTHER_MARGIN = 2.5
@@ -78,7 +78,7 @@ LEAST_DEPTH = 0.03
 """Share of its mean by which the envelope swings at each line of a damaged part. Healthy bearings
 show their lines too, by 1 or 2 %."""
 
-ENOUGH_POWER = 0.08
+ENOUGH_POWER = 0.06
 """The swing that must be visible before the absence of lines means anything."""
 
 SMOOTH = 3.3
@@ -213,7 +213,7 @@ class _Signal:
             (name, envelope)
             for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
             for envelope in squared_envelopes(
-                column, self.rate, bands, highest, faults.dropped, WHITENING and WHITENING * shaft
+                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
             )
         ]
 
@@ -347,7 +347,10 @@ def _compare(
     above_other = min(
         best.level - other.level, best.level - float(followers.max(initial=-np.inf)) + OTHER_MARGIN
     )
-    evidence = tuple(_evidence(combs, found, cage) for found in combs.found)
+    evidence = tuple(
+        _evidence(combs, best if found.lines == best.lines else found, cage)
+        for found in combs.found
+    )
     return _Judged(
         combs=combs,
         best=best,

@@ -7,6 +7,7 @@ and so on. Filters are windows in the frequency domain, so no phase moves and no
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -24,6 +25,10 @@ LOWEST = 20.0
 LOUDEST_ENVELOPE = 12.0
 """Times its mean that a squared envelope may reach: noise does so once in 160,000, and one great
 blow must not outweigh all the others."""
+
+
+TAPER = 0.01
+"""Share of a signal at either end that is faded out, and not listened to."""
 
 
 class Band(NamedTuple):
@@ -89,6 +94,11 @@ def squared_envelopes(
     kept = samples - samples.mean()
     if dropped is not None and dropped.any():
         kept = np.where(dropped, 0.0, samples - samples[~dropped].mean())
+    # the ends of a signal do not meet: without a taper a loud tone's step from one to the other
+    # would knock in every quiet band
+    taper = max(4, round(TAPER * count))
+    rise = 0.5 - 0.5 * np.cos(np.pi / taper * (np.arange(taper) + 0.5))
+    kept = np.concatenate((kept[:taper] * rise, kept[taper:-taper], kept[-taper:] * rise[::-1]))
     size = next_fast_len(count, real=True)
     transform = rfft(kept, size)
     resolution = sample_rate / size
@@ -107,17 +117,16 @@ def squared_envelopes(
         rate = length * resolution
         analytic = ifft(inside, length)[: int(count / sample_rate * rate)]
         squared = (analytic.real**2 + analytic.imag**2).astype(np.float64)
-        good = None
+        good = np.ones(len(squared), dtype=bool)
         if dropped is not None and dropped.any():
             good = ~_stretched(dropped, sample_rate, len(squared), rate, 4.0 / (band[1] - band[0]))
-            if not good.any():
-                continue
-        mean = float(squared.mean() if good is None else squared[good].mean())
+        end = math.ceil(TAPER * len(squared)) + 2
+        good[:end] = good[-end:] = False
+        mean = float(squared[good].mean()) if good.any() else 0.0
         if not mean > 0.0:
             continue
         squared /= mean
-        if good is not None:
-            squared[~good] = 1.0
+        squared[~good] = 1.0
         kurtosis = float((squared**2).mean())
         np.minimum(squared, LOUDEST_ENVELOPE, out=squared)
         found.append(Envelope(band, *thinned(squared, rate, highest), kurtosis))

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearingcore.diagnosis.diagnose import diagnose
+from bearingcore import diagnose
 from bearingcore.diagnosis.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
 from tests.bearingcore.diagnosis.signals_made import HEALTHY, PARTS, draw_signal
 

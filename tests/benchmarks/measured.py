@@ -15,16 +15,17 @@ import math
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
+from unittest import mock
 
-from bearingcore import Load, Scene, Support, presets, size_defect
+from bearingcore import Diagnosis, Load, Scene, Support, diagnose, presets, size_defect
 from bearingcore.diagnosis import diagnose as diagnosing
-from bearingcore.diagnosis.diagnose import diagnose
-from bearingcore.diagnosis.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
+from bearingcore.diagnosis.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.parts import OUTER, PARTS
-from bearingcore.signals.filter_bank import Band, Envelope
+from bearingcore.signals.filter_bank import Envelope
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
 
 RIGHT, CANNOT, WRONG = "right", "cannot tell", "wrong"
@@ -124,60 +125,67 @@ def _sum_up(counts: Counter[tuple[str, str]]) -> int:
     return wrong
 
 
+Heard = list[tuple[str, Envelope]]
+
+
+def _every(heard: Heard, rate: float) -> Heard:
+    return heard
+
+
+def _kurtogram(heard: Heard, rate: float) -> Heard:
+    """The one band where the signal is most impulsive."""
+    return [max(heard, key=lambda pair: pair[1].kurtosis)]
+
+
+def _widest(heard: Heard, rate: float) -> Heard:
+    return [max(heard, key=lambda pair: pair[1].band.high - pair[1].band.low)]
+
+
+def _thirds(heard: Heard, rate: float) -> Heard:
+    third = rate / 6.0
+    return [p for p in heard if abs(p[1].band.high - p[1].band.low - third) < 0.02 * third]
+
+
+METHODS: dict[str, Callable[[Heard, float], Heard]] = {
+    "all bands": _every,
+    "kurtogram": _kurtogram,
+    "whole range": _widest,
+    "thirds": _thirds,
+}
+
+
+@contextmanager
+def _listening(choose: Callable[[Heard, float], Heard], whiten: bool) -> Iterator[None]:
+    """Diagnoses on other bands, of the signal whitened or as measured."""
+    listen, filtered = diagnosing._Signal.heard, diagnosing.squared_envelopes
+
+    def heard(self: diagnosing._Signal, shaft: float, highest: float) -> Heard:
+        return choose(listen(self, shaft, highest), self.rate)
+
+    def as_measured(*told: Any) -> list[Envelope]:
+        return filtered(*told[:5], None)
+
+    with mock.patch.object(diagnosing._Signal, "heard", heard):
+        if whiten:
+            yield
+        else:
+            with mock.patch.object(diagnosing, "squared_envelopes", as_measured):
+                yield
+
+
 def _compare_methods(found: list[Record]) -> None:
     """The same decisions on bands chosen in other ways."""
-    listening = diagnosing._Signal.heard
-
-    def by_kurtosis(
-        self: diagnosing._Signal, shaft: float, highest: float
-    ) -> list[tuple[str, Envelope]]:
-        """The fast kurtogram's way: the one band where the signal is most impulsive."""
-        heard = listening(self, shaft, highest)
-        return [max(heard, key=lambda pair: pair[1].kurtosis)]
-
-    def widest(
-        self: diagnosing._Signal, shaft: float, highest: float
-    ) -> list[tuple[str, Envelope]]:
-        """The whole range, whitened and no band."""
-        return [pair for pair in listening(self, shaft, highest) if pair[1].band == _full(self)]
-
-    def thirds(
-        self: diagnosing._Signal, shaft: float, highest: float
-    ) -> list[tuple[str, Envelope]]:
-        """Three fixed bands."""
-        third = self.rate / 6.0
-        heard = listening(self, shaft, highest)
-        return [p for p in heard if abs(p[1].band.high - p[1].band.low - third) < 0.02 * third]
-
-    methods = {
-        "all bands, whitened": (listening, True),
-        "all bands, as measured": (listening, False),
-        "kurtogram, whitened": (by_kurtosis, True),
-        "kurtogram, as measured": (by_kurtosis, False),
-        "whole range, whitened": (widest, True),
-        "whole range, as measured": (widest, False),
-        "thirds, whitened": (thirds, True),
-        "thirds, as measured": (thirds, False),
-    }
     damaged = [record for record in found if record.truth in PARTS]
     healthy = [record for record in found if record.truth == HEALTHY]
     print(f"\n{'bands':<26}{RIGHT:>8}{CANNOT:>14}{WRONG:>8}   healthy: not accused")
-    width = diagnosing.WHITENING
-    for name, (method, white) in methods.items():
-        diagnosing._Signal.heard = method  # type: ignore[method-assign]
-        diagnosing.WHITENING = width if white else None  # type: ignore[assignment]
-        try:
-            results = Counter(_result(record) for record in damaged)
-            calm = sum(_result(record) != WRONG for record in healthy)
-        finally:
-            diagnosing._Signal.heard = listening  # type: ignore[method-assign]
-            diagnosing.WHITENING = width
-        row = "".join(f"{results[r]:{w}d}" for r, w in ((RIGHT, 8), (CANNOT, 14), (WRONG, 8)))
-        print(f"{name:<26}{row}   {calm} of {len(healthy)}")
-
-
-def _full(signal: diagnosing._Signal) -> Band:
-    return diagnosing.split(signal.rate, 1e12)[0]
+    for name, choose in METHODS.items():
+        for whiten in (True, False):
+            with _listening(choose, whiten):
+                results = Counter(_result(record) for record in damaged)
+                calm = sum(_result(record) != WRONG for record in healthy)
+            row = "".join(f"{results[r]:{w}d}" for r, w in ((RIGHT, 8), (CANNOT, 14), (WRONG, 8)))
+            told = f"{name}, {'whitened' if whiten else 'as measured'}"
+            print(f"{told:<26}{row}   {calm} of {len(healthy)}")
 
 
 def _result(record: Record) -> str:

@@ -72,7 +72,8 @@ class DefectSize(JobView[Sized], MeasuredView):
     about = (
         "Of a defect on the outer race. The time from a ball's entry to a ball's exit gives the "
         "extent up to whole ball spacings. So every extent is simulated and asked how well it "
-        "explains the mean ball pass and the spectrum. Point at a candidate to see it, coloured, over what was measured, thin."
+        "explains the mean ball pass and the spectrum. Point at a candidate to see it, coloured, "
+        "over what was measured, thin."
     )
     needs = frozenset()
     start = "Find the size"

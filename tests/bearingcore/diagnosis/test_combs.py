@@ -50,7 +50,7 @@ def test_noise_reaches_a_level_as_often_as_told(averages):
     seen, actual = [], 0.0
     for _ in range(25):
         values = rng.standard_normal(int(rate * length * (1 if averages == 1 else 2.5)))
-        found = line_levels(values, rate, length, 250.0, 30.0)
+        found = line_levels(values, rate, length, 250.0, 120.0)
         actual = found.averages
         frequency = np.arange(8.0, 40.0, 0.0625)
         level = np.clip(found.level, -3.0, 40.0)

@@ -20,8 +20,10 @@ from bearingcore.model.presets import preset_notes, presets
 from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Scene
 from bearingcore.model.support import Support
 from bearingcore.signals.envelope_band import impulsive_band
-from bearingcore.signals.recording import Recording, Table, read_table
+from bearingcore.signals.read import read_table
+from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
+from bearingcore.signals.table import Table
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.statics.film import Film, film
 from bearingcore.statics.life import Life, dynamic_load_rating, life

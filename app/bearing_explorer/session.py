@@ -191,6 +191,7 @@ class Explorer:
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
+        self.measurement.change_scene = self._asked
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
         one_line = ["one-line"]

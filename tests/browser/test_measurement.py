@@ -60,6 +60,9 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
 
     # three channels: which are x and y must be said
     bring(page, "fan.wav", recording)
+    expect(said).to_contain_text("The file holds 3 signals.", timeout=30000)
+    expect(page.locator(".field-measurement-y")).to_have_class(re.compile("open"))
+    page.locator("#measurement-y").select_option("0")
     expect(said).to_contain_text("fan.wav: 3 s along y at 48\u202f000 Hz", timeout=30000)
     page.locator("#measurement-x").select_option("0")
     expect(said).to_contain_text("cannot be the same column")
@@ -127,15 +130,15 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     settle(page)
     assert value(page, "extent_deg") == pytest.approx(EXTENT, abs=0.3)
 
-    # a broken file now leaves it all as it is
+    # after a broken file no old figure stays under its name
     bring(page, "broken.csv", b"x,y\n1,2\nhello,3")
     expect(said).to_contain_text("broken.csv cannot be used", timeout=20000)
-    expect(said).to_contain_text("The signal before it stays.")
-    assert candidates.count() >= 4
+    expect(said).to_contain_text("The signal before it is put away.")
+    expect(candidates.first).to_be_hidden()
+    expect(page.locator("#measurement-x")).to_be_hidden()
     show(page, "load")
     show(page, "diagnosis")
     expect(said).to_contain_text("broken.csv cannot be used")
-    assert candidates.count() >= 4
 
     # those who have no file simulate one, and see the truth marked
     page.get_by_role("button", name="Simulate a signal").click()

@@ -33,7 +33,7 @@ def _recording(script: Script, measured: Measured) -> None:
         script.add(
             f"table = read_table({name}, Path({name}).read_bytes())",
             f"recording = table.recording({columns}, {along}, {quoted(repr(origin.unit))}, {rate}, "
-            f"{short(origin.full_scale)})",
+            f"{short(origin.full_scale)}{_beside(measured)})",
         )
         return
     script.core("Recording", "simulate")
@@ -45,6 +45,15 @@ def _recording(script: Script, measured: Measured) -> None:
         "settled = motion.outer_acceleration[motion.time >= 0.3]",
         f"recording = Recording(settled[:, own], {rate}, {along})",
     )
+
+
+def _beside(measured: Measured) -> str:
+    """What is known of sensor and shaft, as further arguments."""
+    known = {
+        "sensitivity": measured.origin.sensitivity if measured.origin is not None else None,
+        "shaft_speed": measured.recording.shaft_speed,
+    }
+    return "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
 
 
 def _signal(script: Script, direction: str) -> None:

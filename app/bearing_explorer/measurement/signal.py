@@ -35,12 +35,16 @@ HIGHEST_SHARE = 0.4
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit]."""
+    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit].
+
+    `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages.
+    """
 
     file: str
     columns: tuple[int, ...]
     unit: str
     full_scale: float
+    sensitivity: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,7 @@ from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
-from bearingcore.signals.recording import UNITS
+from bearingcore.signals.units import UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -69,6 +69,10 @@ class MeasurementPanel(JSComponent):
             "columns": state.columns,
             "values": state.values,
             "refused": state.refused,
+            "reasons": state.reasons,
+            "open": state.open,
+            "said": state.said,
+            "load": state.load,
             "scaled": state.scaled,
         }
 
@@ -213,9 +217,8 @@ def spec() -> dict[str, Any]:
     return {
         "most": MOST_BYTES,
         "piece": PIECE,
-        "accept": ".csv,.txt,.dat,.tsv,.asc,.wav,.mat,text/plain,text/csv,audio/wav",
         "formats": (
-            "CSV or text, WAV, or MATLAB (.mat up to version 7); at most "
+            "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
             f"{MOST_BYTES // 2**20} MB. Or drop it here."
         ),
         "noises": [["20", "20 dB"], *[noise for noise in noises if noise[0] != "20"]],

@@ -16,7 +16,8 @@ from bearingcore.diagnosis.sizing import Sizing, judged, size_defect
 from bearingcore.diagnosis.synthesis import Target, comparison_band, synthesise
 from bearingcore.diagnosis.variants import Tolerances, variant
 from bearingcore.signals.averaging import average_passes
-from bearingcore.signals.recording import Recording, read_table
+from bearingcore.signals.read import read_table
+from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing_proof import SCORED, size_all
 
 RIG = presets["fan-rig"]

@@ -126,8 +126,17 @@ def test_a_longer_defect_continues_the_same_surface() -> None:
     assert not np.array_equal(other.surface(ANGLES, BEARING), short.surface(ANGLES, BEARING))
 
 
-def test_a_floor_is_read_from_two_columns() -> None:
-    text = "angle, depth\n# a comment\n260;0\n265,40\n270\t50\n280 0\n"
+@pytest.mark.parametrize(
+    "text",
+    [
+        "angle, depth\n# a comment\n260,0\n265,40\n270,50\n280,0\n",
+        "Winkel;Tiefe\n260,0;0,0\n265;40\n270;50,0\n280,0;0\n",
+        "angle [deg]\tdepth [µm]\r\n260\t0\r\n265\t40\r\n270\t50\r\n280\t0\r\n",
+        "260 0\n\n265 40\n270   50\n280 0",
+        "260,0 0,0\n265,0 40,0\n270,0 50,0\n280,0 0,0",
+    ],
+)
+def test_a_floor_is_read_from_two_columns(text: str) -> None:
     floor, extent, depth, center = read_floor(text)
     assert math.degrees(extent) == pytest.approx(20.0)
     assert math.degrees(center) == pytest.approx(270.0)
@@ -140,10 +149,10 @@ def test_a_floor_is_read_from_two_columns() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "0 angles"),
+        ("", "lines of numbers"),
         ("1 2\n", "1 angles"),
         ("1 2\n3 x\n", "line 2"),
-        ("1 2 3\n4 5 6\n", "line 2"),
+        ("1 2 3\n4 5 6\n", "number of columns in the floor is 3"),
         ("1 2\n1 3\n", "different angles"),
         ("1 -2\n2 3\n", "at least 0"),
         ("1 0\n2 0\n", "not 0 everywhere"),

@@ -194,7 +194,7 @@ def test_the_part_is_named_marked_and_zoomed_to(
     # the size of an inner-race defect is not looked for, and no figure is left empty
     expect(page.locator(".view-sizing")).to_contain_text("its size cannot be had this way")
     page.get_by_role("button", name="Find the size").click()
-    expect(page.locator(".view-sizing form .words")).to_contain_text("There is no size to look for")
+    expect(page.locator(".view-sizing form .words")).to_contain_text("Not possible")
     assert page.locator(".view-sizing canvas:visible").count() == 0
 
     # a healthy one is told so

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -244,7 +245,7 @@ def _paths(
         defects = (dataclasses.replace(first, extent=extent), *others)
         try:
             # past its cache, which this would fill with what nobody asks for again
-            found.append(path_tables.__wrapped__(defects, bearing))
+            found.append(inspect.unwrap(path_tables)(defects, bearing))
             refusals.append("")
         except ValueError as error:
             found.append((np.zeros((0, columns)), np.zeros(0)))

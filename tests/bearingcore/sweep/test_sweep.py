@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import errno
 import os
 import re
 import shutil
@@ -774,15 +775,11 @@ def test_importing_the_core_does_not_import_what_sweeps_need() -> None:
 def test_a_full_disk_is_said_in_one_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    import errno
-
-    from bearingcore.sweep import store as stores
-
     def full(region: object) -> bool:
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(stores, "finish", full)
-    with pytest.raises(OSError, match="the disk is full. What is finished is kept") as found:
+    with pytest.raises(OSError, match=r"the disk is full\. What is finished is kept") as found:
         sweep(presets["fan-rig"], {"fy": [-50.0, -100.0]}, ["k_xx_mean"], store=tmp_path / "r")
     assert found.value.filename == str(tmp_path / "r")
     said = capfd.readouterr()

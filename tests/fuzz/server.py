@@ -65,7 +65,8 @@ async def attack(inputs: int, first: int = 0) -> list[str]:
     if unanswered:
         found.append(f"server: {unanswered} times it did not say that it lives")
     if "Traceback" in log:
-        found.append("server: its log has a traceback:\n" + log[-2000:])
+        at = log.index("Traceback")
+        found.append("server: its log has a traceback:\n" + log[max(at - 500, 0) : at + 2500])
     took = time.perf_counter() - began
     print(f"{'server':<10}{inputs:>9}{'':>29}{len(found):>7}{took:>6.0f} s", flush=True)
     return found

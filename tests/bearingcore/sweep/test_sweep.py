@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import errno
 import os
 import re
 import shutil
@@ -814,10 +815,6 @@ def test_importing_the_core_does_not_import_what_sweeps_need() -> None:
 def test_a_full_disk_is_said_in_one_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    import errno
-
-    from bearingcore.sweep import store as stores
-
     def full(region: object) -> bool:
         raise OSError(errno.ENOSPC, "No space left on device")
 

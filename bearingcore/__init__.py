@@ -1,5 +1,7 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
 
+from bearingcore.diagnosis.diagnose import diagnose
+from bearingcore.diagnosis.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, modes
 from bearingcore.dynamics.motion import Motion, simulate
@@ -18,8 +20,10 @@ from bearingcore.model.presets import preset_notes, presets
 from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Scene
 from bearingcore.model.support import Support
 from bearingcore.signals.envelope_band import impulsive_band
-from bearingcore.signals.recording import Recording, Table, read_table
+from bearingcore.signals.read import read_table
+from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
+from bearingcore.signals.table import Table
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.statics.film import Film, film
 from bearingcore.statics.life import Life, dynamic_load_rating, life
@@ -39,6 +43,7 @@ __all__ = [
     "CatalogueBearing",
     "ContactPressures",
     "Defect",
+    "Diagnosis",
     "Equilibrium",
     "Film",
     "Life",
@@ -49,6 +54,7 @@ __all__ = [
     "Modes",
     "Motion",
     "Orbit",
+    "PartEvidence",
     "Recording",
     "RoughFloor",
     "Scene",
@@ -60,6 +66,7 @@ __all__ = [
     "catalogue_text",
     "contact_damping",
     "contact_pressures",
+    "diagnose",
     "dynamic_load_rating",
     "envelope_spectrum",
     "equilibrium",

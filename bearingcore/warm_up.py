@@ -84,16 +84,25 @@ def _processors() -> int:
 
 def _start_helper() -> subprocess.Popen[str] | None:
     """A process that compiles the kernels of motions; None where none can be started."""
+    return start_python("from bearingcore import warm_up; warm_up.compile_motions()")
+
+
+def start_python(lines: str, new_session: bool = False) -> subprocess.Popen[str] | None:
+    """Another process that runs lines of Python; None where none can be started.
+
+    It imports what this one can. In a `new_session` Ctrl+C does not reach it.
+    """
     if not sys.executable:
         return None
     try:
         return subprocess.Popen(
-            [sys.executable, "-c", "from bearingcore import warm_up; warm_up.compile_motions()"],
+            [sys.executable, "-c", lines],
             env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
             stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
+            stdout=subprocess.DEVNULL if new_session else subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
+            start_new_session=new_session,
         )
     except OSError:
         return None

@@ -1,6 +1,6 @@
 """Each known way to go wrong with this model, shown to go wrong, and ours shown not to share it.
 
-`tests.naive` holds the formulas as printed and the methods as one first thinks of them.
+`tests.helpers.naive` holds the formulas as printed and the methods as one first thinks of them.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from bearingcore import (
 )
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.statics.ball_positions import ball_positions
-from tests import naive
-from tests.independent import Balls, verdict
+from tests.helpers import naive
+from tests.helpers.independent import Balls, verdict
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 RATE = 65536.0
@@ -67,7 +67,7 @@ def test_the_printed_distance_loads_balls_that_hang_free(depth_um: float, said: 
 
 def test_newton_from_zero_finds_a_singular_matrix() -> None:
     """With clearance nothing touches at q = 0: there is no stiffness to divide by."""
-    for scene in (LIEW_LIM.sound(), FAN_RIG.sound()):
+    for scene in (LIEW_LIM.healthy(), FAN_RIG.healthy()):
         for angle in (0.0, 0.1, 0.2):
             attempt = naive.newton(scene, angle, np.zeros(5))
             assert attempt.failure == "singular matrix"
@@ -129,7 +129,7 @@ def test_newton_without_a_line_search_fails_now_and_then() -> None:
 
 def test_gaps_that_pull_converge_to_a_wrong_answer() -> None:
     """Sign(δ)|δ|^1.5 makes Newton's method happy, and balls across the bearing pull the ring."""
-    scene = LIEW_LIM.sound().replace(radial_clearance=20e-6)
+    scene = LIEW_LIM.healthy().replace(radial_clearance=20e-6)
     for angle in (0.0, 0.1, 0.2):
         attempt = naive.newton(scene, angle, naive.fair_guess(scene), gaps_pull=True)
         assert not attempt.failure
@@ -196,7 +196,7 @@ def test_default_tolerances_are_the_size_of_the_signal() -> None:
 def test_a_step_longer_than_the_passage_misses_the_defect() -> None:
     """1° at 70 Hz is passed in 96 µs; ten steps a ball pass, 248 µs each, step right over it.
 
-    The defect lies between the angles at which balls are looked at, so the march gives the sound
+    The defect lies between the angles at which balls are looked at, so the march gives the healthy
     bearing's motion to the last digit, and says nothing. The steps taken by default are told by the
     passage: they see the defect, and finer ones see the same.
     """
@@ -212,10 +212,10 @@ def test_a_step_longer_than_the_passage_misses_the_defect() -> None:
     passage = scene.defect.extent / scene.cage_speed
     assert 1.0 / rate > 2.5 * passage
     blind = simulate(scene, 0.1, rate, step_rate=rate).outer_acceleration
-    sound = simulate(scene.sound(), 0.1, rate, step_rate=rate).outer_acceleration
-    assert np.array_equal(blind, sound)
+    healthy = simulate(scene.healthy(), 0.1, rate, step_rate=rate).outer_acceleration
+    assert np.array_equal(blind, healthy)
     seen = simulate(scene, 0.1, RATE)
-    healthy = simulate(scene.sound(), 0.1, RATE)
+    healthy = simulate(scene.healthy(), 0.1, RATE)
     assert seen.step_rate > 20.0 / passage
     assert np.ptp(seen.outer_acceleration[:, 1]) > 3.0 * np.ptp(healthy.outer_acceleration[:, 1])
     finer = simulate(scene, 0.1, RATE, step_rate=4.0 * seen.step_rate).outer_acceleration
@@ -316,7 +316,7 @@ def test_a_ball_is_stuck_between_its_contacts() -> None:
     and again, swings farther each time where the inner contact is the stiffer one, until it hops
     from contact to contact for ever. Ours rests in either case.
     """
-    scene = presets["6205"].sound()
+    scene = presets["6205"].healthy()
     bearing = scene.bearing
     inner, outer = bearing.race_factors
     assert inner > outer

@@ -56,9 +56,9 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument(
         "--max-message-mb",
         type=_positive,
-        default=16,
+        default=4,
         metavar="N",
-        help="megabytes that a browser may send in one message (16)",
+        help="megabytes that a browser may send in one message (4)",
     )
     parser.add_argument(
         "--idle-minutes",
@@ -98,8 +98,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Loading the page ...")
     from bearing_explorer.page import TABS, page
     from bearing_explorer.server import idle_collection
+    from bearing_explorer.server.limits import MEGABYTE, Limits
     from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
-    from bearing_explorer.server.serving import MEGABYTE, Limits, make_server, quiet_for
+    from bearing_explorer.server.serving import make_server, quiet_for
     from bearing_explorer.state.lessons import faults_in
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():

@@ -20,6 +20,7 @@ from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
 from bearing_explorer.views.depth_profile import DepthProfile
+from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
 from bearing_explorer.views.load_distribution import LoadDistribution
@@ -50,7 +51,11 @@ SECTIONS = (
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
     Section("explore", "Explore", (ExplorePlane,), "Tools"),
-    Section("sizing", "Sizing", (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize)),
+    Section(
+        "diagnosis",
+        "Diagnosis",
+        (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
+    ),
     Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
     Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
     Section("model", "Model", (ModelEditor, DofDifferences)),
@@ -96,7 +101,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("status", explorer.status)
     template.add_panel("plan", explorer.plan)
     template.add_panel("limits", explorer.limits)
-    template.add_panel("wire", pn.pane.Bokeh(explorer.wire.anchor, margin=0))
+    template.add_panel("packed", pn.pane.Bokeh(explorer.packed.anchor, margin=0))
     doc = pn.state.curdoc
     pn.state.onload(lambda: on_loop(doc, explorer.start))
     pn.state.on_session_destroyed(lambda _: explorer.stop())

@@ -23,13 +23,12 @@ from bokeh.models import Column
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.bearing_editor import facts_of
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
 from bearingcore import Scene, preset_notes
@@ -58,17 +57,16 @@ def report(
 
     `found` is what jobs have found, by view; views of jobs without are left out.
     """
-    wire = Wire()
+    packed = PackedSource()
     parts: list[str] = []
     shown: list[View] = []
     sources: Sources = {}
     ranges: Ranges = {}
     for kind in views:
-        if issubclass(kind, (ControlView, MeasuredView)) or not (kind.needs or kind.name in found):
+        if not (kind.in_report and (kind.needs or kind.name in found)):
             continue
-        view = kind(wire)
-        if kind.name in found:
-            view.found = found[kind.name]  # type: ignore[attr-defined]
+        view = kind(packed)
+        view.found = found.get(kind.name)
         try:
             data, sentence = view.data(results), view.sentence(results)
         except ValueError as error:
@@ -84,16 +82,16 @@ def report(
         ranges |= data[1]
         shown.append(view)
         parts.append(_figure(view, [plot.id for plot in view.figures], sentence))
-    wire.send(sources, ranges)
+    packed.send(sources, ranges)
     plots = [plot for view in shown for plot in view.figures]
     for plot in plots:
         plot.frame_align = False  # or all would leave as much room as the one that needs most
-    layout = Column(children=[*plots, wire.anchor], sizing_mode="stretch_width")
+    layout = Column(children=[*plots, packed.anchor], sizing_mode="stretch_width")
     return {
         "name": FILE,
         "html": page(results, about, parts),
         "item": json_item(layout),
-        "packet": wire.anchor.tags[0].id,
+        "packet": packed.anchor.tags[0].id,
         "figures": [plot.id for plot in plots],
     }
 
@@ -184,24 +182,22 @@ def _grey(results: Results) -> str:
 def _changes(scene: Scene, preset: str) -> str:
     note = preset_notes.get(preset, "")
     several = defects_of(scene)
-    told = [
-        f"{'Inner' if defect.race == 'inner' else 'Outer'} race at "
+    sentences = [
+        f"{defect.race.capitalize()} race at "
         f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} long, "
-        f"{style.with_prefix(defect.depth, 'm')} deep, edge model “{defect.edge}”, "
-        f"{_floor(defect.floor)} floor."
+        f"{style.with_prefix(defect.depth, 'm')} deep, "
+        + "".join(f"{said}, " for choice in OF_DEFECT if (said := choice.sentence(defect)))
+        + f"{floor_name(defect.floor)} floor."
         for defect in several
         if not defect.is_none
     ]
+    chosen = [f"{said}. " for choice in OF_SCENE if (said := choice.sentence(scene))]
     return (
         f"<p>Begun from “{_text(preset)}”. {_text(note)}</p>"
-        + (_list(told) if told else "<p>There is no defect.</p>")
-        + f"<p>Contact law: {_text(scene.contact_law)}. Directions that can move: "
+        + (_list(sentences) if sentences else "<p>There is no defect.</p>")
+        + f"<p>{_text(''.join(chosen))}Directions that can move: "
         f"{_text(', '.join(scene.active_dofs))}.</p>"
     )
-
-
-def _floor(floor: object) -> str:
-    return "flat" if floor is None else type(floor).__name__.removesuffix("Floor").lower()
 
 
 def _numbers(scene: Scene) -> Iterable[str]:

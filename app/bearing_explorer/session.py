@@ -15,33 +15,27 @@ import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute import compiling
+from bearing_explorer.compute.executors import in_thread
+from bearing_explorer.compute.idle_task import IdleTask
 from bearing_explorer.compute.jobs import Jobs
-from bearing_explorer.compute.planning import Rest, with_choices
+from bearing_explorer.compute.latest_wins import LatestWins
+from bearing_explorer.compute.planning import with_choices
 from bearing_explorer.compute.results import Results
-from bearing_explorer.compute.scheduler import Turns
+from bearing_explorer.compute.scheduler import Scheduler
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.server import log as write
-from bearing_explorer.server.live import (
-    LatestWins,
-    good_byes,
-    in_thread,
-    one_message,
-    send_at_once,
-)
-from bearing_explorer.server.packed_source import Wire
-from bearing_explorer.state.bookmarks import Keeping, asked_for, read_asked
+from bearing_explorer.server.live import good_byes, one_message, send_at_once
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
+from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.quantities import Values
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.accuracy import Accuracy
-from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.measured_view import MeasuredView
+from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.controls import Controls, Rows
 from bearing_explorer.widgets.lesson import LessonPanel
 from bearing_explorer.widgets.limits import LimitsStrip, rows_of
@@ -112,8 +106,11 @@ class Inputs:
         return (
             scene.bearing,
             scene.active_dofs,
-            scene.contact_law,
-            tuple((defect.race, defect.edge, defect.floor) for defect in scene.defects),
+            tuple(choice.name_of(scene) for choice in OF_SCENE),
+            tuple(
+                (defect.floor, *(choice.name_of(defect) for choice in OF_DEFECT))
+                for defect in scene.defects
+            ),
             scene.shaft_speed > 0.0,
             self.settings,
             self.rested,
@@ -164,7 +161,7 @@ class Explorer:
         lessons: Sequence[Lesson | Fault] = (),
     ) -> None:
         """`address`: what stands behind the question mark, from strangers too."""
-        self.wire = Wire()
+        self.packed = PackedSource()
         self._sections = {section.name: section for section in sections}
         self._views: dict[str, list[View]] = {}
         self._containers: dict[str, pn.Column] = {}
@@ -175,29 +172,30 @@ class Explorer:
         self._slow_at = self._limits_at = -math.inf
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
-        self._turns = Turns()
+        self._scheduler = Scheduler()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
-        self._rest: Rest[Inputs, tuple[str, ...]] = Rest(
-            _planned, self._draw_by_plan, self._worker.finished, self._turns, _kind_of_thought
+        self._idle_task: IdleTask[Inputs, tuple[str, ...]] = IdleTask(
+            _planned, self._draw_by_plan, self._worker.finished, self._scheduler, _kind_of_idle_work
         )
         self._rested: Inputs | None = None
         self.jobs = Jobs(lambda change: one_message(self._doc, change))
 
         self.editor = SceneEditor(preset)
-        self.keeping = Keeping(self.editor, address)
+        self.bookmarks = Bookmarks(self.editor, address)
         self._reporting = False
-        self.share = ShareBar(self._share_asked, state=self.keeping.state())
+        self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
+        self.measurement.change_scene = self._asked
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
         one_line = ["one-line"]
         self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
         self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
-        tab = self.keeping.tab
+        tab = self.bookmarks.tab
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self._on_screen = ""
         self.tabs = Tabs(
@@ -206,6 +204,15 @@ class Explorer:
             active=self._shown,
         )
         self.main = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._parts = SessionParts(
+            self.editor,
+            self.jobs,
+            self.measurement,
+            draw=self.draw,
+            ask=self._asked,
+            add_controls=self._panels.append,
+            take_steps=self._take_steps,
+        )
 
     @property
     def inputs(self) -> Inputs:
@@ -217,7 +224,7 @@ class Explorer:
             self._mark,
             self.editor.focus,
             self._settings,
-            pinned=self.keeping.pinned,
+            pinned=self.bookmarks.pinned,
         )
 
     @property
@@ -241,7 +248,7 @@ class Explorer:
         """The session is over."""
         good_byes.pop(self._doc, None)
         self._worker.stop()
-        self._rest.end()
+        self._idle_task.end()
         self.jobs.stop()
         self.measurement.stop()
 
@@ -251,13 +258,13 @@ class Explorer:
         rested = dataclasses.replace(
             inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit
         )
-        self._rest.end()
+        self._idle_task.end()
         if self._nothing_new(rested):
             self._worker.submit(rested)
             return
         self._rested = None
         self._worker.submit(inputs)
-        self._rest.begin(rested)
+        self._idle_task.begin(rested)
 
     def _nothing_new(self, rested: Inputs) -> bool:
         """Whether all that these inputs would have planned is planned already."""
@@ -276,7 +283,7 @@ class Explorer:
             self._rested = rested
             self._worker.submit(rested)
         if not compiling.ready():
-            self._rest.begin(inputs)  # there will be more to say
+            self._idle_task.begin(inputs)  # there will be more to say
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -289,10 +296,12 @@ class Explorer:
         try:
             if message.get("reset") is True:
                 self.editor.take_preset(self.editor.preset)
-                self._tell(state=self.editor.state())
+                self._show_controls(state=self.editor.state())
             if isinstance(choose := message.get("choose"), dict):
                 refused = self.editor.choose(choose)
-                self._tell(state=self.editor.state(), **({"refused": refused} if refused else {}))
+                self._show_controls(
+                    state=self.editor.state(), **({"refused": refused} if refused else {})
+                )
             if isinstance(values := message.get("set"), dict):
                 self._set(values, confirm=False)
             if isinstance(typed := message.get("typed"), dict):
@@ -300,8 +309,8 @@ class Explorer:
             if isinstance(file := message.get("floor"), dict):
                 self._read(file)
         finally:
-            if self.keeping.follow(message):
-                self._tell_share()
+            if self.bookmarks.follow(message):
+                self._show_share()
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
@@ -315,9 +324,9 @@ class Explorer:
         if confirm:
             names += [name for name in given if name in self.values and name not in refused]
         if names or was_changed != self.editor.changed:
-            self._tell(state=self.editor.state(names))
+            self._show_controls(state=self.editor.state(names))
         if refused:
-            self._tell(refused=refused)
+            self._show_controls(refused=refused)
 
     def _read(self, file: Mapping[Any, Any]) -> None:
         """Take a measured floor out of a file's text: parsed off the event loop, it may be long."""
@@ -328,9 +337,9 @@ class Explorer:
 
         def take(found: Any) -> None:
             self.editor.take_floor(name[:200], *found)
-            self.keeping.step()
-            self._tell(state=self.editor.state())
-            self._tell_share()
+            self.bookmarks.step()
+            self._show_controls(state=self.editor.state())
+            self._show_share()
             self.draw()
 
         self._in_background(lambda: read_file(text), take)
@@ -352,25 +361,25 @@ class Explorer:
         if not isinstance(message, dict):
             return
         if isinstance(name := message.get("keep"), str):
-            self.share.answer(kept=self.keeping.kept(name))
+            self.share.answer(kept=self.bookmarks.kept(name))
         if message.get("want") == "toml":
-            self.share.answer(file=self.keeping.toml())
+            self.share.answer(file=self.bookmarks.toml())
         if isinstance(base := message.get("report"), str) and not self._reporting:
             self._report(base[:2000])
         if "mark" not in message:
             return
-        if self.keeping.go(message):
-            self._tell(state=self.editor.state())
+        if self.bookmarks.go(message):
+            self._show_controls(state=self.editor.state())
         if isinstance(name := message.get("pin_here"), str):
-            self.keeping.pin_here(name)
+            self.bookmarks.pin_here(name)
         if message.get("unpin") is True:
-            self.keeping.unpin()
+            self.bookmarks.unpin()
         if (asked := asked_for(message)) is not None:
 
             def take(found: Any) -> None:
-                if self.keeping.take(asked, found):
-                    self._tell(state=self.editor.state())
-                self._tell_share()
+                if self.bookmarks.take(asked, found):
+                    self._show_controls(state=self.editor.state())
+                self._show_share()
                 self.draw()
 
             self._in_background(lambda: read_asked(asked), take)
@@ -383,9 +392,9 @@ class Explorer:
             inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
         )
         kinds = [view for section in self._sections.values() for view in section.views]
-        jobs = [v for views in self._views.values() for v in views if isinstance(v, JobView)]
-        found = {view.name: view.found for view in jobs if view.found is not None}
-        link = f"{base}?{self.keeping.state()['address']}"
+        made = [view for views in self._views.values() for view in views]
+        found = {view.name: view.found for view in made if view.found is not None}
+        link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.preset, link, now())
 
         def make() -> dict[str, Any] | None:
@@ -402,9 +411,9 @@ class Explorer:
         self._reporting = True
         self._in_background(make, take)
 
-    def _tell_share(self) -> None:
+    def _show_share(self) -> None:
         """The bar follows: the address, and what can be undone."""
-        if self.share.state != (state := self.keeping.state()):
+        if self.share.state != (state := self.bookmarks.state()):
             self.share.state = state
 
     def _take_steps(self, step_rate: float | None) -> None:
@@ -418,15 +427,15 @@ class Explorer:
             self._settings = with_choices(self._settings, message)
             self.draw()
 
-    def _tell(self, **news: Any) -> None:
-        """Tell all panels of controls; each shows what is its own.
+    def _show_controls(self, **news: Any) -> None:
+        """Show news on all panels of controls; each shows what is its own.
 
         The mark lets them pass over what a hand has moved on from meanwhile.
         """
         if "state" in news:
             news["state"] = {**news["state"], "mark": self._mark}
         for panel in self._panels:
-            panel.tell(**news)
+            panel.show(**news)
 
     def _lesson_asked(self, message: Any) -> None:
         """A lesson begins, or a button among its words is pressed."""
@@ -435,21 +444,23 @@ class Explorer:
         lesson = self.lesson.begin(message.get("lesson"))
         if lesson is not None:
             lesson.begin(self.editor)
-            self._tell(state=self.editor.state())
+            self._show_controls(state=self.editor.state())
         self._tab_asked(message if lesson is None else {"show": lesson.tab})
         self._asked(message)  # the mark, and what a button changes
+        if isinstance(wish := message.get("simulate"), dict):
+            self.measurement.asked({"simulate": wish})
 
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None
         if isinstance(name, str) and name in self._sections:
             self._shown = name
-            self.keeping.show(name)
-            self._tell_share()
+            self.bookmarks.show(name)
+            self._show_share()
             self.draw()
 
     def _make(self, name: str) -> list[View]:
         """The views of a section. For any thread: they are in no document yet."""
-        return [view(self.wire) for view in self._sections[name].views]
+        return [view(self.packed) for view in self._sections[name].views]
 
     def _bring(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first asked for.
@@ -460,15 +471,7 @@ class Explorer:
         if name not in self._containers:
             views = self._views[name]
             for view in views:
-                if isinstance(view, ControlView):
-                    view.listen(self._asked, self.editor.state())
-                    self._panels.append(view.rows)
-                if isinstance(view, MeasuredView):
-                    view.measure(self.measurement)
-                if isinstance(view, JobView):
-                    view.employ(self.jobs, self.editor, self.draw)
-                if isinstance(view, Accuracy):
-                    view.take_steps = self._take_steps
+                view.attach(self._parts)
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],
@@ -485,7 +488,7 @@ class Explorer:
 
     async def _work(self, inputs: Inputs) -> None:
         started = time.perf_counter()
-        self._turns.worked = 0.0
+        self._scheduler.worked = 0.0
         if self._on_screen != self._shown:
             shown = self._shown
             if shown not in self._views:
@@ -500,7 +503,7 @@ class Explorer:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
-            inputs, results, picture = await self._turns.run(
+            inputs, results, picture = await self._scheduler.run(
                 (self._on_screen, inputs.kind), self._quick_picture, inputs, quick, started
             )
             await self._assign(results, picture, None if slow else inputs.mark)
@@ -509,7 +512,7 @@ class Explorer:
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await self._turns.run_slow(_picture, results, slow, started, limits)
+            picture = await self._scheduler.run_slow(_picture, results, slow, started, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
@@ -541,7 +544,7 @@ class Explorer:
         self._drawn_mark = self._drawn_mark if mark is None else mark
 
         def change() -> None:
-            self.wire.send(sources, ranges, self._drawn_mark, self._turns.worked)
+            self.packed.send(sources, ranges, self._drawn_mark, self._scheduler.worked)
             for drawing in picture.drawings:
                 drawing.view.say(results if drawing.data else None, drawing.sentence)
             self.status.put(line=picture.status)
@@ -562,7 +565,7 @@ class Explorer:
         self._drawn_mark = self._mark
 
         def change() -> None:
-            self.wire.send({}, {}, self._drawn_mark)
+            self.packed.send({}, {}, self._drawn_mark)
             self.status.put(line={"mood": "bad", "words": _BROKEN, "details": []})
 
         await one_message(self._doc, change)
@@ -579,7 +582,7 @@ def _picture(
     return Picture(drawings, status, rows_of(results.limits) if limits else None)
 
 
-def _kind_of_thought(inputs: Inputs) -> Hashable | None:
+def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     """What plans share that cost about the same. Those of motions may take seconds: no kind."""
     curves = all(view in CURVES for view in inputs.planned)
     return inputs.kind if curves and not inputs.seeks_orbit else None

@@ -26,6 +26,8 @@ export function render({ model }) {
   for (const group of spec.groups) {
     const box = element("fieldset", { "data-group": group.title }, element("legend", {}, group.title))
     box.append(...group.controls.map(panel.control))
+    for (const name of Object.keys(spec.choices))
+      if (spec.choices[name].group === group.title) box.append(panel.choice(name))
     fields.append(box)
   }
   const facts = element("dl", { class: "facts", "aria-label": "What follows from the dimensions" })

@@ -117,12 +117,12 @@ export function render({ model }) {
   const files = element("div", { class: "files", role: "group", "aria-label": `“${model.title}” as files` },
     ...pictures, numbers, table, python)
   const grey = element("p", { class: "grey" })
-  const tell = () => {
+  const show_pinned = () => {
     grey.hidden = !model.pinned
     grey.textContent = `Grey is the pinned scene “${model.pinned}”.`
   }
-  model.on("pinned", tell)
-  tell()
+  model.on("pinned", show_pinned)
+  show_pinned()
   const words = element("div", { class: "words" }, element("h2", {}, model.title),
     element("p", {}, model.about), grey)
   return element("header", {}, words, files, dialog, table_dialog)

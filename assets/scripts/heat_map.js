@@ -1,4 +1,4 @@
-// A picture of numbers on a grid, out of the packed column of the wire. See app/bearing_explorer/figures/heat_map.py.
+// A picture of numbers on a grid, out of the packed column of the packed source. See app/bearing_explorer/figures/heat_map.py.
 const p = cb_obj.data.packed
 if (p.length > head) {
   const [columns, rows, left, width, bottom, height, faint, across, up] = p
@@ -11,6 +11,7 @@ if (p.length > head) {
       x: [left], y: [bottom], dw: [width], dh: [height], alpha: [faint],
     }
   })
+  stands.data = {across: [across], up: [up]}
   for (const [axis, which] of [[x_axis, across], [y_axis, up]])
-    if (axis.axis_label != quantities[which].label) axis.axis_label = quantities[which].label
+    if (axis.axis_label != labels[which]) axis.axis_label = labels[which]
 }

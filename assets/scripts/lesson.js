@@ -11,11 +11,11 @@ export function render({ model }) {
   }
   let open = false
   const count = model.titles.length
-  const sound = (number) => number >= 0 && number < count && !model.titles[number][1]
+  const usable = (number) => number >= 0 && number < count && !model.titles[number][1]
   const next_of = (number, step) => {
     let at = number + step
-    while (at >= 0 && at < count && !sound(at)) at += step
-    return sound(at) ? at : -1
+    while (at >= 0 && at < count && !usable(at)) at += step
+    return usable(at) ? at : -1
   }
 
   const select = element("select", { id: "lesson-choice", "aria-label": "Lesson" })
@@ -39,10 +39,10 @@ export function render({ model }) {
 
   const say = () => {
     const { drag = [], watch = [] } = model.lesson
-    const told = open ? { drag, watch } : null
+    const shown = open ? { drag, watch } : null
     document.documentElement.toggleAttribute("data-lesson", open)
-    window.__lesson = told
-    window.dispatchEvent(new CustomEvent("explorer-lesson", { detail: told }))
+    window.__lesson = shown
+    window.dispatchEvent(new CustomEvent("explorer-lesson", { detail: shown }))
   }
   const show = () => {
     const { number, title, parts } = model.lesson

@@ -2,14 +2,14 @@
 export function render({ model }) {
   const prefix = `look-${model.spec.name}`
   const shows = []
-  const tell = (name, value) => model.send_msg({ look: { [name]: value } })
+  const send = (name, value) => model.send_msg({ look: { [name]: value } })
 
   const one = ({ name, label, options }) => {
     const group = element("div", { class: "segments", role: "radiogroup", "aria-label": label })
     const radios = options.map(([value, words]) => {
       const id = `${prefix}-${name}-${value}`
       const radio = element("input", { type: "radio", id, name: `${prefix}-${name}`, value })
-      radio.addEventListener("change", () => tell(name, value))
+      radio.addEventListener("change", () => send(name, value))
       group.append(radio, element("label", { for: id }, words))
       return radio
     })
@@ -24,7 +24,7 @@ export function render({ model }) {
       const box = element("input", { type: "checkbox", id: `${prefix}-${name}-${value}`, value })
       box.style.accentColor = color
       box.addEventListener("change", () =>
-        tell(name, boxes.filter((other) => other.checked).map((other) => other.value)))
+        send(name, boxes.filter((other) => other.checked).map((other) => other.value)))
       return box
     })
     const marks = options.map(([value, words, color], index) => {
@@ -39,7 +39,7 @@ export function render({ model }) {
   const number = ({ name, label, hint }) => {
     const id = `${prefix}-${name}`
     const input = element("input", { type: "text", id, inputmode: "decimal", autocomplete: "off", placeholder: hint })
-    input.addEventListener("change", () => tell(name, input.value))
+    input.addEventListener("change", () => send(name, input.value))
     shows.push(() => {
       input.value = model.values[name]
       input.placeholder = model.hints[name] ?? hint

@@ -4,10 +4,12 @@ export function render({ model }) {
   const select = (id, options) => element("select", { id },
     ...options.map(([value, words]) => element("option", { value }, words)))
   const labelled = (id, words, input, note = "") => element("div", { class: `field field-${id}` },
-    element("label", { for: id }, words), input, element("p", { class: "refusal", id: `${id}-refusal` }, note))
+    element("label", { for: id }, words), input,
+    element("p", { class: "refusal", id: `${id}-refusal` }, note),
+    element("p", { class: "reason", id: `${id}-reason` }))
 
   // Files: the server says where the next piece shall begin, so it is never asked to hold more.
-  const file = element("input", { type: "file", id: "measurement-file", accept: spec.accept })
+  const file = element("input", { type: "file", id: "measurement-file" })
   const choose = element("label", { for: "measurement-file", class: "choose" }, "Choose a file …")
   const bar = element("div", { class: "bar", role: "progressbar", "aria-label": "File on its way",
     "aria-valuemin": "0", "aria-valuemax": "100", hidden: "" }, element("i"))
@@ -69,22 +71,31 @@ export function render({ model }) {
     x: select("measurement-x", []), y: select("measurement-y", []),
     unit: select("measurement-unit", spec.units),
     full_scale: element("input", { type: "text", id: "measurement-full_scale", inputmode: "decimal", autocomplete: "off" }),
+    sensitivity: element("input", { type: "text", id: "measurement-sensitivity", inputmode: "decimal", autocomplete: "off" }),
     sample_rate: element("input", { type: "text", id: "measurement-sample_rate", inputmode: "decimal", autocomplete: "off" }),
     shaft_speed: element("input", { type: "text", id: "measurement-shaft_speed", autocomplete: "off" }),
   }
   const words = { x: "Along x, sideways", y: "Along y, up", unit: "Unit",
-    full_scale: "1 in the file is", sample_rate: "Sample rate (Hz)", shaft_speed: "Shaft speed (Hz or rpm)" }
+    full_scale: "1 in the file is", sensitivity: "Sensor (mV/g)", sample_rate: "Sample rate (Hz)", shaft_speed: "Shaft speed (Hz or rpm)" }
   const fields = Object.fromEntries(Object.entries(inputs).map(([name, input]) =>
     [name, labelled(`measurement-${name}`, words[name], input)]))
-  const form = element("form", { class: "asked", "aria-label": "What the file holds" }, ...Object.values(fields))
-  const answer = () => model.send_msg({ form: Object.fromEntries(
+  const agree = element("button", { type: "submit", class: "start agree" }, "Use these answers")
+  const form = element("form", { class: "asked", "aria-label": "What the file holds" }, ...Object.values(fields), agree)
+  const answer = (sure) => model.send_msg({ sure, form: Object.fromEntries(
     Object.entries(inputs).map(([name, input]) => [name, input.value])) })
-  form.addEventListener("change", answer)
-  form.addEventListener("submit", (event) => event.preventDefault())
+  form.addEventListener("change", () => answer(false))
+  form.addEventListener("submit", (event) => {
+    event.preventDefault()
+    answer(true)
+  })
+  const facts = element("p", { class: "note facts" })
+  const load = element("button", { type: "button", class: "start load" }, "")
+  load.addEventListener("click", () => model.send_msg({ load: true }))
+  const told = element("div", { class: "line told" }, facts, load)
 
   const said = element("p", { class: "words", role: "status" })
   const root = element("div", { class: "measurement" },
-    element("div", { class: "ways" }, own, made), form, said)
+    element("div", { class: "ways" }, own, made), form, told, said)
 
   for (const kind of ["dragenter", "dragover"]) root.addEventListener(kind, (event) => {
     event.preventDefault()
@@ -98,7 +109,8 @@ export function render({ model }) {
   root.addEventListener("drop", (event) => begin(event.dataTransfer?.files[0]))
 
   const show = () => {
-    const { words: sentence, bad, busy, columns, values, refused, scaled } = model.state
+    const { words: sentence, bad, busy, columns, values, refused, reasons, open, said: beside,
+            load: newtons, scaled } = model.state
     if (said.textContent !== sentence) said.textContent = sentence
     root.dataset.mood = bad ? "bad" : busy ? "busy" : "good"
     form.hidden = !columns.length
@@ -109,9 +121,17 @@ export function render({ model }) {
       const wrong = refused[name] ?? ""
       fields[name].querySelector(".refusal").textContent = wrong
       input.setAttribute("aria-invalid", wrong ? "true" : "false")
-      input.setAttribute("aria-describedby", `measurement-${name}-refusal`)
+      input.setAttribute("aria-describedby", `measurement-${name}-refusal measurement-${name}-reason`)
+      fields[name].querySelector(".reason").textContent = wrong ? "" : reasons[name] ?? ""
+      fields[name].classList.toggle("open", open.includes(name))
     }
+    agree.hidden = !open.length
+    facts.textContent = beside
+    load.hidden = !newtons
+    load.textContent = newtons ? `Load the scene with ${newtons.toPrecision(3)} N, downwards` : ""
+    told.hidden = !beside
     fields.full_scale.hidden = !scaled && (values.full_scale ?? "1") === "1"
+    fields.sensitivity.hidden = !["V", "mV"].includes(values.unit)
   }
   model.on("state", show)
   model.on("msg:custom", (message) => { if (message.want !== undefined) send(message.want, message.of) })

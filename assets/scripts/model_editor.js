@@ -13,7 +13,7 @@ export function render({ model }) {
     form.append(box)
   }
   const damping = panel.rows.contact_damping
-  const automatic = element("button", { type: "button", class: "reset", title: "From the stiffness of the sound bearing" }, "auto")
+  const automatic = element("button", { type: "button", class: "reset", title: "From the stiffness of the healthy bearing" }, "auto")
   automatic.addEventListener("click", () => panel.send({ typed: { contact_damping: "" } }))
   damping.extra.append(automatic)
   const show = () => { damping.number.placeholder = model.automatic }

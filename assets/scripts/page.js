@@ -6,11 +6,11 @@
   const theme = document.getElementById("theme-button")
 
   lessons.addEventListener("click", () => window.dispatchEvent(new CustomEvent("explorer-lessons")))
-  const told = (lesson) => {
+  const beside_lesson = (lesson) => {
     lessons.setAttribute("aria-expanded", String(lesson !== null))
     mark(lesson?.watch ?? [])
   }
-  window.addEventListener("explorer-lesson", (event) => told(event.detail))
+  window.addEventListener("explorer-lesson", (event) => beside_lesson(event.detail))
 
   const show_theme = () => {
     const dark = window.explorer_theme.now === "dark"

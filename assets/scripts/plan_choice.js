@@ -43,7 +43,7 @@ export function render({ model }) {
   })
   const write = () => {
     const { tab, plans: made, resting, compiling, chosen, by_hand } = model.state
-    window.__resting = resting  // for tests and benchmarks, as is the mark of the wire
+    window.__resting = resting  // for tests and benchmarks, as is the mark of the packed source
     window.__tab = tab
     wait.hidden = !compiling
     back.hidden = by_hand.length === 0

@@ -50,8 +50,8 @@ function put_tip(where, { label, symbol, unit, about, limit } = {}) {
   }, 350)
 }
 
-// Rows of one panel. `told` hears of every change of a value, `touched` of the control in use.
-function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
+// Rows of one panel. `changed` hears of every change of a value, `touched` of the control in use.
+function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
   let limits = {}, values = {}
   let pending = null, sent_at = 0, waiting = false
@@ -68,7 +68,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     on_way.set(asked(), sent_at)
     model.send_msg({ mark: asked(), ...message })
   }
-  // A picture has come: how long its change waited for others tells how to send the next.
+  // A picture has come: how long its change waited for others decides how the next is sent.
   const learn = () => {
     let way = -Infinity
     for (const [mark, began] of on_way) {
@@ -129,7 +129,7 @@ function make_rows(model, { told = () => {}, touched = () => {} } = {}) {
     row.slider.style.setProperty("--to", `${ends[1]}%`)
     row.slider.setAttribute("aria-valuetext", value === null
       ? row.number.placeholder || "no value" : `${format(value, limit.step)} ${row.unit}`)
-    told(name, value)
+    changed(name, value)
   }
   const put = (name, value) => {
     const row = rows[name]

@@ -95,7 +95,7 @@ export function render({ model }) {
   const unpin = button("Unpin", "Let grey show the bearing without its defect", () => ask({ unpin: true }))
   const list = element("ul", { class: "kept", "aria-label": "Kept scenes" })
   const kept_words = element("p", { class: "note", role: "status" })
-  const keeping = menu("Keep", "Keep and compare scenes", "keep", form,
+  const bookmarks_menu = menu("Keep", "Keep and compare scenes", "keep", form,
     element("div", { class: "grey" }, pinned, unpin), list, kept_words)
 
   const save_kept = (items) => {
@@ -103,7 +103,7 @@ export function render({ model }) {
       localStorage.setItem(KEPT, JSON.stringify(items))
       return true
     } catch {
-      say("This browser has no room or no leave to keep scenes. Save it as a file instead, under Download.")
+      say("This browser has no room for scenes, or may not keep them. Save it as a file instead, under Download.")
       return false
     }
   }
@@ -153,13 +153,13 @@ export function render({ model }) {
   const say = (sentence) => {
     words.textContent = sentence
     notice.hidden = !sentence
-    if (sentence) for (const { panel } of [share, keeping, download]) panel.hidePopover()
+    if (sentence) for (const { panel } of [share, bookmarks_menu, download]) panel.hidePopover()
   }
 
   const bar = element("div", { class: "bar", role: "group", "aria-label": "Steps and files" },
     undo, redo, reset, element("i", { class: "gap", "aria-hidden": "true" }),
-    share.opener, keeping.opener, download.opener)
-  const root = element("div", { class: "share" }, bar, notice, share.panel, keeping.panel, download.panel)
+    share.opener, bookmarks_menu.opener, download.opener)
+  const root = element("div", { class: "share" }, bar, notice, share.panel, bookmarks_menu.panel, download.panel)
 
   let shown = null, said = null
   const take = () => {

@@ -134,9 +134,9 @@ def find_events(passes: BallPasses, scene: Scene, directions: tuple[str, ...]) -
 
 
 def unloading_angle(scene: Scene) -> float:
-    """Angle [rad] from an edge at which the most loaded ball of a sound bearing loses its load."""
+    """Angle [rad] from an edge where the most loaded ball of a healthy bearing loses its load."""
     (defect,) = scene.defects
-    state = equilibrium(scene.sound())
+    state = equilibrium(scene.healthy())
     load = np.nan_to_num(state.ball_load).max()
     compression = typical_compression(scene.bearing, load)
     radius = scene.bearing.ball_radius

@@ -15,6 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.diagnosis.chance import ByChance
 from bearingcore.diagnosis.synthesis import SPECTRUM_FLOOR, WAVEFORM_FLOOR, Target, synthesise
 from bearingcore.diagnosis.variants import Tolerances, variant
 from bearingcore.model.defect import EDGES
@@ -227,8 +228,16 @@ def _library_part(
     )
 
 
-def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> list[Guess]:
+CHANCE_PARTS = 4
+"""Every so many parts of the library are also held against chance."""
+
+
+def guesses(
+    search: Search, cells: Callable[[float], int], progress: Stop
+) -> tuple[list[Guess], float]:
     """Refined guesses, the best first; and one at least in each cell of extents.
+
+    With them: how often chance would explain a pass of such a spectrum as well, see `ByChance`.
 
     `cells` numbers the cells that extents fall into once the best guess is known: it is asked for
     differences of extents [rad]. `progress` is told the share that is done, and may raise to end.
@@ -238,10 +247,13 @@ def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> li
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     frequency = nominal * round(target.measured.frequency / nominal, 3)
     scores, sources = [], []
+    by_chance = ByChance(target)
     for part in range(PARTS):
         library = _library_part(
             scene, frequency, search.count, search.columns, search.tolerances, part
         )
+        if part % CHANCE_PARTS == 0:
+            by_chance.look(library.harmonics, library.power)
         match = target.match(library.harmonics, library.power)
         score = search.score(match.waveform_misfit, match.spectrum_misfit)
         scores.append(score - 0.5 * (library.offsets**2).sum(axis=1))
@@ -281,4 +293,4 @@ def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> li
             reached.add(cell)
             found.append(search.refined(search.refined(search.guess(*sources[index]))))
     progress(1.0)
-    return sorted(found, key=lambda guess: -guess.score)
+    return sorted(found, key=lambda guess: -guess.score), by_chance.share

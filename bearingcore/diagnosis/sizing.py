@@ -6,6 +6,10 @@ about the scene is varied with it, and each candidate Δφ + k·360°/N_b is ask
 the signal: the mean ball pass in both directions and the spectrum. The answer is a probability for
 each candidate, and a word where the signal cannot tell.
 
+First the diagnosis is asked, which needs no model of the machine: an extent is looked for only
+where it names the outer race. Then the mean ball pass must be one: several harmonics, more than
+noise, and explained better than chance would (see `chance`).
+
 Quantity                                   | Symbol | Name           | Unit
 ------------------------------------------ | ------ | -------------- | ----
 extent                                     | Δφ     | extent         | rad
@@ -26,8 +30,18 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.diagnosis.chance import PassQuality, pass_quality
+from bearingcore.diagnosis.diagnose import diagnose
 from bearingcore.diagnosis.events import Events, find_events
-from bearingcore.diagnosis.fitting import Guess, Search, guesses
+from bearingcore.diagnosis.evidence import Diagnosis
+from bearingcore.diagnosis.fitting import (
+    EXTENT_STEP,
+    GREATEST_EXTENT,
+    LEAST_EXTENT,
+    Guess,
+    Search,
+    guesses,
+)
 from bearingcore.diagnosis.synthesis import Band, Target, comparison_band
 from bearingcore.diagnosis.variants import Tolerances
 from bearingcore.dynamics.modes import modes
@@ -48,7 +62,17 @@ CLEAR = 0.9
 """Probability from which a candidate counts as told."""
 
 MUCH_UNEXPLAINED = 0.3
-"""Part of the mean ball pass: where the best candidate leaves more, the status says so."""
+"""Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
+
+MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
+"""Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
+a tone that happens to lie on a harmonic is not a defect."""
+
+LEAST_CHANCE = 0.05
+"""Part of passes with phases drawn anew that may be explained as well as the measured one."""
+
+OUTER, INNER = "outer race", "inner race"
+AT_MOST, AT_LEAST = "at most", "at least"
 
 LEAST_PROMINENCE = 6.0
 """Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
@@ -125,13 +149,21 @@ class Sizing:
     Attributes
     ----------
     candidates
-        by rising extent; their probabilities add up to 1.
+        by rising extent; their probabilities add up to 1. None where no extent was looked for.
     extent_uncertainty
         standard deviation [rad] of the extent if the most probable candidate is the true one.
     status
         a sentence: how sure the answer is, or why there is none.
     conclusive
-        whether one candidate is told from all the others.
+        whether one candidate is told from all the others, and its extent is not a bound.
+    bound
+        "at most" or "at least" where the best extent stands at an end of the search; else "".
+    diagnosis
+        which part the signal accuses; None where it was told by hand.
+    quality
+        what the mean ball pass consists of.
+    chance
+        how often a pass of such a spectrum is explained as well with its phases drawn anew.
     events
         entry and exit as found in the signal alone, and the paper's Δt.
     passes
@@ -152,6 +184,10 @@ class Sizing:
     recording: Recording = field(repr=False)
     scores: NDArray[np.float64] = field(repr=False)
     """(candidates,) before the temperature."""
+    quality: PassQuality
+    chance: float = math.nan
+    bound: str = ""
+    diagnosis: Diagnosis | None = None
 
     def table(self) -> ResultTable:
         """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
@@ -171,7 +207,9 @@ class Sizing:
 
     @property
     def best(self) -> Candidate:
-        """The most probable candidate."""
+        """The most probable candidate. ValueError, with the status, where there is none."""
+        if not self.candidates:
+            raise ValueError(self.status)
         return max(self.candidates, key=lambda candidate: candidate.probability)
 
     def event_times(
@@ -200,11 +238,16 @@ def size_defect(
     recording: Recording,
     scene: Scene,
     *,
+    fault: str | None = None,
     tolerances: Tolerances | None = None,
     slip: float = 0.02,
     progress: Callable[[float], None] | None = None,
 ) -> Sizing:
     """Candidates for the extent of a defect on the outer race, and their probabilities.
+
+    Where the diagnosis does not name the outer race there are none, and the status says why.
+    Inner races are not sized: their defect turns through the load zone, and no ball pass is like
+    the next.
 
     Parameters
     ----------
@@ -213,6 +256,9 @@ def size_defect(
     scene
         bearing, load, support and shaft speed of the machine, and a defect whose centre and
         nominal depth are taken as known; its extent is not looked at.
+    fault
+        "outer race" where that is known from elsewhere: then the diagnosis is not asked. None: it
+        is.
     tolerances
         how well the scene is known; None for the usual.
     slip
@@ -228,6 +274,8 @@ def size_defect(
     scene, columns = _prepared(scene, recording.directions)
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
+    if fault is not None:
+        checks.choice("fault", fault, (OUTER,))
     band = comparison_band(scene, recording.sample_rate)
     passes = average_passes(
         recording.acceleration,
@@ -238,13 +286,23 @@ def size_defect(
         band.highest,
         min(EVENTS_REACH * band.highest / 1.35, 0.4 * recording.sample_rate),
     )
+    target = Target(passes, band)
+    events = find_events(passes, scene, recording.directions)
+    nothing = Sizing(
+        (), math.nan, "", False, events, passes, band, recording, np.zeros(0), pass_quality(target)
+    )
+    if fault is None:
+        found_fault = diagnose(recording, scene.bearing, scene.shaft_speed, slip=slip)
+        nothing = dataclasses.replace(nothing, diagnosis=found_fault, status=_no_size(found_fault))
+        if found_fault.fault != OUTER:
+            return nothing
     spacing = scene.bearing.ball_spacing
 
     def cell(difference: float) -> int:
         return round(difference / spacing)
 
-    search = Search(scene, Target(passes, band), columns, tolerances)
-    found = guesses(search, cell, progress if progress is not None else _go_on)
+    search = Search(scene, target, columns, tolerances)
+    found, chance = guesses(search, cell, progress if progress is not None else _go_on)
     best = found[0]
     in_cells: dict[int, Guess] = {}
     for guess in found:
@@ -258,9 +316,11 @@ def size_defect(
         for guess, weight in zip(chosen, weights, strict=True)
     )
     spread = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
-    conclusive, status = _status(candidates, spread, passes)
-    events = find_events(passes, scene, recording.directions)
-    return Sizing(candidates, spread, status, conclusive, events, passes, band, recording, scores)
+    sized = dataclasses.replace(
+        nothing, candidates=candidates, extent_uncertainty=spread, scores=scores, chance=chance
+    )
+    conclusive, bound, status = judged(sized)
+    return dataclasses.replace(sized, conclusive=conclusive, bound=bound, status=status)
 
 
 def _go_on(share: float) -> None:
@@ -306,50 +366,94 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
 
 
 def _spread(best: Guess, others: list[Guess]) -> float:
-    """Standard deviation [rad] of the extent, from the fit's and from guesses nearly as good."""
+    """Standard deviation [rad] of the extent, from the fit's and from guesses nearly as good.
+
+    Never more than that of not knowing it at all.
+    """
     weights = np.exp((np.array([g.score for g in others]) - best.score) / TEMPERATURE)
     away = np.array([g.extent - best.extent for g in others])
     between = float((weights * away**2).sum() / weights.sum())
     own = best.extent_spread * SPREAD_FACTOR
-    return math.sqrt(own**2 + between + SPREAD_FLOOR**2)
+    spread = math.sqrt(own**2 + between + SPREAD_FLOOR**2)
+    return min(spread, (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0))
 
 
-def _status(
-    candidates: tuple[Candidate, ...], spread: float, passes: BallPasses
-) -> tuple[bool, str]:
-    best = max(candidates, key=lambda candidate: candidate.probability)
+def _no_size(found: Diagnosis) -> str:
+    """Why no extent is looked for where the outer race is not accused."""
+    words = found.status
+    if found.fault == INNER:
+        words += (
+            " Its size is not looked for: a defect of the inner race turns through the load zone, "
+            "and no ball pass is like the next."
+        )
+    return words
+
+
+def judged(sized: Sizing) -> tuple[bool, str, str]:
+    """Whether an answer is conclusive, whether it is a bound, and the sentence that says so."""
+    best, passes, quality = sized.best, sized.passes, sized.quality
+    spread = sized.extent_uncertainty
     size = f"{math.degrees(best.extent):.1f}° ± {math.degrees(spread):.1f}°"
     unexplained = float(best.waveform_misfit.mean())
+    beside_noise = unexplained - quality.noise_share
+    none = "The signal cannot tell the size of the defect: "
+    refusal = ""
     if passes.prominence < LEAST_PROMINENCE and unexplained > 0.6:
-        return False, (
-            "The signal cannot tell: no lines stand out at the ball-pass frequency of an "
-            "outer-race defect."
+        refusal = "no lines stand out at the ball-pass frequency of an outer-race defect."
+    elif quality.strongest > MOST_IN_ONE or quality.harmonics < FEWEST_HARMONICS:
+        refusal = (
+            f"one harmonic carries {100.0 * quality.strongest:.0f} % of the mean ball pass, as a "
+            "tone would; a defect's entry and exit show in many."
         )
-    if unexplained > 0.9 and float(best.spectrum_misfit.mean()) > 1.0:
-        return False, (
-            "The signal cannot tell: no extent explains it. Load, speed, support or bearing may "
-            "not be those of this machine."
+    elif sized.chance > LEAST_CHANCE:
+        refusal = (
+            "no extent explains it better than it would explain a signal of the same spectrum "
+            "by chance. Load, speed, support or bearing may not be those of this machine."
         )
-    if abs(best.level) > math.log(10.0):
+    elif beside_noise > MUCH_UNEXPLAINED:
+        refusal = (
+            f"the best extent leaves {100.0 * unexplained:.0f} % of the mean ball pass "
+            f"unexplained, of which {100.0 * quality.noise_share:.0f} % are noise. Load, "
+            "speed, support or bearing may not be those of this machine."
+        )
+    elif abs(best.level) > math.log(10.0):
         decibels = 10.0 / math.log(10.0) * abs(best.level)
         than = "weaker" if best.level > 0.0 else "stronger"
-        return False, (
-            f"Most like {size}, but the signal is {decibels:.0f} dB {than} than such a defect "
+        refusal = (
+            f"most like {size}, but the signal is {decibels:.0f} dB {than} than such a defect "
             "gives: it may be in another unit, or have another cause."
         )
+    if refusal:
+        return False, "", none + refusal
     if best.probability < CLEAR:
-        likely = [c for c in candidates if c.probability >= 0.05]
+        likely = [c for c in sized.candidates if c.probability >= 0.05]
         told = ", ".join(
             f"{math.degrees(c.extent):.1f}° ({100.0 * c.probability:.0f} %)" for c in likely
         )
-        return False, f"The signal cannot tell these apart: {told}."
-    words = (
-        f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
-        f"probability {100.0 * best.probability:.0f} %."
-    )
-    if unexplained > MUCH_UNEXPLAINED:
-        words += (
-            f" It leaves {100.0 * unexplained:.0f} % of the mean ball pass unexplained: noise "
-            "is loud, or load, speed, support or bearing are not those of this machine."
+        return False, "", f"The signal cannot tell these apart: {told}."
+    if best.extent - LEAST_EXTENT < max(2.0 * spread, EXTENT_STEP):
+        most = math.degrees(best.extent + 2.0 * spread)
+        return (
+            False,
+            AT_MOST,
+            (
+                f"The defect extends over {most:.1f}° at most: shorter ones than "
+                f"{math.degrees(LEAST_EXTENT):.0f}° are not told apart."
+            ),
         )
-    return True, words
+    if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
+        least = math.degrees(best.extent - 2.0 * spread)
+        return False, AT_LEAST, f"The defect extends over {least:.1f}° at least."
+    return (
+        True,
+        "",
+        (
+            f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
+            f"probability {percent(best.probability)}."
+        ),
+    )
+
+
+def percent(probability: float) -> str:
+    """A probability in words; nothing is ever certain."""
+    return "above 99 %" if probability > 0.99 else f"{100.0 * probability:.0f} %"

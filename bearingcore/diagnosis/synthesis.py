@@ -12,6 +12,7 @@ shift of the simulated pass that fits best     | τ      | lag              | ra
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
 from collections.abc import Sequence
@@ -61,16 +62,16 @@ class Band:
 
 
 def comparison_band(scene: Scene, sample_rate: float) -> Band:
-    """From a quarter of the sound bearing's lowest natural frequency to 1.35 of its highest.
+    """From a quarter of the healthy bearing's lowest natural frequency to 1.35 of its highest.
 
     Raises
     ------
     ValueError
         where the sample rate leaves less than an octave of it, or no static state is known.
     """
-    limits = np.array(list(modes(scene.sound()).bands().values()))
+    limits = np.array(list(modes(scene.healthy()).bands().values()))
     if not np.isfinite(limits).all():
-        raise checks.refuse("load", "such that the sound bearing has no modes", "a static state")
+        raise checks.refuse("load", "such that the healthy bearing has no modes", "a static state")
     lowest, highest = 0.25 * float(limits.min()), 1.35 * float(limits.max())
     if 0.4 * sample_rate < 8.0 * lowest:
         raise checks.refuse(
@@ -150,6 +151,12 @@ class Target:
         power = self.window @ measured.power[self.kept]
         self.floor = DYNAMIC_RANGE * power.max(axis=0) + 1e-300
         self.log_power = np.log(power + self.floor)
+
+    def with_harmonics(self, harmonics: NDArray[np.complex128]) -> Target:
+        """The same with other coefficients (n, d) of the harmonics that are kept."""
+        other = copy.copy(self)
+        other.harmonics = harmonics
+        return other
 
     def match(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d)."""

@@ -9,13 +9,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearingcore.common.kept import kept
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.defect import floor_bytes
 from bearingcore.model.packing import contacts
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 
 DAMPING_OVER_STIFFNESS = 1e-5
-"""β [s] of the sound bearing where a scene does not say its contact damping; the paper asks for
+"""β [s] of the healthy bearing where a scene does not say its contact damping; the paper asks for
 0.25e-5 to 2.5e-5 s."""
 
 
@@ -135,7 +137,7 @@ def modes_at(state: Equilibrium) -> Modes:
     return Modes(scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body)
 
 
-@lru_cache(maxsize=512)
+@kept(512, 32_000_000, lambda _, scene: 1000 + floor_bytes(scene.defects))
 def highest_natural_frequency(scene: Scene) -> float:
     """The greatest undamped natural frequency [Hz] of a scene over one period of cage angles.
 
@@ -182,10 +184,10 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
 
 
 @lru_cache(maxsize=512)
-def _mean_stiffness_a_ball(sound: Scene) -> float:
+def _mean_stiffness_a_ball(healthy: Scene) -> float:
     """mean(k_xx + k_yy) / mean(loaded balls) [N/m] of a scene, over one ball spacing."""
-    angles = np.arange(120) * (sound.bearing.ball_spacing / 120)
-    state = equilibrium(sound, angles)
+    angles = np.arange(120) * (healthy.bearing.ball_spacing / 120)
+    state = equilibrium(healthy, angles)
     good = state.converged & (state.loaded_balls > 0)
     if not good.any():
         return math.nan
@@ -196,14 +198,14 @@ def _mean_stiffness_a_ball(sound: Scene) -> float:
 def contact_damping(scene: Scene) -> float:
     """Viscous damping c [N·s/m] of a loaded contact: the scene's, or β·mean(k_xx + k_yy)/mean(n).
 
-    The paper does not print c; it asks for a damping of the sound bearing that is 0.25e-5 to
-    2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the sound bearing has no static
+    The paper does not print c; it asks for a damping of the healthy bearing that is 0.25e-5 to
+    2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
     state to take it from.
     """
     if scene.contact_damping is not None:
         return scene.contact_damping
     # the damping depends on bearing and load only; other fields would make needless cache entries
-    stiffness = _mean_stiffness_a_ball(scene.sound().replace(shaft_speed=0.0))
+    stiffness = _mean_stiffness_a_ball(scene.healthy().replace(shaft_speed=0.0))
     return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
 
 

@@ -32,7 +32,15 @@ error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim 
 directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
 that asks for them, as steps stay stable down to 2.2."""
 
-MOST_STEPS = 10_000_000
+MOST_STEPS = 1_000_000
+"""Steps that a motion, or the periods of one orbit, take at most unless told otherwise: up to
+15 s of marching in five directions, 40 s with the tangent."""
+
+MOST_SAMPLES = 10_000_000
+"""Samples of a motion."""
+
+TOO_MANY_STEPS = "too many steps"
+"""How the status of a motion begins that was not begun, as it would have taken too long."""
 
 
 @dataclass(frozen=True)
@@ -219,6 +227,7 @@ def simulate(
     *,
     ball_loads: bool = False,
     step_rate: float | None = None,
+    most_steps: int = MOST_STEPS,
 ) -> Motion:
     """Motion of `scene` from its static state at cage angle 0, by Runge-Kutta steps of order 4.
 
@@ -237,12 +246,16 @@ def simulate(
         for STEPS_A_CYCLE steps in a period of the highest natural frequency and STEPS_A_PASSAGE
         while a ball passes the defect. Samples between steps come from quintic interpolation.
         Balls with mass take a multiple of the sample rate, see `ball_step_rate`.
+    most_steps
+        steps that may be taken. They are counted before the first: where there are more, none is
+        taken, and the status says how many there would be. A light body on a stiff support needs
+        hundreds of millions a second.
 
     Returns
     -------
     Motion
-        with a status: a motion that diverges, or a scene without a static state to start from, is
-        said there.
+        with a status: a motion that diverges, one of too many steps, or a scene without a static
+        state to start from, is said there.
 
     Raises
     ------
@@ -276,21 +289,33 @@ def simulate(
             step_rate,
             f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
-    n = max(round(duration * sample_rate), 1)
-    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
-    if n_steps > MOST_STEPS:
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
+    if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
             "duration",
             duration,
-            f"at most {MOST_STEPS / step_rate:.3g} s at {step_rate:.6g} steps a second",
+            f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
         )
+    n = max(round(duration * sample_rate), 1)
+    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
     time = np.arange(n) / sample_rate
+    n_balls = packing.contacts(scene.bearing).angle.size
+    if n_steps > most_steps:
+        # NaN everywhere, without the memory of it
+        nothing = np.broadcast_to(np.float64(math.nan), (n_steps + 1, 6, len(dofs)))
+        status = (
+            f"{TOO_MANY_STEPS}: {n_steps:.3g} of {1.0 / step_rate:.3g} s each, allowed are "
+            f"most_steps = {most_steps}"
+        )
+        return Motion(
+            scene, dofs, sample_rate, step_rate, False, status, 0, time,
+            np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
+        )  # fmt: skip
     h = 1.0 / step_rate
     stride, place = 1, None
     y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
     if with_mass:
         stride = a_sample
-        n_balls = packing.contacts(scene.bearing).angle.size
         place = np.full((n, place_parts(scene, dofs), n_balls), math.nan)
         history = np.empty((n, 6, len(dofs)))
     else:

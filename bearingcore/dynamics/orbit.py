@@ -23,6 +23,8 @@ from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
+    MOST_STEPS,
+    TOO_MANY_STEPS,
     default_step_rate,
     hermite_weights,
     moving_system,
@@ -63,7 +65,7 @@ class Orbit:
         what moves, in which directions.
     status
         "stable orbit", "unstable orbit", "not converged", "no common period" (then nothing was
-        tried) or "no static state to start from".
+        tried), "no static state to start from" or "too many steps".
     through
         for an unstable orbit, how its largest multiplier leaves the unit circle: "+1" (the motion
         drifts off to another orbit), "-1" (every second period alike: period-doubling) or "pair"
@@ -79,6 +81,8 @@ class Orbit:
     history : (steps + 1, 6, len(dofs))
         displacement, velocity, acceleration of the inner, then of the outer ring over the period,
         tilts times r_d.
+    cost
+        for "too many steps", how many it would have taken, in words. Empty otherwise.
     """
 
     scene: Scene
@@ -92,6 +96,7 @@ class Orbit:
     iterations: int
     right_hand_side_calls: int
     history: NDArray[np.float64] = field(repr=False)
+    cost: str = ""
 
     @property
     def stable(self) -> bool:
@@ -185,6 +190,7 @@ def orbit(
     ball_passes: int | None = None,
     step_rate: float | None = None,
     most_iterations: int = 25,
+    most_steps: int = MOST_STEPS,
     give_up: Callable[[], bool] | None = None,
 ) -> Orbit:
     """The periodic motion of `scene`, by Newton's method on P(y) = y (shooting).
@@ -207,6 +213,9 @@ def orbit(
         least number of steps [Hz]; the period takes a whole number of them. None as in `simulate`.
     most_iterations
         Newton steps before giving up.
+    most_steps
+        steps of integration that may be taken in all. They are counted before each period: where
+        there would be more, the search ends and the status says so.
     give_up
         asked after every period that was integrated; True ends the search, which has then not
         converged unless the orbit was just found.
@@ -236,7 +245,13 @@ def orbit(
         return nothing
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
     rate = step_rate or default_step_rate(scene, 65536.0, highest_natural_frequency(scene))
-    shooting = _Shooting(scene, dofs, period, max(math.ceil(period * rate), 8), give_up)
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
+    steps = max(math.ceil(period * rate), 8)
+    # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
+    if 2 * steps > most_steps:
+        cost = f"{steps:.3g} steps a period, allowed are most_steps = {most_steps} in all"
+        return replace(nothing, status=TOO_MANY_STEPS, period=period, cost=cost)
+    shooting = _Shooting(scene, dofs, period, steps, give_up, most_steps)
     y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)
     if y is None:
         return replace(nothing, status=NO_START, period=period)
@@ -244,14 +259,14 @@ def orbit(
     if start is not None:
         found = _newton(nothing, shooting, y, period, most_iterations)
         if found.status != NOT_CONVERGED or shooting.given_up:
-            return found
+            return shooting.told(found)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.marched(y, periods)
         found = _newton(nothing, shooting, y, period, most_iterations)
         if found.status != NOT_CONVERGED or shooting.given_up:
             break
-    return found
+    return shooting.told(found)
 
 
 def common_ball_passes(scene: Scene) -> int | None:
@@ -283,8 +298,11 @@ class _Shooting:
         period: float,
         steps: int,
         give_up: Callable[[], bool] | None = None,
+        most_steps: int = MOST_STEPS,
     ) -> None:
         self.steps = steps
+        self._most_steps = most_steps
+        self._too_many = False
         self.calls = 0
         self.given_up = False
         self._give_up = give_up
@@ -323,6 +341,18 @@ class _Shooting:
     def _count(self) -> None:
         self.calls += 4 * self.steps
         self.given_up = self.given_up or (self._give_up is not None and self._give_up())
+        if self.calls // 4 + self.steps > self._most_steps:
+            self.given_up = self._too_many = True
+
+    def told(self, found: Orbit) -> Orbit:
+        """What was found; that it was given up for its cost, where it was."""
+        if found.status != NOT_CONVERGED or not self._too_many:
+            return found
+        cost = (
+            f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
+            f"most_steps = {self._most_steps}"
+        )
+        return replace(found, status=TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
         """|P(y) − y| over the size of the motion between."""

@@ -12,7 +12,7 @@ from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import modes
-from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.model.scene import Scene
 from bearingcore.signals.spectrum import spectrum
@@ -80,6 +80,7 @@ def speed_run(
     sample_rate: float = 65536.0,
     resolution: float = 32.0,
     duration: float = 1.4,
+    most_steps: int = MOST_STEPS,
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> SpeedRun:
@@ -94,6 +95,9 @@ def speed_run(
     sample_rate, resolution [Hz], duration [s]
         of the spectra, as in `simulate` and `spectrum`; a marched motion runs twice as long, and
         its first half is left out.
+    most_steps
+        steps that may be taken for the orbit of a speed, and for its marched motion. Where there
+        would be more, `refusals` says how many.
     progress, cancelled
         called and asked before each speed.
 
@@ -127,13 +131,15 @@ def speed_run(
         done += 1
         try:
             at = scene.replace(shaft_speed=float(speeds[i]))
-            found = orbit(at, start=nearby)
+            found = orbit(at, start=nearby, most_steps=most_steps)
             if found.stable:
                 density[i] = found.spectrum(sample_rate, resolution, duration).density
                 proven[i] = True
                 nearby = found
                 continue
-            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate)
+            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate, most_steps=most_steps)
+            if motion.status.startswith(TOO_MANY_STEPS):
+                raise ValueError(motion.status)
         except ValueError as error:
             refusals[i] = str(error)
             continue

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import (
     NO_PERIOD,
     NO_START,
@@ -25,7 +26,10 @@ from bearingcore.model.scene import Scene
 
 REFUSED = "refused"
 
-OUTCOMES = (STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START, REFUSED, "not computed")
+OUTCOMES = (
+    *(STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START, REFUSED, "not computed"),
+    TOO_MANY_STEPS,
+)
 """What the codes of `StabilityMap.outcome` mean."""
 
 
@@ -86,6 +90,7 @@ def stability_map(
     y: tuple[str, ArrayLike],
     *,
     ball_passes: int | None = None,
+    most_steps: int = MOST_STEPS,
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> StabilityMap:
@@ -99,6 +104,8 @@ def stability_map(
         name of a field as `Scene.replace` takes it, and its values, 2 to 1000 each.
     ball_passes
         period to look for, in ball passes; None takes the shortest.
+    most_steps
+        steps of integration that may be taken for one point, as in `orbit`.
     progress, cancelled
         called before each row; asked before each row and point.
 
@@ -131,7 +138,7 @@ def stability_map(
             done += 1
             try:
                 at = scene.replace(**{x_field: float(value), y_field: float(y_values[j])})
-                found = orbit(at, start=nearby, ball_passes=ball_passes)
+                found = orbit(at, start=nearby, ball_passes=ball_passes, most_steps=most_steps)
             except ValueError as error:
                 outcome[j, i] = OUTCOMES.index(REFUSED)
                 refusals[j, i] = str(error)
@@ -176,6 +183,9 @@ def regions(found: StabilityMap) -> Sequence[str]:
     lost = found.count(NOT_CONVERGED)
     if lost:
         sentences.append(f"At {lost} shooting finds no orbit; there the motion must be marched.")
+    long = found.count(TOO_MANY_STEPS)
+    if long:
+        sentences.append(f"At {long} the search would take more steps than allowed.")
     refused = found.count(REFUSED)
     if refused:
         reasons = sorted(set(found.refusals.values()))

@@ -91,7 +91,7 @@ def models_experiment(
         "right-hand sides",
         runner.references,
         tuple(points),
-        "sound bearing as a model of a damaged one; models without contact",
+        "healthy bearing as a model of a damaged one; models without contact",
         completed=len(points) == len(MODELS),
     )
 

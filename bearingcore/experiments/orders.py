@@ -21,7 +21,7 @@ from bearingcore.model.scene import Scene
 
 def _all_loaded() -> Scene:
     """Pressed along the shaft so hard that no ball ever lets go."""
-    return presets["liew-lim"].replace(fy=-200.0, fz=3000.0, contact_damping=300.0).sound()
+    return presets["liew-lim"].replace(fy=-200.0, fz=3000.0, contact_damping=300.0).healthy()
 
 
 def _kinked() -> Scene:

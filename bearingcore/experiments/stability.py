@@ -311,9 +311,9 @@ class EnergyDrift:
 
 
 def bouncing(scene: Scene) -> Scene:
-    """The scene with a sound bearing and nothing that damps."""
+    """The scene with a healthy bearing and nothing that damps."""
     damping = {f"damping_{dof}": 0.0 for dof in scene.active_dofs}
-    return replace(scene.sound(), contact_damping=0.0).replace(**damping)
+    return replace(scene.healthy(), contact_damping=0.0).replace(**damping)
 
 
 def energy_drifts(

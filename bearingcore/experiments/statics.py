@@ -113,7 +113,7 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     R = np.stack([c, s, np.zeros_like(c), -one.arm * s, one.arm * c], axis=-1)
     Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), one.reach * s, -one.reach * c], axis=-1)
     radial = np.einsum("mjd,md->mj", R, q) - one.clearance  # Equation (11)
-    axial = np.einsum("mjd,md->mj", Z, q)  # Equation (12)
+    axial = np.einsum("mjd,md->mj", Z, q) + one.offset  # Equation (12)
     along = A0 + radial * ca + axial * sa - d
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)

@@ -17,7 +17,7 @@ force itself.
 A contact's direction e turns with the ball and swivels as the contact angle changes. Where α0, z
 and tilts are zero it is e = (c, s) whatever the rings do, and δ = δx c + δy s − r_L − d (Eq. 19):
 then ė = ω_c (−s, c), and neither δ̇ nor the slope of d is needed. That case has its own sums over
-the contacts (`planar`), and nothing else of its own.
+the contacts, in `planar`, which says what they buy; its steps are those of every motion.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ from bearingcore.kernels.contact import (
     touch,
 )
 from bearingcore.kernels.path import BLOCK, lay_out_balls, new_passage
-from bearingcore.kernels.planar import accelerations, planar_equations_of_motion, planar_forces
+from bearingcore.kernels.planar import planar_equations_of_motion, planar_forces
+from bearingcore.kernels.rings import accelerations
 from bearingcore.kernels.structs import (
     PLANAR,
     SMOOTH,

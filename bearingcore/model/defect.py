@@ -14,7 +14,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from typing import Self
 
@@ -23,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.kept import kept
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.floor import MeasuredFloor, RoughFloor, measured_floor
 from bearingcore.model.rows import MOST_ROWS
@@ -94,7 +94,7 @@ class Defect:
 
     @classmethod
     def none(cls) -> Self:
-        """A sound bearing: no extent, no depth."""
+        """A healthy bearing: no extent, no depth."""
         return cls(extent=0.0, depth=0.0, center=0.0)
 
     @classmethod
@@ -220,7 +220,22 @@ def edge_drop(
     return drop.reshape(np.shape(s))
 
 
-@lru_cache(maxsize=256)
+def floor_bytes(defects: tuple[Defect, ...]) -> int:
+    """Bytes that the numbers of measured floors take: two tuples of floats each."""
+    floors = [defect.floor for defect in defects]
+    return sum(64 * len(floor.places) for floor in floors if isinstance(floor, MeasuredFloor))
+
+
+def _bytes_of_tables(
+    found: kernels.Path,
+    defects: tuple[Defect, ...],
+    bearing: Bearing,
+) -> int:
+    return found.defects.nbytes + found.tables.nbytes + floor_bytes(defects)
+
+
+# of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
+@kept(256, 64_000_000, _bytes_of_tables)
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """What the kernels need to know of all defects: rows of numbers, and paths as tables.
 
@@ -334,7 +349,7 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, N
         raise checks.refuse(
             "defect",
             f"{len(group)} around the whole race",
-            "defects that leave some of the race sound where they touch",
+            "defects that leave some of the race healthy where they touch",
         )
     middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
     angle = _nodes(half) + middle
@@ -364,7 +379,7 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray
     step = angle[1] - angle[0]
     surface = defect.surface(defect.center + angle, bearing)
     whole = defect.extent >= TWO_PI
-    # the corners belong to the sound race; a whole race closes on itself
+    # the corners belong to the healthy race; a whole race closes on itself
     surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
     # no farther than the floor is long: a tiny defect would ask for steps without end
     with np.errstate(over="ignore", divide="ignore"):

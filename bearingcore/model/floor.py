@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.kept import kept
+from bearingcore.common.number_table import read_numbers
 
 SAMPLES_A_LENGTH = 10
 """Samples of a rough floor in a correlation length."""
@@ -72,7 +73,7 @@ class RoughFloor:
     ) -> NDArray[np.float64]:
         """Depth [m] at angles [rad] from the middle of a defect on a race of `radius` [m].
 
-        It is never above the sound race.
+        It is never above the healthy race.
         """
         step = self.correlation_length / SAMPLES_A_LENGTH
         reach = math.ceil(0.5 * extent * radius / step) + 1
@@ -81,7 +82,7 @@ class RoughFloor:
         return np.maximum(depth + np.interp(angle * radius, place, heights), 0.0)
 
 
-@lru_cache(maxsize=16)
+@kept(16, 64_000_000, lambda heights, *_: heights.nbytes)
 def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package
@@ -110,7 +111,7 @@ class MeasuredFloor:
     places
         rising, from −1 (beginning of the defect) to 1 (its end).
     depths
-        at those places, over the defect's depth: 0 is the sound race, 1 the deepest point.
+        at those places, over the defect's depth: 0 is the healthy race, 1 the deepest point.
     """
 
     kind: ClassVar[str] = "measured"
@@ -184,31 +185,20 @@ def measured_floor(angle: ArrayLike, depth: ArrayLike) -> tuple[MeasuredFloor, f
 def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
     """`measured_floor` from text: two columns, angle [degrees] and depth [µm].
 
-    Columns are separated by blanks, commas, semicolons or tabs; lines that begin with # and one
-    line of headings are passed over.
+    As lenient as the reading of measured signals: columns between commas, semicolons, tabs or
+    blanks, numbers with points or commas, headings and lines that begin with # passed over.
 
     Raises
     ------
     ValueError
         that says which line cannot be read, or what `measured_floor` refuses.
     """
-    rows: list[tuple[float, float]] = []
-    headings = 0
-    for number, line in enumerate(text.splitlines(), start=1):
-        words = line.replace(",", " ").replace(";", " ").split()
-        if not words or words[0].startswith("#"):
-            continue
-        try:
-            angle_deg, depth_um = (float(word) for word in words)
-        except ValueError:
-            headings += 1
-            if rows or headings > 1:
-                raise checks.refuse(
-                    f"line {number} of the floor", line[:60], "two numbers: degrees and µm"
-                ) from None
-            continue
-        rows.append((angle_deg, depth_um))
-        if len(rows) > MOST_ROWS:
-            raise checks.refuse("floor", f"over {MOST_ROWS} lines", f"at most {MOST_ROWS} lines")
-    table = np.array(rows).reshape(-1, 2)
-    return measured_floor(np.radians(table[:, 0]), table[:, 1] * 1e-6)
+    table = read_numbers(
+        "the floor", text.encode("utf-8", "replace"), most_numbers=2 * MOST_ROWS, most_columns=64
+    )
+    columns = table.columns
+    if columns.shape[1] != 2:
+        raise checks.refuse(
+            "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"
+        )
+    return measured_floor(np.radians(columns[:, 0]), columns[:, 1] * 1e-6)

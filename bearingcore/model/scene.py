@@ -15,6 +15,7 @@ from bearingcore.model.load import Load
 from bearingcore.model.support import Support
 
 DOF_NAMES = ("x", "y", "z", "rx", "ry")
+DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
 
 CONTACT_LAWS = ("published", "no tension")
@@ -42,7 +43,7 @@ class Scene:
         ω_s [rad/s], at least 0.
     contact_damping
         viscous damping c [N·s/m] of a loaded contact (Eq. 18). None: from the stiffness of the
-        sound bearing, see `bearingcore.contact_damping`.
+        healthy bearing, see `bearingcore.contact_damping`.
     contact_law
         "published" or "no tension".
     dofs
@@ -137,7 +138,7 @@ class Scene:
         """Cage speed ω_c [rad/s] (Eq. 3)."""
         return self.bearing.cage_speed(self.shaft_speed)
 
-    def sound(self) -> Scene:
+    def healthy(self) -> Scene:
         """The same scene without its defects."""
         return dataclasses.replace(self, defect=Defect.none())
 

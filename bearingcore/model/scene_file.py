@@ -25,6 +25,7 @@ which: each has its name there as the class attribute `kind`.
 from __future__ import annotations
 
 import dataclasses
+import re
 import tomllib
 import types
 import typing
@@ -38,6 +39,15 @@ VERSION = 1
 
 LARGEST_TEXT = 2_000_000
 """Characters that are read at the most: a measured floor of 100,000 points fits."""
+
+MOST_OF = {",": 220_000, "\n": 250_000, "=": 10_000, "[": 10_000, "{": 10_000}
+"""How often signs may stand in a text: reading takes time for each value, line and table, and a
+measured floor of 100,000 points has no more."""
+
+MOST_PARTS = 20
+"""Parts of a name with dots: reading one takes time as the square of their number."""
+
+_LONG_NAME = re.compile(rf"(?:\.[ \t]*[\w\"'-]+[ \t]*){{{MOST_PARTS}}}")
 
 MOST_TABLES = 20
 """Parts of one kind, defects for example, that are read at the most."""
@@ -109,6 +119,12 @@ def from_toml(text: str) -> dict[str, Any]:
     """
     if len(text) > LARGEST_TEXT:
         raise checks.refuse("length of the text", len(text), f"at most {LARGEST_TEXT} characters")
+    for sign, most in MOST_OF.items():
+        if (count := text.count(sign)) > most:
+            what = {"\n": "lines"}.get(sign, f"signs {sign}")
+            raise checks.refuse(f"number of {what} in the text", count, f"at most {most}")
+    if _LONG_NAME.search(text):
+        raise checks.refuse("a name in the text", "one with many dots", f"{MOST_PARTS} at most")
     try:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:

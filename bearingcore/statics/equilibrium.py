@@ -14,7 +14,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
-from bearingcore.model.scene import DOF_NAMES, Scene, check_dofs
+from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
 from bearingcore.statics.load_capacity import runs_away
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -30,6 +30,12 @@ TERM_UNITS = {
     for term, indices in TERM_INDICES.items()
 }
 """Unit of each stiffness term."""
+
+TERM_SYMBOLS = {
+    term: "k" + "".join(DOF_SYMBOLS[DOF_NAMES[i]] for i in indices)
+    for term, indices in TERM_INDICES.items()
+}
+"""Symbol of each stiffness term: "kxθy" for "k_xry"."""
 
 ANGLES_A_PERIOD = 121
 

@@ -210,7 +210,7 @@ def life(
     Examples
     --------
     >>> from bearingcore import presets
-    >>> found = life(presets["seven-ball"].sound(), 23_400.0)
+    >>> found = life(presets["seven-ball"].healthy(), 23_400.0)
     >>> round(found.million_revolutions), round(found.hours)
     (10797, 119961)
     """

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.kept import kept
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
 from bearingcore.model.bearing import Bearing
-from bearingcore.model.defect import TWO_PI, Defect, path_tables
+from bearingcore.model.defect import TWO_PI, Defect, floor_bytes, path_tables
 from bearingcore.model.scene import Scene, check_dofs
 from bearingcore.statics.equilibrium import (
     REASONS,
@@ -229,7 +231,13 @@ class _Paths:
     refusals: tuple[str, ...]
 
 
-@lru_cache(maxsize=4)
+def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
+    packed = found.packed
+    return packed.defects.nbytes + packed.tables.nbytes + floor_bytes((first,))
+
+
+# of rough floors the tables of a map may take a gigabyte
+@kept(4, 256_000_000, _bytes_of_paths)
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
 ) -> _Paths:
@@ -254,7 +262,7 @@ def _paths(
         defects = (dataclasses.replace(first, extent=extent), *others)
         try:
             # past its cache, which this would fill with what nobody asks for again
-            found.append(path_tables.__wrapped__(defects, bearing))
+            found.append(inspect.unwrap(path_tables)(defects, bearing))
             refusals.append("")
         except ValueError as error:
             found.append((np.zeros((0, columns)), np.zeros(0)))

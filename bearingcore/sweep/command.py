@@ -51,7 +51,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = options(arguments)
     try:
         return _run(chosen)
-    except (ImportError, OSError, RuntimeError, ValueError) as error:
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        print(f"bearing-sweep: {where}{error.strerror or error}", file=sys.stderr)
+        return 1
+    except (ImportError, RuntimeError, ValueError) as error:
         print(f"bearing-sweep: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

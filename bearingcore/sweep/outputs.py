@@ -16,13 +16,19 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.modes import modes_at
-from bearingcore.dynamics.motion import simulate
-from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, orbit
+from bearingcore.dynamics.motion import TOO_MANY_STEPS, simulate
+from bearingcore.dynamics.orbit import (
+    NO_PERIOD,
+    NO_START,
+    NOT_CONVERGED,
+    orbit,
+)
 from bearingcore.dynamics.speed_run import SETTLING
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.plan.balls import mass_share
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
+    TERM_SYMBOLS,
     TERM_UNITS,
     default_cage_angles,
     equilibrium,
@@ -57,6 +63,7 @@ STATUSES = (
     "orbit_not_converged",
     "no_common_period",
     "arithmetic_failed",
+    "too_many_steps",
 )
 """What became of a scene, by code: `complete`, or the first thing that kept something from being
 known. Nothing touches, a free direction and what follows: at some cage angle at least; a free
@@ -78,6 +85,7 @@ _FROM_ORBIT = {
     NOT_CONVERGED: "orbit_not_converged",
     NO_PERIOD: "no_common_period",
     NO_START: "no_static_start",
+    TOO_MANY_STEPS: "too_many_steps",
 }
 
 MODE = "mode"
@@ -92,6 +100,9 @@ class Output:
     ----------
     unit, meaning
         for people; the unit is "1" where there is none.
+    group, label
+        for lists and axes: the heading that it stands under, and a few words. With a number for
+        each mode, "{}" stands for the mode in the label.
     needs
         which computation: "statics", "life", "modes", "motion" or "orbit".
     dof
@@ -102,9 +113,19 @@ class Output:
 
     unit: str
     meaning: str
+    group: str
+    label: str
     needs: str
     dof: str = ""
     per_mode: bool = False
+
+
+def mode_symbol(label: str) -> str:
+    """Symbol of a mode by its label: "x₁" for "x1"."""
+    return DOF_SYMBOLS[label[:-1]] + label[-1].translate(_LOWERED)
+
+
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def _table() -> dict[str, Output]:
@@ -113,53 +134,84 @@ def _table() -> dict[str, Output]:
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
-                TERM_UNITS[term], f"{which} stiffness {term} {over}", STATICS
+                TERM_UNITS[term],
+                f"{which} stiffness {term} {over}",
+                f"Stiffness, {which}",
+                f"{TERM_SYMBOLS[term]}, {which}",
+                STATICS,
             )
     for which in ("mean", "least", "greatest"):
         table[f"loaded_balls_{which}"] = Output(
-            "1", f"{which} number of balls that carry load {over}", STATICS
+            "1",
+            f"{which} number of balls that carry load {over}",
+            "Balls",
+            f"loaded balls, {which}",
+            STATICS,
         )
-    table["ball_load_greatest"] = Output("N", f"greatest load of a ball {over}", STATICS)
+    table["ball_load_greatest"] = Output(
+        "N", f"greatest load of a ball {over}", "Balls", "greatest ball load", STATICS
+    )
     table["converged_share"] = Output(
-        "1", "share of the cage angles that have one static state, and it was found", STATICS
+        "1",
+        "share of the cage angles that have one static state, and it was found",
+        "Balls",
+        "cage angles with a static state, share",
+        STATICS,
     )
     for race in ("inner", "outer"):
         table[f"contact_pressure_{race}"] = Output(
-            "Pa", f"greatest contact pressure of a ball on the {race} race {over}", LIFE
+            "Pa",
+            f"greatest contact pressure of a ball on the {race} race {over}",
+            "Balls",
+            f"contact pressure, {race} race",
+            LIFE,
         )
     not_in_it = "; pressure and blows on the edges of a defect are left out: an upper bound"
-    table["life_turns"] = Output(
-        "1", f"turns that 9 of 10 bearings reach, by ISO 16281{not_in_it}", LIFE
-    )
-    table["life_hours"] = Output(
-        "h", f"hours that 9 of 10 bearings reach, by ISO 16281{not_in_it}", LIFE
-    )
-    table["life_share_of_healthy"] = Output(
-        "1", f"life over that of the healthy bearing{not_in_it}", LIFE
-    )
+    for unit, name in (("1", "turns"), ("h", "hours")):
+        reached = f"{name} that 9 of 10 bearings reach"
+        table[f"life_{name}"] = Output(
+            unit, f"{reached}, by ISO 16281{not_in_it}", "Life", reached, LIFE
+        )
+    share = "life over that of the healthy bearing"
+    table["life_share_of_healthy"] = Output("1", share + not_in_it, "Life", share, LIFE)
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
-            "Hz", f"{which} natural frequency of each mode {over}", MODES, per_mode=True
+            "Hz",
+            f"{which} natural frequency of each mode {over}",
+            "Natural frequencies",
+            f"mode {{}}, {which}",
+            MODES,
+            per_mode=True,
         )
     for dof in DOF_NAMES:
         unit, way = ("rad/s²", "about") if dof.startswith("r") else ("m/s²", "along")
         along = f"of the housing {way} {dof[-1]} in the settled part of a simulated motion"
-        table[f"acceleration_rms_{dof}"] = Output(
-            unit, f"root mean square acceleration {along}", MOTION, dof
-        )
-        table[f"acceleration_greatest_{dof}"] = Output(
-            unit, f"greatest acceleration, either way, {along}", MOTION, dof
-        )
+        for which, words, short in (
+            ("rms", "root mean square acceleration", "RMS"),
+            ("greatest", "greatest acceleration, either way,", "greatest"),
+        ):
+            table[f"acceleration_{which}_{dof}"] = Output(
+                unit,
+                f"{words} {along}",
+                "Vibration of the housing",
+                f"acceleration {way} {dof[-1]}, {short}",
+                MOTION,
+                dof,
+            )
     table["floquet_multiplier_greatest"] = Output(
         "1",
         "size of the largest Floquet multiplier of the periodic motion; "
         "above 1 a disturbance of it grows",
+        "Motion that repeats",
+        "largest Floquet multiplier |μ|",
         ORBIT,
     )
     table["mass_share"] = Output(
         "1",
         "share of the housing's power along x and y in the settings' band that the balls' mass "
         "adds, in simulated motions with and without it",
+        "Vibration of the housing",
+        "share of the power that the balls' mass adds",
         MASS,
     )
     return table
@@ -379,4 +431,7 @@ def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> str:
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()
     if motion.completed:
         return "complete"
-    return "no_static_start" if motion.status.startswith(NO_START) else "motion_diverged"
+    for begins, code in ((NO_START, "no_static_start"), (TOO_MANY_STEPS, "too_many_steps")):
+        if motion.status.startswith(begins):
+            return code
+    return "motion_diverged"

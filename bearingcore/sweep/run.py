@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import importlib
+import logging
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from itertools import islice
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,6 +35,11 @@ the scheduler to carry, however many there are in all."""
 
 LOOK_AGAIN = 5.0
 """[s] after which the size of the cluster is asked for again."""
+
+FULL = (
+    "the disk is full. What is finished is kept: the same sweep goes on where it was when there is "
+    "room"
+)
 
 LOST = "the scheduler or the connection to it is lost; what is finished is kept in the store"
 
@@ -139,6 +147,24 @@ def run(
     if store is None:
         return _in_memory(grid, region_shape, client, workers, processes, progress, say)
     path = stores.local_path(store)
+    try:
+        return _in_store(path, grid, region_shape, client, workers, processes, progress, say)
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            raise
+        raise OSError(error.errno, FULL, str(path)) from None
+
+
+def _in_store(
+    path: Path,
+    grid: Grid,
+    region_shape: tuple[int, ...],
+    client: Client | str | None,
+    workers: int | None,
+    processes: bool,
+    progress: Progress | None,
+    say: Callable[[str], object] | None,
+) -> xarray.Dataset:
     region_shape = stores.prepare(path, grid, region_shape)
     regions = (
         stores.region(path, grid, region_shape, index)
@@ -266,13 +292,25 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
         else {"n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
     )
     here = "localhost:0"  # nobody else is to reach the pages of Dask, and any free port will do
-    with (
-        LocalCluster(
-            processes=processes, dashboard_address=here, worker_dashboard_address=here, **shape
-        ) as cluster,
-        Client(cluster, set_as_default=False) as local,
-    ):
-        yield local
+    with ExitStack() as open_:
+        try:
+            cluster = open_.enter_context(
+                LocalCluster(
+                    processes=processes,
+                    dashboard_address=here,
+                    worker_dashboard_address=here,
+                    # what a task raises is raised here too, and said once
+                    silence_logs=logging.CRITICAL,
+                    **shape,
+                )
+            )
+        except RuntimeError as error:
+            raise RuntimeError(
+                f"a worker ended while it was starting ({count} of them were to start): is there "
+                "enough memory, and may this program start others? What the worker itself said "
+                f"stands above. ({error})"
+            ) from error
+        yield open_.enter_context(Client(cluster, set_as_default=False))
 
 
 def _finished(

@@ -8,21 +8,20 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.session import _BROKEN, _drawing
 from bearing_explorer.views.base import View
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MeasuredView
-from bearing_explorer.widgets.status import scientific, status_of
 
 from bearingcore import Defect, RoughFloor, presets
-from tests.bearing_explorer.measuring import measuring, signal
+from tests.helpers.measuring import measuring, signal
 
 VIEWS = [view for section in SECTIONS for view in section.views]
 SCENES = {
     **presets,
-    "sound": presets["fan-rig"].sound(),
+    "healthy": presets["fan-rig"].healthy(),
     "axial": presets["fan-rig"].replace(fz=50.0),
     "inner": presets["fan-rig"].replace(race="inner"),
     "both races": presets["liew-lim"].replace(
@@ -43,12 +42,12 @@ def test_names_are_one_per_page() -> None:
 def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
     """It fills the sources it declared, in words and as a table."""
     results = Results(SCENES[name], 0.1)
-    wire = Wire()
-    made = view(wire)
+    packed = PackedSource()
+    made = view(packed)
     if isinstance(made, MeasuredView):
         made.measure(measuring(signal()))
     data, ranges = made.data(results)
-    assert wire.pack(data, ranges).size > 3 or isinstance(made, ControlView)
+    assert packed.pack(data, ranges).size > 3 or isinstance(made, ControlView)
     assert all(np.isfinite(limits).all() and limits[0] != limits[1] for limits in ranges.values())
     assert made.sentence(results).endswith(".")
     made.say(results, "")
@@ -61,7 +60,7 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
 @pytest.mark.parametrize("view", VIEWS, ids=lambda view: view.name)
 def test_a_scene_without_an_answer_gets_words_from_every_view(view: type[View]) -> None:
     results = Results(presets["fan-rig"].replace(fy=0.0), 0.1)
-    drawing = _drawing(results, view(Wire()))
+    drawing = _drawing(results, view(PackedSource()))
     assert drawing.sentence.endswith(".")
     assert drawing.sentence != _BROKEN
 
@@ -76,27 +75,10 @@ def test_views_say_which_slow_answers_they_read(view: type[View]) -> None:
             asked.add(name)
             return super().__getattribute__(name)
 
-    made = view(Wire())
+    made = view(PackedSource())
     if isinstance(made, MeasuredView):
         made.measure(measuring(signal()))
     results = Watched(presets["fan-rig"], 0.1)
     made.data(results)
     made.sentence(results)
     assert asked & Results.slow <= view.needs
-
-
-def test_the_status_line_says_what_happened() -> None:
-    good = status_of(Results(presets["fan-rig"]), 0.0123)
-    assert (good["mood"], good["words"]) == ("good", "Converged")
-    assert good["details"][1:] == ["2 degrees of freedom: x y", "121 cage angles", "12.3 ms"]
-    assert "residual at most" in good["details"][0]
-    bad = status_of(Results(presets["fan-rig"].replace(fy=0.0)), 0.001)
-    assert bad["mood"] == "bad"
-    assert "nothing touches" in bad["words"]
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(0.0, "0"), (3.2e-12, "3·10⁻¹²"), (1e-6, "1·10⁻⁶"), (4e3, "4·10³")]
-)
-def test_small_numbers_are_written_as_people_write_them(value: float, text: str) -> None:
-    assert scientific(value) == text

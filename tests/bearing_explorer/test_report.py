@@ -9,7 +9,7 @@ import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.report import About, mark_of, page, report
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.modes import NaturalFrequencies
@@ -17,7 +17,7 @@ from bearing_explorer.views.stability_map import OrbitStability
 from bokeh.document import Document
 
 from bearingcore import Defect, presets
-from tests.bearing_explorer.views.test_stability_view import found_map
+from tests.helpers.stability import found_map
 
 KINDS = [view for section in SECTIONS for view in section.views]
 NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7}}"
@@ -58,7 +58,7 @@ def test_every_figure_has_its_place_and_its_numbers(made: dict) -> None:
     known = {model.id for model in document.models}
     assert {*made["figures"], made["packet"]} <= known
     packet = document.get_model_by_id(made["packet"])
-    view = LoadDistribution(Wire())
+    view = LoadDistribution(PackedSource())
     curve = view.data(Results(presets["fan-rig"], 0.1))[0]["load_distribution_curve"]["load"]
     sent = packet.data["packed"]
     assert np.isin(np.asarray(curve, np.float32), sent).all()
@@ -75,8 +75,8 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
         "Groove centre distance",
         "BPFO",
         "Converged",
-        LoadDistribution(Wire()).sentence(results),
-        NaturalFrequencies(Wire()).sentence(results),
+        LoadDistribution(PackedSource()).sentence(results),
+        NaturalFrequencies(PackedSource()).sentence(results),
         OrbitStability.title,
         *(limit.sentence for limit in results.limits),
     ):
@@ -87,7 +87,7 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
 def test_what_strangers_write_stays_text() -> None:
     scene = presets["fan-rig"].replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
     results = Results(scene, 0.0, pinned=Reference(presets["fan-rig"], NASTY))
-    sentence = LoadDistribution(Wire()).sentence(results)
+    sentence = LoadDistribution(PackedSource()).sentence(results)
     assert NASTY in sentence
     made = report(results, [LoadDistribution], {}, about(f"http://x/?{NASTY}"))
     reader = Reader(made["html"])

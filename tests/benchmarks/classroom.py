@@ -31,7 +31,7 @@ import numpy as np
 from playwright.sync_api import Error, sync_playwright
 
 from tests.browser.helpers import chromium, explorer_server, serving
-from tests.page_client import PageClient
+from tests.helpers.page_client import PageClient
 
 FRAME = 1.0 / 60.0
 DRAG, REST = 5.0, 0.5  # [s]
@@ -160,12 +160,12 @@ def differences(notes: Notes) -> int:
     """How many of the pictures kept are not those of their scene."""
     from bearing_explorer.compute.results import Results
     from bearing_explorer.page import SECTIONS
-    from bearing_explorer.server.packed_source import Wire
+    from bearing_explorer.server.packed_source import PackedSource
     from bearing_explorer.session import _picture
     from bearing_explorer.state.scene_editor import SceneEditor
 
-    wire = Wire()
-    views = [view(wire) for view in SECTIONS[0].views]
+    packed = PackedSource()
+    views = [view(packed) for view in SECTIONS[0].views]
     wrong = 0
     for values, shown in notes.compared:
         editor = SceneEditor("fan-rig")

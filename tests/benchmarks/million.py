@@ -3,7 +3,7 @@
     python -m tests.benchmarks.million [--scenes 1000000] [--seed 1] [--processes 2]
 
 Every scene is solved at four cage angles in order. Each answer is judged in extended precision by
-`tests.independent`, which shares no code with the solver: a converged state must balance, be held
+`helpers.independent`, which shares no code with the solver: a converged state must balance, be held
 in every direction and have the right symmetric, positive semidefinite stiffness; a reason given
 instead must be true. Points of the box where an answer is wrong or missing are printed, and the
 exit code is then 1.
@@ -22,8 +22,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearingcore import DOF_NAMES, equilibrium, kernels, warm
-from tests.box import Point, cage_angles_at, draw, scene_at
-from tests.independent import verdict
+from tests.helpers.box import Point, cage_angles_at, draw, scene_at
+from tests.helpers.independent import verdict
 
 CHUNK = 2000
 NAMES = {

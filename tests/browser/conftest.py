@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import BrowserContext, Page, sync_playwright
+from playwright.sync_api import BrowserContext, Page, expect, sync_playwright
 
 from tests.browser.helpers import (
     Server,
@@ -22,8 +22,11 @@ from tests.browser.helpers import (
     serving,
     slug,
 )
+from tests.helpers.compiled import compile_once
 
 FAILURES = Path(__file__).parent / "failures"
+PATIENCE = 120_000
+"""How long to wait for what does not happen [ms]: much longer than a crowded machine takes."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -52,13 +55,16 @@ def browser() -> Iterator[BrowserContext]:
         if os.environ.get("CI"):
             pytest.fail("there is no chromium; in CI the browser tests must run")
         pytest.skip("there is no chromium")
+    expect.set_options(timeout=PATIENCE)
     with sync_playwright() as playwright, chromium(playwright) as context:
+        context.set_default_timeout(PATIENCE)
         yield context
 
 
 @pytest.fixture(scope="session")
 def explorer() -> Iterator[Server]:
-    """The explorer, served."""
+    """The explorer, served, with all its kernels compiled: it has nothing else to do."""
+    compile_once()
     with serving(explorer_server()) as server:
         yield server
 

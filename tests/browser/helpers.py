@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 import shutil
@@ -77,14 +78,14 @@ class Server:
         """What the server has printed so far."""
         return Path(self._log.name).read_text(encoding="utf-8", errors="replace")
 
-    def wait(self, seconds: float = 120.0) -> None:
+    def wait(self, seconds: float = 300.0) -> None:
         """Wait until the page answers."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             if self.process.poll() is not None:
                 raise RuntimeError(f"the server ended with {self.process.returncode}:\n{self.log}")
             try:
-                with urlopen(self.url, timeout=5):
+                with urlopen(self.url, timeout=60):
                     return
             except (URLError, OSError):
                 time.sleep(0.1)
@@ -95,7 +96,7 @@ class Server:
         if self.process.poll() is None:
             self.process.send_signal(number)
             try:
-                self.process.wait(15)
+                self.process.wait(60)
             except subprocess.TimeoutExpired:
                 self.process.kill()
                 self.process.wait()
@@ -212,6 +213,16 @@ def move(slider: Locator, *values: float) -> int:
 
 def drag(page: Page, slider: Locator, start: float, end: float, steps: int = 12) -> None:
     """Drag the thumb of a slider with the mouse; `start` and `end` are fractions of its track."""
+    hand = holding(page, slider, start, end, steps)
+    for _ in range(steps):
+        next(hand)
+    page.mouse.up()
+
+
+def holding(
+    page: Page, slider: Locator, start: float, end: float, steps: int = 12
+) -> Iterator[None]:
+    """Take the thumb of a slider and move it a step each time, there and back, never letting go."""
     slider.scroll_into_view_if_needed()
     box = slider.bounding_box()
     assert box is not None, "the slider is not on the page"
@@ -221,9 +232,10 @@ def drag(page: Page, slider: Locator, start: float, end: float, steps: int = 12)
     x = [box["x"] + thumb / 2 + f * (box["width"] - thumb) for f in (start, end)]
     page.mouse.move(x[0], y)
     page.mouse.down()
-    for step in range(1, steps + 1):
+    there = [*range(1, steps + 1)]
+    for step in itertools.cycle(there + there[-2::-1]):
         page.mouse.move(x[0] + (x[1] - x[0]) * step / steps, y)
-    page.mouse.up()
+        yield
 
 
 def choose_tab(page: Page, name: str) -> None:

@@ -6,9 +6,8 @@ import re
 
 from playwright.sync_api import Page, expect
 
+from tests.browser.explorer_page import open_page, pixels, place, settle, show, source, wait, words
 from tests.browser.helpers import Server, Watch
-from tests.browser.test_explorer import open_page, pixels, settle, show, source
-from tests.browser.test_orbits import place, wait, words
 
 
 def test_a_measured_step_is_taken_over_and_given_back(
@@ -24,11 +23,9 @@ def test_a_measured_step_is_taken_over_and_given_back(
     # cancelled once the program's own Runge-Kutta is through
     wait(page, lambda: int(bar.get_attribute("aria-valuenow") or 0) >= 22)
     cancel.click()
-    expect(words(page, "accuracy")).to_have_text(
-        re.compile(r"Cancelled\. \d+ points after"), timeout=60000
-    )
+    expect(words(page, "accuracy")).to_have_text(re.compile(r"Cancelled\. \d+ points after"))
     settle(page)
-    wait(page, lambda: len(source(page, "accuracy_0")["error"]) == 6, 20.0)
+    wait(page, lambda: len(source(page, "accuracy_0")["error"]) == 6)
     own = source(page, "accuracy_0")
     assert pixels(page, "accuracy") != empty
     expect(page.locator(".view-accuracy")).to_contain_text("LSODA (multistep)")
@@ -56,8 +53,8 @@ def test_where_steps_are_too_long(watch: tuple[Page, Watch], explorer: Server) -
     open_page(page, explorer, "accuracy")
     page.locator("#job-experiment").select_option("stability")
     page.get_by_role("button", name="Measure").click()
-    expect(words(page, "accuracy")).to_have_text(re.compile(r"\d+ points after"), timeout=60000)
-    wait(page, lambda: len(source(page, "accuracy_verdict_3")["steps"]) > 3, 20.0)
+    expect(words(page, "accuracy")).to_have_text(re.compile(r"\d+ points after"))
+    wait(page, lambda: len(source(page, "accuracy_verdict_3")["steps"]) > 3)
     assert len(source(page, "accuracy_limits")["steps"]) == 3
     place(page, "accuracy_drawing_stability", 10.0, 1.0)
     expect(page.locator(".view-accuracy")).to_contain_text("linear limit")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from importlib.resources import files
 from typing import Any
 
@@ -11,8 +12,9 @@ from bearing_explorer.page import SECTIONS, TABS
 from bearing_explorer.state.lessons import Lesson, lessons_in, own_folder
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.theme import DARK_COLORS
-from playwright.sync_api import Locator, Page, ViewportSize, expect
+from playwright.sync_api import Page, ViewportSize, expect
 
+from tests.browser.explorer_page import rest, settle, slider, value
 from tests.browser.helpers import Server, Watch, choose_tab
 
 NAMES = [section.name for section in SECTIONS]
@@ -40,13 +42,8 @@ window.focused = () => {
 
 def open_page(page: Page, server: Server) -> None:
     page.goto(server.url)
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.wait_for_function("window.__frames >= 1")
     page.evaluate(DEEP)
-
-
-def settle(page: Page) -> None:
-    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)", timeout=60000)
-    page.evaluate("() => new Promise(done => setTimeout(done, 60))")
 
 
 def show(page: Page, name: str) -> None:
@@ -54,8 +51,8 @@ def show(page: Page, name: str) -> None:
     frames = page.evaluate("window.__frames")
     choose_tab(page, name)
     section = page.locator(f".section-{name}.on-screen")
-    expect(section).to_be_visible(timeout=30000)
-    page.wait_for_function(f"window.__frames > {frames}", timeout=60000)
+    expect(section).to_be_visible()
+    page.wait_for_function(f"window.__frames > {frames}")
     settle(page)
 
 
@@ -87,6 +84,7 @@ def colors(page: Page) -> set[str]:
     return {str(color).upper() for color in found if color is not None}
 
 
+@pytest.mark.proof
 def test_every_tab_in_light_in_dark_and_on_a_phone(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -111,11 +109,7 @@ def test_every_tab_in_light_in_dark_and_on_a_phone(
         assert silent_figures(page) == [], name
         assert sideways(page) == [], name
         page.set_viewport_size(PHONE)
-        for _ in range(20):  # figures take their time to follow
-            if not sideways(page):
-                break
-            page.wait_for_timeout(100)
-        assert sideways(page) == [], f"{name} on a phone"
+        fits(page, f"{name} on a phone")
         page.set_viewport_size(LAPTOP)
     page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
 
@@ -130,6 +124,14 @@ def silent_figures(page: Page) -> list[str]:
                return title.length !== 1 || !words.some(text => text.trim())
              }).map(view => view.className)"""
     )
+
+
+def fits(page: Page, what: str) -> None:
+    """Figures take their time to follow a change of the screen, and then all fits."""
+    end = time.monotonic() + 120.0
+    while sideways(page) and time.monotonic() < end:
+        page.wait_for_timeout(50)
+    assert sideways(page) == [], what
 
 
 def sideways(page: Page) -> list[str]:
@@ -174,14 +176,6 @@ def test_a_phone_has_room_for_figures_and_lessons(
 
 
 # --- keyboard -------------------------------------------------------------------------------------
-
-
-def slider(page: Page, name: str) -> Locator:
-    return page.locator(f"#control-{name}")
-
-
-def value(page: Page, name: str) -> float:
-    return float(slider(page, name).input_value())
 
 
 def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
@@ -314,12 +308,13 @@ def test_dark_follows_the_system_until_somebody_chooses(
     open_page(page, explorer)
     page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
     page.reload()
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.wait_for_function("window.__frames >= 1")
     page.evaluate(DEEP)
     settle(page)
     root, button = page.locator("html"), page.get_by_role("button", name="Dark colours")
     dark = PAPERS["dark"]
     assert colors(page) == dark
+    rest(page)
     sent = watching.frames_sent
     page.emulate_media(color_scheme="light")
     expect(root).to_have_attribute("data-theme", "light")
@@ -346,7 +341,7 @@ def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server)
     for number, lesson in enumerate(lessons_in(own_folder(), TABS)):
         assert isinstance(lesson, Lesson)
         expect(panel.locator("h2")).to_have_text(lesson.title)
-        expect(page.locator(f".section-{lesson.tab}.on-screen")).to_be_visible(timeout=30000)
+        expect(page.locator(f".section-{lesson.tab}.on-screen")).to_be_visible()
         settle(page)
         assert sideways(page) == []
         # the scene

@@ -9,8 +9,17 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Defect, RoughFloor, equilibrium, presets
+from tests.browser.explorer_page import (
+    number,
+    open_page,
+    pixels,
+    rest,
+    settle,
+    show,
+    slider,
+    source,
+)
 from tests.browser.helpers import Server, Watch, choose_tab, drag
-from tests.browser.test_explorer import number, open_page, pixels, settle, show, slider, source
 
 FAN_RIG = presets["fan-rig"]
 
@@ -219,6 +228,7 @@ def test_a_floor_from_a_file(watch: tuple[Page, Watch], explorer: Server) -> Non
     drawn = source(page, "depth_profile_surface")
     at = int(np.argmin(np.abs(np.array(drawn["angle"]) - 270.0)))
     assert drawn["depth"][at] == pytest.approx((20 + 15 * math.sin(40 / 3)) * 1e-6, rel=2e-2)
+    rest(page)
     before = pixels(page, "depth-profile")
     for name, text, wrong in (
         ("bad.csv", b"1, 2\nthree, 4\nfive, 6\n", "line 2"),
@@ -229,7 +239,7 @@ def test_a_floor_from_a_file(watch: tuple[Page, Watch], explorer: Server) -> Non
         field.set_input_files({"name": name, "mimeType": "text/csv", "buffer": text})
         expect(words).to_contain_text(wrong)
         expect(words).to_have_class("note bad")
-    settle(page)
+    rest(page)
     assert pixels(page, "depth-profile") == before
     expect(page.locator("footer .status")).to_contain_text("Converged")
 
@@ -265,7 +275,7 @@ def test_directions_are_forced_and_the_error_shown(
     page.get_by_label("Bearing", exact=True).select_option("liew-lim")
     open_tab(page, "model")
     sentence = page.locator(".view-dofs [role=status]").last
-    expect(sentence).to_contain_text("as the scene needs", timeout=30000)
+    expect(sentence).to_contain_text("as the scene needs")
     expect(page.get_by_label("z, along the shaft")).to_be_checked()
     for name in ("z, along the shaft", "θx, tilt about x", "θy, tilt about y"):
         box = page.get_by_label(name)
@@ -275,10 +285,10 @@ def test_directions_are_forced_and_the_error_shown(
             expect(box).not_to_be_checked()
             settle(page)
     expect(page.locator("footer .status")).to_contain_text("2 degrees of freedom: x y")
-    expect(sentence).to_contain_text("forced on the scene", timeout=30000)
+    expect(sentence).to_contain_text("forced on the scene")
     expect(fact(page, "Stiffness up and down")).to_contain_text("%")
     page.get_by_role("button", name="As the scene needs").click()
-    expect(sentence).to_contain_text("as the scene needs", timeout=30000)
+    expect(sentence).to_contain_text("as the scene needs")
     expect(page.get_by_label("z, along the shaft")).to_be_checked()
 
 

@@ -9,8 +9,8 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.explorer_page import open_page, settle, slider, source, value
 from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import open_page, settle, slider, source, value
 
 _FIGURES = """
 const figures = {}
@@ -75,7 +75,7 @@ def words(page: Page) -> Locator:
     return page.locator(".view-explore form .words")
 
 
-def wait(page: Page, done: Callable[[], bool], seconds: float = 60.0) -> None:
+def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
     end = time.monotonic() + seconds
     while not done():
         assert time.monotonic() < end, "it did not happen in time"

@@ -8,72 +8,24 @@ import signal
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, ViewportSize, expect
 
 from bearingcore import equilibrium, presets
-from tests.browser.helpers import Server, Watch, choose_tab, drag, explorer_server, move
-
-#: every view, and the tab it stands on
-VIEWS = {
-    "bearing": "load",
-    "load-distribution": "load",
-    "depth-profile": "load",
-    "stiffness": "stiffness",
-    "maps": "maps",
-    "modes": "modes",
-    "vibration-time": "vibration",
-    "vibration-spectrum": "vibration",
-    "orbit": "orbits",
-}
-
-
-def open_page(page: Page, server: Server, tab: str = "load") -> None:
-    page.goto(server.url)
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
-    show(page, tab)
-
-
-def show(page: Page, tab: str) -> None:
-    choose_tab(page, tab)
-    page.wait_for_function(f"window.__tab == '{tab}'", timeout=60000)  # it is drawn
-    settle(page)
-
-
-def settle(page: Page) -> None:
-    """Wait until the newest change is drawn and the paints that follow are done."""
-    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)", timeout=60000)
-    page.evaluate("() => new Promise(done => setTimeout(done, 120))")
-
-
-def slider(page: Page, name: str):
-    return page.locator(f"#control-{name}")
-
-
-def value(page: Page, name: str) -> float:
-    return float(slider(page, name).input_value())
-
-
-def number(page: Page, name: str):
-    return page.locator(f".control-{name} .number")
-
-
-def pixels(page: Page, view: str) -> str:
-    """All that the canvases of a view show."""
-    shown = page.locator(f".view-{view} canvas").evaluate_all(
-        "canvases => canvases.map(canvas => canvas.toDataURL()).join()"
-    )
-    assert len(shown) > 1000, f"the view {view} shows nothing"
-    return str(shown)
-
-
-def source(page: Page, name: str) -> dict[str, list[float]]:
-    """The numbers in the browser behind a figure."""
-    return page.evaluate(
-        """name => Object.fromEntries(Object.entries(
-             Bokeh.documents[0].get_model_by_name(name).data
-           ).map(([column, values]) => [column, Array.from(values)]))""",
-        name,
-    )
+from tests.browser.explorer_page import (
+    VIEWS,
+    number,
+    open_page,
+    painted,
+    pixels,
+    rest,
+    settle,
+    show,
+    slider,
+    source,
+    value,
+    wait,
+)
+from tests.browser.helpers import Server, Watch, drag, explorer_server, move
 
 
 @pytest.mark.parametrize(("waited", "sent_at_once"), [(0, {2}), (300, {0, 1})])
@@ -83,17 +35,25 @@ def test_a_queue_on_the_server_is_not_made_longer(
     """Two changes may be on their way; where the last waited for others the next waits here."""
     page, _ = watch
     open_page(page, explorer)
+    # The clock of the network is the test's own: each change takes 20 ms there, some wait longer.
+    page.evaluate(
+        """() => {
+        let asked = window.__asked || 0, asked_at = 0, arrived = window.__arrived
+        window.__wait = 0
+        Object.defineProperty(window, "__asked", {
+          get: () => asked,
+          set: (mark) => { asked = mark; asked_at = performance.now() },
+        })
+        Object.defineProperty(window, "__arrived", {
+          get: () => arrived,
+          set: () => { arrived = asked_at + 1000 * window.__worked + 20 + window.__wait },
+        })
+      }"""
+    )
     thumb = slider(page, "extent_deg")
     assert move(thumb, 20) == 1
     settle(page)  # the time on the network is known
-    page.evaluate(
-        """waited => {
-        let arrived = window.__arrived
-        const set = (time) => { arrived = time + waited }
-        Object.defineProperty(window, "__arrived", { get: () => arrived, set })
-      }""",
-        waited,
-    )
+    page.evaluate("waited => { window.__wait = waited }", waited)
     assert move(thumb, 22) == 1
     settle(page)
     asked = page.evaluate("window.__asked")
@@ -202,51 +162,56 @@ def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> No
     page, _ = watch
     open_page(page, explorer)
     button = page.get_by_role("button", name="Turn the bearing")
+    rest(page)
     start, picture = value(page, "cage_angle_deg"), pixels(page, "bearing")
     button.click()
-    page.wait_for_timeout(1000)
-    turning = pixels(page, "bearing")
-    assert turning != picture
-    page.wait_for_timeout(500)
+    seen: list[str] = []
+
+    def turned() -> bool:
+        seen.append(pixels(page, "bearing"))
+        return len(set(seen) - {picture}) >= 2 and value(page, "cage_angle_deg") > start + 5
+
+    wait(page, turned)
     page.get_by_role("button", name="Stop turning").click()
-    settle(page)
+    rest(page)
     stopped = value(page, "cage_angle_deg")
     assert stopped > start + 5
     still = pixels(page, "bearing")
-    assert still not in (picture, turning)
-    page.wait_for_timeout(400)
+    assert still not in (picture, seen[0])
+    page.wait_for_timeout(400)  # long enough to see it, should it turn on
     assert value(page, "cage_angle_deg") == stopped
     assert pixels(page, "bearing") == still
 
 
-@pytest.mark.parametrize(
-    ("typed", "sentence"),
-    [
+def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, "stiffness")
+    field, refusal = number(page, "extent_deg"), page.locator(".control-extent_deg .refusal")
+    for typed, sentence in (
         ("400", "400° is out of range: extent goes from 0 to 360°."),
         ("-3", "−3° is out of range: extent goes from 0 to 360°."),
         ("a lot", "“a lot” is not a number: extent goes from 0 to 360°."),
         ("NaN", "“NaN” is not a number: extent goes from 0 to 360°."),
-    ],
-)
-def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
-    watch: tuple[Page, Watch], explorer: Server, typed: str, sentence: str
-) -> None:
-    page, _ = watch
-    open_page(page, explorer, "stiffness")
-    before = source(page, "stiffness_defective")
-    field, refusal = number(page, "extent_deg"), page.locator(".control-extent_deg .refusal")
-    field.fill(typed)
-    field.press("Enter")
-    expect(refusal).to_have_text(sentence)
-    expect(field).to_have_attribute("aria-invalid", "true")
-    assert value(page, "extent_deg") == pytest.approx(12.9)
-    assert source(page, "stiffness_defective") == before
-    field.fill("33,25")
-    field.press("Enter")
-    expect(refusal).to_be_hidden()
-    expect(field).to_have_value("33.25")
-    settle(page)
-    assert source(page, "stiffness_defective") != before
+    ):
+        rest(page)
+        before = source(page, "stiffness_defective")
+        field.fill(typed)
+        field.press("Enter")
+        expect(refusal).to_have_text(sentence)
+        expect(field).to_have_attribute("aria-invalid", "true")
+        assert value(page, "extent_deg") == pytest.approx(12.9)
+        rest(page)
+        assert source(page, "stiffness_defective") == before, typed
+        field.fill("33,25")
+        field.press("Enter")
+        expect(refusal).to_be_hidden()
+        expect(field).to_have_value("33.25")
+        settle(page)
+        assert source(page, "stiffness_defective") != before, typed
+        page.get_by_role("button", name="Reset", exact=True).click()
+        expect(field).to_have_value("12.9")
 
 
 def test_a_load_nothing_can_carry_is_said_in_words(
@@ -300,20 +265,33 @@ def test_the_keyboard_moves_sliders_numbers_and_tabs(
     expect(page.locator(".view-bearing")).to_be_hidden()
 
 
-@pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844), (1920, 1080)])
-def test_the_page_fits_the_screen(
-    watch: tuple[Page, Watch], explorer: Server, width: int, height: int
-) -> None:
+def test_the_page_fits_the_screen(watch: tuple[Page, Watch], explorer: Server) -> None:
+    """Opened on each screen, and each tab on each of them."""
     page, _ = watch
-    page.set_viewport_size({"width": width, "height": height})
-    open_page(page, explorer)
-    for tab in dict.fromkeys(VIEWS.values()):
-        show(page, tab)
+    screens: list[ViewportSize] = [
+        {"width": 1366, "height": 768},
+        {"width": 390, "height": 844},
+        {"width": 1920, "height": 1080},
+    ]
+
+    def fits(what: str) -> None:
         wide = page.evaluate(
             """() => [document.documentElement, document.querySelector("main"),
                       document.querySelector("aside")].map(e => e.scrollWidth - e.clientWidth)"""
         )
-        assert wide == [0, 0, 0], f"{tab} at {width}x{height} needs horizontal scrolling: {wide}"
+        assert wide == [0, 0, 0], f"{what} needs horizontal scrolling: {wide}"
+
+    for screen in screens:
+        page.set_viewport_size(screen)
+        open_page(page, explorer)
+        fits(f"load, opened at {screen}")
+    for number_, tab in enumerate(dict.fromkeys(VIEWS.values())):
+        page.set_viewport_size(screens[number_ % 3])  # each tab is first seen on another one
+        show(page, tab)
+        for screen in screens[number_ % 3 :] + screens[: number_ % 3]:
+            page.set_viewport_size(screen)
+            painted(page)
+            fits(f"{tab} at {screen}")
 
 
 def test_the_server_says_what_it_does_and_ends_cleanly() -> None:

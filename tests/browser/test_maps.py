@@ -8,15 +8,15 @@ import re
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
-from bearing_explorer.figures.matrix_cells import TERM_UNITS
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed_colors
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from playwright.sync_api import Page, expect
 
 from bearingcore import STIFFNESS_TERMS, Maps, presets
+from bearingcore.statics.equilibrium import TERM_UNITS
+from tests.browser.explorer_page import open_page, pixels, rest, settle, slider, source
 from tests.browser.helpers import Server, Watch, drag, move
-from tests.browser.test_explorer import open_page, pixels, settle, slider, source
 
 LIEW_LIM = presets["liew-lim"]
 K_XY = STIFFNESS_TERMS.index("k_xy")
@@ -61,7 +61,7 @@ def test_every_point_has_the_colour_of_its_value(
     results = Results(LIEW_LIM)
     cells = source(page, "maps_cells")
     for i, term in enumerate(STIFFNESS_TERMS):
-        colors = packed(DIVERGING if cells["kind"][i] == TWO_SIGNS else SEQUENTIAL)
+        colors = packed_colors(DIVERGING if cells["kind"][i] == TWO_SIGNS else SEQUENTIAL)
         numbers = whole_numbers(results.maps.term(term), cells["low"][i], cells["high"][i])
         shape, drawn = images[i]
         assert shape == [91, 121]
@@ -97,6 +97,7 @@ def test_a_click_goes_to_its_extent_and_cage_angle(
 ) -> None:
     page, watching = watch
     open_maps(page, explorer)
+    rest(page)
     before = source(page, "maps_points")
     page.mouse.click(*place(page, K_XY, 0.25, 0.75))
     expect(page.locator(".control-extent_deg .number")).to_have_value(re.compile(r"^6[78]"))
@@ -110,12 +111,13 @@ def test_a_click_goes_to_its_extent_and_cage_angle(
     assert source(page, "maps_points") == before, "moving along the maps sends no map"
     grid, marks = source(page, "maps_grid"), source(page, "maps_now")
     share = (marks["x"][0] - marks["left"][0]) / (marks["right"][0] - marks["left"][0])
-    first, last = grid["first_angle"][0], grid["last_angle"][0]
+    first, last = grid["x_first"][0], grid["x_last"][0]
     assert first + share * (last - first) == pytest.approx(angle, abs=0.06)
     assert re.search(
         rf"Marked: extent {extent:g}°", page.locator(".view-maps [role=status]").first.inner_text()
     )
     # beside the maps there is nowhere to go to
+    rest(page)
     sent = watching.frames_sent
     page.mouse.click(*place(page, K_XY, -0.4, 0.5))
     page.wait_for_timeout(300)
@@ -141,7 +143,7 @@ def test_the_value_under_the_pointer_is_shown(watch: tuple[Page, Watch], explore
         slack = 0.01 * np.abs(maps.term(term)).max()
         assert near.min() - slack <= found <= near.max() + slack
         assert float(re.findall(r"Extent (\d+\.\d)°", text)[0]) == pytest.approx(row, abs=1.2)
-        unit = TERM_UNITS[index].split("/")[1]
+        unit = TERM_UNITS[term].split("/")[1]
         assert unit in text
 
 
@@ -153,10 +155,10 @@ def test_every_change_that_is_waited_for_is_drawn(
     frames = page.evaluate("window.__frames")
     for step in range(1, 13):
         move(slider(page, "fy_n"), -2000 - 40 * step)
-        page.wait_for_function("window.__mark >= window.__asked", timeout=2000)
+        page.wait_for_function("window.__mark >= window.__asked")
     assert page.evaluate("window.__frames") - frames >= 12
     assert slider(page, "fy_n").input_value() == "-2480"
-    low = StiffnessMaps(Wire()).data(Results(LIEW_LIM.replace(fy=-2480.0)))[0]["maps_cells"]
+    low = StiffnessMaps(PackedSource()).data(Results(LIEW_LIM.replace(fy=-2480.0)))[0]["maps_cells"]
     np.testing.assert_allclose(source(page, "maps_cells")["now"], low["now"], rtol=1e-4, atol=1e-3)
 
 

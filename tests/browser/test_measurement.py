@@ -13,8 +13,8 @@ from playwright.sync_api import Page, expect
 from scipy.io import wavfile
 
 from bearingcore import presets, simulate
+from tests.browser.explorer_page import open_page, pixels, settle, show, source, value, wait
 from tests.browser.helpers import Server, Watch
-from tests.browser.test_explorer import open_page, pixels, settle, show, source, value
 
 RATE = 48_000
 EXTENT = 38.6
@@ -48,26 +48,29 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
 ) -> None:
     page, _ = watch
     assert len(recording) > 1.5 * PIECE
-    open_page(page, explorer, "sizing")
+    open_page(page, explorer, "diagnosis")
     said = page.locator(".view-measurement p.words")
     expect(said).to_contain_text("No signal yet")
     assert page.locator(".view-measured-spectrum canvas:visible").count() == 0
 
     # broken, before there is anything
     bring(page, "broken.wav", recording[:2000])
-    expect(said).to_contain_text("broken.wav cannot be used", timeout=20000)
+    expect(said).to_contain_text("broken.wav cannot be used")
     expect(page.locator(".measurement")).to_have_attribute("data-mood", "bad")
 
     # three channels: which are x and y must be said
     bring(page, "fan.wav", recording)
-    expect(said).to_contain_text("fan.wav: 3 s along y at 48\u202f000 Hz", timeout=30000)
+    expect(said).to_contain_text("The file holds 3 signals.")
+    expect(page.locator(".field-measurement-y")).to_have_class(re.compile("open"))
+    page.locator("#measurement-y").select_option("0")
+    expect(said).to_contain_text("fan.wav: 3 s along y at 48\u202f000 Hz")
     page.locator("#measurement-x").select_option("0")
     expect(said).to_contain_text("cannot be the same column")
     page.locator("#measurement-y").select_option("1")
     expect(said).to_contain_text("along x and y")
     expect(page.locator(".view-measured-envelope")).to_contain_text(re.compile(r"is (\d×)?BPFO\."))
     spectrum = page.locator(".view-measured-spectrum")
-    expect(spectrum.locator("input[type=radio][value=x]")).to_be_enabled(timeout=20000)
+    expect(spectrum.locator("input[type=radio][value=x]")).to_be_enabled()
     measured = source(page, "measured_spectrum_measured")
     assert 0.0 < measured["frequency"][1] < 40.0
     assert len(measured["dB"]) > 50
@@ -77,8 +80,7 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     page.wait_for_function(
         "Bokeh.documents[0].get_model_by_name('measured_spectrum_drawing_linear').visible"
     )
-    page.wait_for_timeout(400)
-    assert pixels(page, "measured-spectrum") != before
+    wait(page, lambda: pixels(page, "measured-spectrum") != before)
 
     # a refusal beside its field leaves what is drawn
     page.locator("#measurement-sample_rate").fill("quick")
@@ -89,10 +91,15 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     page.locator("#measurement-sample_rate").press("Tab")
     expect(page.locator("#measurement-sample_rate-refusal")).to_have_text("")
 
+    # the part, found by itself
+    part = page.locator(".view-diagnosis section.part")
+    expect(part).to_have_attribute("data-mood", "fault", timeout=30000)
+    expect(part.locator("h3")).to_have_text(re.compile("The outer race is (probably )?damaged"))
+
     # the size: the scene says 12.9°, the signal knows better
     assert value(page, "extent_deg") == pytest.approx(12.9)
     page.get_by_role("button", name="Find the size").click()
-    expect(page.locator(".view-sizing form .words")).to_contain_text("was tried", timeout=90000)
+    expect(page.locator(".view-sizing form .words")).to_contain_text("was tried")
     candidates = page.locator(".view-sizing li")
     expect(candidates.first).to_be_visible()
     assert candidates.count() >= 4
@@ -122,22 +129,79 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     settle(page)
     assert value(page, "extent_deg") == pytest.approx(EXTENT, abs=0.3)
 
-    # a broken file now leaves it all as it is
+    # after a broken file no old figure stays under its name
     bring(page, "broken.csv", b"x,y\n1,2\nhello,3")
-    expect(said).to_contain_text("broken.csv cannot be used", timeout=20000)
-    expect(said).to_contain_text("The signal before it stays.")
-    assert candidates.count() >= 4
-    show(page, "load")
-    show(page, "sizing")
     expect(said).to_contain_text("broken.csv cannot be used")
-    assert candidates.count() >= 4
+    expect(said).to_contain_text("The signal before it is put away.")
+    expect(candidates.first).to_be_hidden()
+    expect(page.locator("#measurement-x")).to_be_hidden()
+    show(page, "load")
+    show(page, "diagnosis")
+    expect(said).to_contain_text("broken.csv cannot be used")
 
     # those who have no file simulate one, and see the truth marked
     page.get_by_role("button", name="Simulate a signal").click()
-    expect(said).to_contain_text("Simulated, noise 20 dB below", timeout=20000)
+    expect(said).to_contain_text("Simulated, noise 20 dB below")
     expect(page.locator(".view-sizing")).to_contain_text("has not been looked for yet")
     expect(candidates.first).to_be_hidden()
     page.get_by_role("button", name="Find the size").click()
-    expect(page.locator(".view-sizing .truth")).to_have_text(
-        re.compile(r"true 38\.\d°"), timeout=90000
-    )
+    expect(page.locator(".view-sizing .truth")).to_have_text(re.compile(r"true 38\.\d°"))
+
+
+def test_the_part_is_named_marked_and_zoomed_to(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    """An old link, a signal made on the spot by a lesson, its part, its lines, its evidence."""
+    page, _ = watch
+    page.goto(f"{explorer.url}?v=1&preset=6205&race=inner&tab=sizing")
+    page.wait_for_function("window.__frames >= 1")
+    page.wait_for_function("window.__tab == 'diagnosis'")
+    part = page.locator(".view-diagnosis section.part")
+    expect(part).to_be_hidden()
+    assert page.locator(".view-diagnosis canvas:visible").count() == 0
+    page.get_by_role("button", name="Simulate a signal").click()
+    expect(part).to_have_attribute("data-mood", "fault")
+    expect(part.locator("h3")).to_have_text("The inner race is damaged")
+    expect(part.locator("svg")).to_have_attribute("aria-label", "Bearing, inner race marked")
+    assert part.locator("svg path.marked").count() == 1
+    said = page.locator(".view-diagnosis p").last
+    expect(said).to_contain_text("Damage on the inner race")
+    expect(said).to_contain_text("The signal is simulated: the inner race is damaged.")
+    assert "100 %" not in page.locator(".view-diagnosis").inner_text()
+
+    # the lines that count
+    expect(page.locator(".view-diagnosis canvas:visible").first).to_be_visible()
+    settle(page)
+    lines = source(page, "diagnosis_inner_race_lines")
+    assert lines["frequency"][0] == pytest.approx(162.2, rel=0.01)
+    assert lines["alpha"][0] > 2.0 * source(page, "diagnosis_outer_race_lines")["alpha"][0]
+    assert len(source(page, "diagnosis_spectrum")["frequency"]) > 200
+    rows = page.locator(".view-diagnosis tbody tr")
+    assert rows.count() == 3
+    expect(page.locator(".view-diagnosis tr.leads")).to_contain_text("inner race")
+
+    # zoom to a line by its number in the table, by the keyboard as well
+    before = pixels(page, "diagnosis")
+    line = page.locator(".view-diagnosis tr.leads button.line").nth(1)
+    line.focus()
+    line.press("Enter")
+    expect(line).to_have_attribute("aria-pressed", "true")
+    settle(page)
+    assert pixels(page, "diagnosis") != before
+    shown = source(page, "diagnosis_spectrum")["frequency"]
+    assert 200.0 < min(shown) < 324.0 < max(shown) < 450.0
+
+    # the size of an inner-race defect is not looked for, and no figure is left empty
+    expect(page.locator(".view-sizing")).to_contain_text("its size cannot be had this way")
+    page.get_by_role("button", name="Find the size").click()
+    expect(page.locator(".view-sizing form .words")).to_contain_text("Not possible")
+    assert page.locator(".view-sizing canvas:visible").count() == 0
+
+    # a healthy one is told so
+    page.goto(f"{explorer.url}?v=1&preset=6205&extent_deg=0&tab=diagnosis")
+    page.wait_for_function("window.__tab == 'diagnosis'")
+    page.get_by_role("button", name="Simulate a signal").click()
+    expect(part).to_have_attribute("data-mood", "healthy")
+    expect(part.locator("h3")).to_have_text("No damage seen")
+    expect(part.locator(".hand-on")).to_contain_text("Measure again at the usual time.")
+    assert part.locator("svg .marked").count() == 0

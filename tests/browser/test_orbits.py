@@ -3,37 +3,24 @@
 from __future__ import annotations
 
 import re
-import time
-from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Page, expect
 
-from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import (
+from tests.browser.explorer_page import (
     number,
     open_page,
     pixels,
+    place,
     settle,
     show,
     slider,
     source,
     value,
+    wait,
+    words,
 )
-
-
-def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
-    """Where on the screen a place in a figure lies."""
-    found = page.evaluate(
-        """([name, x, y]) => {
-          const [view] = [...Bokeh.index.query(view => view.model.name == name)]
-          view.el.scrollIntoView({block: "center"})
-          const box = view.canvas_view.el.getBoundingClientRect()
-          return [box.left + view.frame.x_scale.compute(x), box.top + view.frame.y_scale.compute(y)]
-        }""",
-        [drawing, x, y],
-    )
-    return float(found[0]), float(found[1])
+from tests.browser.helpers import Server, Watch, drag, holding
 
 
 def fill(page: Page, **fields: str) -> None:
@@ -46,25 +33,12 @@ def grid(page: Page, name: str) -> list[float]:
     return source(page, name)["packed"][:6]
 
 
-def words(page: Page, view: str) -> Locator:
-    return page.locator(f".view-{view} form .words")
-
-
-def wait(page: Page, done: Callable[[], bool], seconds: float = 90.0) -> None:
-    end = time.monotonic() + seconds
-    while not done():
-        assert time.monotonic() < end, "it did not happen"
-        page.wait_for_timeout(60)
-
-
 def small_map(page: Page) -> None:
     """A quick map over speeds and extents around the scene of the fan rig."""
     fill(page, x_from="20", x_to="40", y_from="5", y_to="15")
     page.locator("#job-grid").select_option("13")
     page.get_by_role("button", name="Compute the map").click()
-    expect(words(page, "stability-map")).to_have_text(
-        re.compile(r"13 × 13 points after"), timeout=90000
-    )
+    expect(words(page, "stability-map")).to_have_text(re.compile(r"13 × 13 points after"))
     settle(page)
 
 
@@ -72,13 +46,13 @@ def test_the_orbit_follows_the_sliders(watch: tuple[Page, Watch], explorer: Serv
     page, _ = watch
     open_page(page, explorer, "orbits")
     status = page.locator(".view-orbit [role=status]").first
-    expect(status).to_contain_text("Stable orbit", timeout=30000)
+    expect(status).to_contain_text("Stable orbit")
     expect(page.locator(".view-orbit .line")).to_have_attribute("data-mood", "good")
     before = pixels(page, "orbit")
     assert len(source(page, "orbit_inside")["x"]) == 8
     number(page, "shaft_speed_hz").fill("30")
     number(page, "shaft_speed_hz").press("Enter")
-    expect(status).to_contain_text("Unstable: the period doubles", timeout=30000)
+    expect(status).to_contain_text("Unstable: the period doubles")
     expect(page.locator(".view-orbit .line")).to_have_attribute("data-mood", "bad")
     settle(page)
     assert pixels(page, "orbit") != before
@@ -165,17 +139,22 @@ def test_sliders_stay_lively_and_tabs_change_while_it_computes(
     expect(page.get_by_role("button", name="Cancel")).to_be_enabled()
     show(page, "load")
     frames = page.evaluate("window.__frames")
-    drag(page, slider(page, "extent_deg"), 0.1, 0.5, steps=25)
+    hand = holding(page, slider(page, "extent_deg"), 0.1, 0.5, steps=25)
+
+    def drawn() -> bool:
+        next(hand)
+        return page.evaluate("window.__frames") - frames >= 5
+
+    wait(page, drawn)
+    page.mouse.up()
     settle(page)
-    assert page.evaluate("window.__frames") - frames >= 5
-    page.wait_for_timeout(1500)  # something is found meanwhile
     show(page, "orbits")
     wait(page, lambda: len(grid(page, "stability_cells")) == 6)
     # another tab's job takes the place of this one
     show(page, "speed-run")
     page.locator("#job-count").select_option("25")
     page.get_by_role("button", name="Run up").click()
-    expect(words(page, "speed-run")).to_have_text(re.compile("25 speeds after"), timeout=60000)
+    expect(words(page, "speed-run")).to_have_text(re.compile("25 speeds after"))
     show(page, "orbits")
     expect(words(page, "stability-map")).to_contain_text("Given up for something else")
 
@@ -199,7 +178,7 @@ def test_a_speed_run_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explor
     open_page(page, explorer, "speed-run")
     page.locator("#job-count").select_option("49")
     page.get_by_role("button", name="Run up").click()
-    expect(words(page, "speed-run")).to_have_text(re.compile("49 speeds after"), timeout=60000)
+    expect(words(page, "speed-run")).to_have_text(re.compile("49 speeds after"))
     settle(page)
     columns, rows, left, width, bottom, height = grid(page, "speed_run_cells_y")
     assert rows == 49
@@ -216,6 +195,5 @@ def test_a_speed_run_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explor
     assert source(page, "speed_run_now")["speed"] == pytest.approx([39.0], abs=1e-4)
 
     page.get_by_role("button", name="Along x").click()
-    page.wait_for_timeout(500)
-    assert pixels(page, "speed-run") != along_y
+    wait(page, lambda: pixels(page, "speed-run") != along_y)
     place(page, "speed_run_drawing_x", 0.0, 0.0)

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Page, expect
 
-from tests.bearing_explorer.proxies import Proxy
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -20,6 +19,7 @@ from tests.browser.helpers import (
     page_server,
     serving,
 )
+from tests.helpers.proxies import Proxy
 
 
 @contextmanager
@@ -56,7 +56,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         answer = page.goto(url)
         assert answer is not None
         assert "unsafe-eval" in answer.headers["content-security-policy"]
-        page.wait_for_function("window.__mark !== undefined", timeout=60_000)
+        page.wait_for_function("window.__mark !== undefined")
         drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
         page.wait_for_function("window.__asked > 3 && window.__mark === window.__asked")
         page.locator(".tab-stiffness").click()
@@ -68,7 +68,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
 
         second = page.context.new_page()
         second.goto(url)
-        second.wait_for_function("window.__mark !== undefined", timeout=60_000)
+        second.wait_for_function("window.__mark !== undefined")
         third = page.context.new_page()
         answer = third.goto(url)
         assert answer is not None
@@ -84,7 +84,7 @@ def test_panel_serve_shows_the_page_too(watch: tuple[Page, Watch]) -> None:
     page, _ = watch
     with serving(page_server(ROOT / "app" / "app.py")) as server:
         page.goto(server.url)
-        page.wait_for_function("window.__mark !== undefined", timeout=60_000)
+        page.wait_for_function("window.__mark !== undefined")
         drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
         page.wait_for_function("window.__asked > 3 && window.__mark === window.__asked")
         choose_tab(page, "stiffness")

@@ -14,8 +14,8 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Scene, equilibrium, presets
+from tests.browser.explorer_page import VIEWS, settle, show, slider, source, value
 from tests.browser.helpers import Server, Watch, drag
-from tests.browser.test_explorer import VIEWS, settle, show, slider, source, value
 
 LINK = "v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&cage_angle_deg=12.5&tab=stiffness"
 
@@ -30,14 +30,14 @@ def menu(page: Page, name: str) -> Locator:
 
 
 def saved(page: Page, button: Locator) -> tuple[str, bytes]:
-    with page.expect_download(timeout=60000) as download:
+    with page.expect_download() as download:
         button.click()
     return download.value.suggested_filename, Path(download.value.path()).read_bytes()
 
 
 def opened(page: Page, server: Server, text: str) -> None:
     page.goto(f"{server.url}?{text}")
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.wait_for_function("window.__frames >= 1")
     settle(page)
 
 
@@ -133,7 +133,7 @@ def test_a_link_opens_what_it_stands_for_and_a_bad_one_says_so(
         assert value(page, "extent_deg") == 12.9
     assert "address.py" not in explorer.log
 
-    connection = http.client.HTTPConnection("localhost", explorer.port, timeout=10)
+    connection = http.client.HTTPConnection("localhost", explorer.port, timeout=120)
     connection.request("GET", "//elsewhere.example/?" + "x" * 1_000_000)
     assert connection.getresponse().getheader("Location") == "?v=too-long"
     connection.close()
@@ -150,7 +150,7 @@ def test_scenes_are_kept_pinned_and_read_back_with_care(
               {name: '<img src=x onerror=alert(1)>', text: 'v=1&preset=6205'}]))"""
     )
     page.reload()
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.wait_for_function("window.__frames >= 1")
     panel = menu(page, "Keep")
     expect(panel.locator(".kept li")).to_have_count(2)
     panel.locator("#share-name").fill("Monday")
@@ -178,7 +178,7 @@ def test_scenes_are_kept_pinned_and_read_back_with_care(
     expect(pinned).to_be_hidden()
     page.evaluate("localStorage.setItem('bearing-explorer.kept.1', '{broken')")
     page.reload()
-    page.wait_for_function("window.__frames >= 1", timeout=60000)
+    page.wait_for_function("window.__frames >= 1")
     expect(menu(page, "Keep").locator(".kept li")).to_have_count(0)
 
 

@@ -6,6 +6,7 @@ import pytest
 from bearing_explorer.figures import style
 from playwright.sync_api import Page
 
+from tests.browser.explorer_page import rest, wait
 from tests.browser.helpers import Server, Watch
 
 MODELS = "[...Bokeh.documents.flatMap(d => [...d._all_models.values()])]"
@@ -13,7 +14,7 @@ MODELS = "[...Bokeh.documents.flatMap(d => [...d._all_models.values()])]"
 
 def open_explorer(page: Page, explorer: Server) -> None:
     page.goto(explorer.url)
-    page.wait_for_function("window.__frames > 0", timeout=60_000)
+    page.wait_for_function("window.__frames > 0")
 
 
 def load_labels(page: Page) -> list[str]:
@@ -47,17 +48,29 @@ def test_units_of_axes_follow_their_ranges(watch: tuple[Page, Watch], explorer: 
         assert len(load_labels(page)) >= 2
 
 
+def shape_of_the_bearing(page: Page) -> dict[str, float]:
+    """Width and height of the figure on the screen, and of what it shows."""
+    return page.evaluate(
+        f"{MODELS}.filter(m => m.type == 'Figure' && m.right.concat(m.below)"
+        ".some(r => r.type == 'ColorBar')).map(m => ({w: m.inner_width, h: m.inner_height,"
+        " x: m.x_range.end - m.x_range.start, y: m.y_range.end - m.y_range.start}))"
+    )[0]
+
+
 @pytest.mark.parametrize("width", [1366, 700])
 def test_the_bearing_is_round(watch: tuple[Page, Watch], explorer: Server, width: int) -> None:
     page, _ = watch
     page.set_viewport_size({"width": width, "height": 900})
     open_explorer(page, explorer)
-    page.wait_for_timeout(500)
-    plot = page.evaluate(
-        f"{MODELS}.filter(m => m.type == 'Figure' && m.right.concat(m.below)"
-        ".some(r => r.type == 'ColorBar')).map(m => ({w: m.inner_width, h: m.inner_height,"
-        " x: m.x_range.end - m.x_range.start, y: m.y_range.end - m.y_range.start}))"
-    )[0]
+    rest(page)  # before its first paint a figure has no size
+    shapes: list[dict[str, float]] = []
+
+    def settled() -> bool:
+        shapes.append(shape_of_the_bearing(page))
+        return len(shapes) > 8 and all(shape == shapes[-1] for shape in shapes[-8:])
+
+    wait(page, settled)
+    plot = shapes[-1]
     assert plot["w"] / plot["x"] == pytest.approx(plot["h"] / plot["y"], rel=1e-3)
     assert min(plot["x"], plot["y"]) == pytest.approx(2 * 1.56, rel=1e-6)
     assert math.isfinite(plot["w"])
@@ -73,7 +86,8 @@ def test_harmonics_are_marked_on_demand_without_the_server(
     box.wait_for()
     hidden = f"{MODELS}.filter(m => m.type == 'GlyphRenderer' && !m.visible).length"
     assert page.evaluate(hidden) == 4
-    page.wait_for_timeout(3000)  # until the motion is simulated and drawn
+    page.wait_for_function("window.__tab == 'vibration'")
+    rest(page)  # the motion is simulated and drawn
     told = watching.frames_sent
     box.check()
     page.wait_for_function(f"{hidden} == 0")

@@ -13,7 +13,7 @@ from tests.fuzz.server import attack
 from tests.fuzz.targets import Target, targets
 
 
-async def _meet(target: Target, first: int, inputs: int) -> None:
+async def meet(target: Target, first: int, inputs: int) -> None:
     """With a loop running, as there is one where messages arrive."""
     for number in range(first, first + inputs):
         target.run(number)
@@ -39,7 +39,7 @@ def main() -> int:
         if chosen.only and target.name not in chosen.only:
             continue
         began = time.perf_counter()
-        asyncio.run(_meet(target, chosen.first, chosen.inputs))
+        asyncio.run(meet(target, chosen.first, chosen.inputs))
         print(
             f"{target.name:<10}{chosen.inputs:>9}{target.taken:>9}{target.refused:>9}"
             f"{1e3 * target.slowest:>8.0f} ms{len(target.found):>7}"

@@ -16,8 +16,9 @@ from tornado.websocket import WebSocketClosedError
 
 from tests.browser.helpers import explorer_server, serving
 from tests.fuzz.inputs import TOKENS, plain_value, text_like
+from tests.fuzz.pulse import pulse
 from tests.fuzz.targets import _addresses
-from tests.page_client import PageClient
+from tests.helpers.page_client import PageClient
 
 _PATHS = (
     *("", "ws", "liveness", "static/js/bokeh.min.js", "favicon.ico", "metadata", "autoload.js"),
@@ -34,7 +35,8 @@ async def attack(inputs: int, first: int = 0) -> list[str]:
     """Try `inputs` inputs on a server of its own; return what should not have happened."""
     found: list[str] = []
     began = time.perf_counter()
-    with serving(explorer_server("--max-sessions", "1000", "--max-message-mb", "1")) as server:
+    asked = explorer_server("--max-sessions", "1000")
+    with serving(asked) as server, pulse(asked.port) as heard:
         share = inputs // 4
         quiet = PageClient(server.url)
         await quiet.open_page()
@@ -46,7 +48,9 @@ async def attack(inputs: int, first: int = 0) -> list[str]:
         talker = _Talker(server.url)
         for number in range(first, first + share):
             await talker.frames(random.Random(f"frames {number}"))
-        for number in range(first, first + inputs - 2 * share - share // 4):
+        for number in range(first, first + share // 4):
+            await talker.shape(random.Random(f"shape {number}"))
+        for number in range(first, first + inputs - 2 * share - 2 * (share // 4)):
             await talker.patch(random.Random(f"patch {number}"))
         found += talker.found
         await talker.close()
@@ -55,9 +59,14 @@ async def attack(inputs: int, first: int = 0) -> list[str]:
         if not await quiet.until_drawn(seconds=60.0):
             found.append("server: another session no longer draws")
         await quiet.close()
+        longest, unanswered = heard()
         log = server.log
+    print(f"{'':<10}longest silence {1e3 * longest:.0f} ms, {unanswered} without an answer")
+    if unanswered:
+        found.append(f"server: {unanswered} times it did not say that it lives")
     if "Traceback" in log:
-        found.append("server: its log has a traceback:\n" + log[-2000:])
+        at = log.index("Traceback")
+        found.append("server: its log has a traceback:\n" + log[max(at - 500, 0) : at + 2500])
     took = time.perf_counter() - began
     print(f"{'server':<10}{inputs:>9}{'':>29}{len(found):>7}{took:>6.0f} s", flush=True)
     return found
@@ -177,10 +186,35 @@ class _Talker:
         header = json.dumps({"msgid": "f", "msgtype": "PATCH-DOC"})
         await self._send(header, "{}", json.dumps({"events": events}))
 
+    async def shape(self, random_: random.Random) -> None:
+        """A message that is allowed to be as long as it is, and costs a parser much."""
+        header = json.dumps({"msgid": "f", "msgtype": "PATCH-DOC", "num_buffers": 0})
+        await self._send(header, "{}", _large(random_))
+
     async def close(self) -> None:
         """Leave."""
         if self._client is not None:
             await self._client.close()
+
+
+def _large(random_: random.Random) -> str:
+    """Megabytes of empty events, lists in lists, numbers without end."""
+    count = random_.choice((100, 5_000, 400_000, 900_000))
+    what = random_.choice(("[]", "{}", "1", '""', "null", '{"kind":"MessageSent"}', "1e999"))
+    way = random_.randrange(5)
+    if way == 0:
+        return '{"events": [' + ",".join([what] * min(count, 3_500_000 // (len(what) + 1))) + "]}"
+    if way == 1:
+        return '{"events": ' + "[" * count + "]" * count + "}"
+    if way == 2:
+        return '{"events": ' + '{"a":' * (count // 3) + "1" + "}" * (count // 3) + "}"
+    if way == 3:
+        return '{"events": [' + random_.choice("19") * 3 * count + "]}"
+    return (
+        '{"events": ["'
+        + random_.choice(("\\\\", '\\"', "[", ",", "\\u0000")) * (count // 2)
+        + '"]}'
+    )
 
 
 def plain_text(random_: random.Random) -> str:

@@ -6,9 +6,9 @@ import warnings
 
 import pytest
 
-from tests.bearing_explorer.loops import run
-from tests.fuzz.__main__ import _meet
+from tests.fuzz.__main__ import meet
 from tests.fuzz.targets import targets
+from tests.helpers.loops import run
 
 
 @pytest.mark.parametrize("name", [target.name for target in targets()])
@@ -16,7 +16,7 @@ def test_what_strangers_send_is_taken_or_refused_in_a_sentence(name: str) -> Non
     [target] = [target for target in targets() if target.name == name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        run(_meet(target, 10_000_000, 150))
+        run(meet(target, 10_000_000, 150))
     assert not target.found, "\n".join(target.found)
     assert target.refused + target.taken == 150
     assert target.refused or name in ("address", "messages")

@@ -10,15 +10,15 @@ from __future__ import annotations
 import atexit
 import os
 import subprocess
-import sys
 import threading
 
 from bearingcore import kernels, presets
 from bearingcore.plan import SETTLED, plan
+from bearingcore.warm_up import start_python
 
 _NICE = 10
 _lock = threading.Lock()
-_helper: subprocess.Popen[bytes] | None = None
+_helper: subprocess.Popen[str] | None = None
 _begun = False
 
 
@@ -29,25 +29,14 @@ def begin() -> None:
         if _begun:
             return
         _begun = True
-        if all(map(kernels.on_disk, _slowest())) or not sys.executable:
+        if all(map(kernels.on_disk, _slowest())):
             return
-        path = os.pathsep.join(path for path in sys.path if path)
-        try:
-            _helper = subprocess.Popen(
-                [
-                    sys.executable,
-                    "-c",
-                    "from bearing_explorer.compute import compiling; compiling.compile_all()",
-                ],
-                env={**os.environ, "PYTHONPATH": path},
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                start_new_session=True,  # Ctrl+C is for the server, which ends it
-            )
-        except OSError:
-            return  # then it is compiled where it is needed
-        atexit.register(_end)
+        # in a session of its own: Ctrl+C is for the server, which ends it
+        _helper = start_python(
+            "from bearing_explorer.compute import compiling; compiling.compile_all()", True
+        )
+        if _helper is not None:  # or all is compiled where it is needed
+            atexit.register(_end)
 
 
 def ready() -> bool:

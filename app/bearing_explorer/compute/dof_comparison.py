@@ -76,5 +76,5 @@ def _level_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     if not (np.isfinite(a).all() and np.isfinite(b).all() and b.max() > 0.0):
         return math.nan
     heard = b > b.max() * 10.0 ** (-HEARD / 10.0)
-    least = b.max() * 1e-20  # silence is as far off as can be told
+    least = b.max() * 1e-20  # silence is as far off as can be said
     return float(np.abs(10.0 * np.log10(np.maximum(a[heard], least) / b[heard])).max())

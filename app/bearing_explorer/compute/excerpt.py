@@ -130,11 +130,11 @@ def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
     """Of the entries at which the ball would carry most without the defect, that of the first ball.
 
     A defect of the inner race meets balls all around, most of them without load. The first ball
-    rather than the last entry: which one is last hangs on how long the motion is, and a drawing
+    rather than the last entry: which one is last depends on how long the motion is, and a drawing
     should not change its words because the same motion was marched for longer.
     """
     angles = np.array([entry.cage_angle for entry in entries])
-    loads = np.nan_to_num(equilibrium(scene.sound(), angles).ball_load)
+    loads = np.nan_to_num(equilibrium(scene.healthy(), angles).ball_load)
     load = loads[np.arange(len(entries)), [entry.ball for entry in entries]]
     most = np.flatnonzero(load >= load.max() * (1.0 - 1e-6))
     return min((entries[int(i)] for i in most), key=lambda entry: (entry.ball, -entry.cage_angle))

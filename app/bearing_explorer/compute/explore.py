@@ -21,11 +21,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.results import LONGEST_ORBIT, MOST_STEPS, ComputedOnce, step_rates
+from bearing_explorer.compute.results import LONGEST_ORBIT, MOST_STEPS, step_rates
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.quantity_list import DEGREE
 from bearing_explorer.state.value_range import Sweep
-from bearingcore import DOF_NAMES, STIFFNESS_TERMS, Scene
+from bearingcore import DOF_NAMES, Scene
+from bearingcore.common.table import SUFFIXES
 from bearingcore.diagnosis.sizing_error import extent_error
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.sweep.grid import Axis, Grid
@@ -39,6 +41,7 @@ from bearingcore.sweep.outputs import (
     STATUSES,
     Settings,
     mode_labels,
+    mode_symbol,
 )
 
 Array = NDArray[np.float64]
@@ -83,11 +86,11 @@ _TOO_LONG_ORBIT = f"the motion repeats only after more than {LONGEST_ORBIT} ball
 
 
 @dataclass(frozen=True)
-class Choice:
+class MapOutput:
     """Something that can be mapped.
 
-    `output` is its name in `bearingcore.sweep.OUTPUTS`, empty where it is none of them; `mode` the
-    mode that it is of. `unit_si`: how much one `unit` is in SI.
+    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, empty where it is none of them; `mode`
+    the mode that it is of. `unit_si`: how much one `unit` is in SI.
     """
 
     name: str
@@ -95,14 +98,15 @@ class Choice:
     label: str
     unit: str
     needs: str
-    output: str = ""
+    in_sweep: str = ""
     mode: str = ""
     unit_si: float = 1.0
 
     @property
     def column(self) -> str:
         """Its name with its unit, for a table."""
-        return "_".join(filter(None, (self.name.replace(":", "_"), _UNIT_NAMES[self.unit])))
+        suffix = SUFFIXES["deg" if self.unit == "°" else self.unit]
+        return "_".join(filter(None, (self.name.replace(":", "_"), suffix)))
 
     def seconds(self, scene: Scene) -> float:
         """Rough cost of a scene [s]."""
@@ -110,84 +114,16 @@ class Choice:
         return _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
 
 
-_UNIT_NAMES = {
-    "": "",
-    "N/m": "n_per_m",
-    "N/rad": "n_per_rad",
-    "N·m/rad": "n_m_per_rad",
-    "N": "n",
-    "Pa": "pa",
-    "h": "h",
-    "Hz": "hz",
-    "m/s²": "m_per_s2",
-    "rad/s²": "rad_per_s2",
-    "°": "deg",
-}
-_LETTERS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
-_WHICH = ("mean", "least", "greatest")
-_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
-_SINGLE = {
-    "ball_load_greatest": ("Balls", "greatest ball load"),
-    "contact_pressure_inner": ("Balls", "contact pressure, inner race"),
-    "contact_pressure_outer": ("Balls", "contact pressure, outer race"),
-    "life_turns": ("Life", "turns that 9 of 10 bearings reach"),
-    "life_hours": ("Life", "hours that 9 of 10 bearings reach"),
-    "life_share_of_healthy": ("Life", "life over that of the healthy bearing"),
-    "converged_share": ("Balls", "cage angles with a static state, share"),
-    "floquet_multiplier_greatest": ("Motion that repeats", "largest Floquet multiplier |μ|"),
-    "mass_share": ("Vibration of the housing", "share of the power that the balls' mass adds"),
-}
-
-
-def mode_words(label: str) -> str:
-    """A mode as the page calls it: "x₁" for "x1"."""
-    return _LETTERS[label.rstrip("0123456789")] + label[-1].translate(_LOWERED)
-
-
-def term_words(term: str) -> str:
-    """A stiffness term as the page calls it: "kxθy" for "k_xry"."""
-    index = STIFFNESS_TERMS.index(term)
-    pairs = [(a, b) for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:]]
-    return "k" + "".join(_LETTERS[dof] for dof in pairs[index])
-
-
-def _named(name: str) -> tuple[str, str]:
-    """Group and label of an output."""
-    stem, _, which = name.rpartition("_")
-    if stem in STIFFNESS_TERMS:
-        return f"Stiffness, {which}", f"{term_words(stem)}, {which}"
-    if stem == "loaded_balls":
-        return "Balls", f"loaded balls, {which}"
-    if name.startswith("acceleration"):
-        kind, dof = ("RMS" if "_rms_" in name else "greatest"), which
-        way = "about" if dof.startswith("r") else "along"
-        return "Vibration of the housing", f"acceleration {way} {dof[-1]}, {kind}"
-    return _SINGLE[name]
-
-
-def _all_choices() -> dict[str, Choice]:
+def _all_outputs() -> dict[str, MapOutput]:
     made = []
     for name, output in OUTPUTS.items():
         unit = "" if output.unit == "1" else output.unit
-        if output.per_mode:
-            which = name.rpartition("_")[2]
-            made += [
-                Choice(
-                    f"{name}:{mode}",
-                    "Natural frequencies",
-                    f"mode {mode_words(mode)}, {which}",
-                    unit,
-                    output.needs,
-                    name,
-                    mode,
-                )
-                for mode in mode_labels(DOF_NAMES)
-            ]
-        else:
-            group, label = _named(name)
-            made.append(Choice(name, group, label, unit, output.needs, name))
+        for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
+            label = output.label.format(mode_symbol(mode)) if mode else output.label
+            key = f"{name}:{mode}" if mode else name
+            made.append(MapOutput(key, output.group, label, unit, output.needs, name, mode))
     made.append(
-        Choice(
+        MapOutput(
             "extent_error",
             "Size from the signal",
             "error of the extent from a simulated signal",
@@ -196,18 +132,18 @@ def _all_choices() -> dict[str, Choice]:
             unit_si=DEGREE,
         )
     )
-    groups = list(dict.fromkeys(choice.group for choice in made))
-    made.sort(key=lambda choice: groups.index(choice.group))
-    return {choice.name: choice for choice in made}
+    groups = list(dict.fromkeys(output.group for output in made))
+    made.sort(key=lambda output: groups.index(output.group))
+    return {output.name: output for output in made}
 
 
-CHOICES: Mapping[str, Choice] = _all_choices()
+MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
 """All that can be mapped, by name, groups together: every output of a sweep, and the sizing."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """What a map shows: `choice` over the values of `x` and `y`, all else as in `scene`.
+    """What a map shows: `output` over the values of `x` and `y`, all else as in `scene`.
 
     `x` and `y` hold the values of the finest level. Two questions are equal where the answers are.
     """
@@ -215,7 +151,7 @@ class Question:
     scene: Scene
     x: Sweep = field(compare=False)
     y: Sweep = field(compare=False)
-    choice: Choice
+    output: MapOutput
     places: tuple[object, ...] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -232,13 +168,13 @@ class Question:
     @property
     def figure(self) -> tuple[object, ...]:
         """What its figure has to be made for, whatever the scene."""
-        return self.places, self.choice
+        return self.places, self.output
 
     @cached_property
     def grid(self) -> Grid:
         """The finest scenes; ValueError where none can be. Not for what a sweep cannot give."""
         return Grid.of(
-            self.scene, dict([self.x.in_si, self.y.in_si]), [self.choice.output], _SETTINGS
+            self.scene, dict([self.x.in_si, self.y.in_si]), [self.output.in_sweep], _SETTINGS
         )
 
     @cached_property
@@ -249,9 +185,9 @@ class Question:
             for name, values in (self.x.in_si, self.y.in_si)
         }
         try:
-            return self.choice.seconds(self.scene.replace(**richest))
+            return self.output.seconds(self.scene.replace(**richest))
         except ValueError:
-            return self.choice.seconds(self.scene)
+            return self.output.seconds(self.scene)
 
     @property
     def first_stride(self) -> int:
@@ -293,7 +229,7 @@ class Plane:
     x, y
         values of the quantities, (nx,) and (ny,).
     values : (ny, nx)
-        in the unit of the choice; NaN where there is none.
+        in the unit of the output; NaN where there is none.
     reasons : (ny, nx)
         why there is none; empty elsewhere.
     """
@@ -322,10 +258,10 @@ class Plane:
 
 
 class Job(Protocol):
-    """What a computation tells and asks, as `bearing_explorer.compute.jobs.Work` does."""
+    """What a computation reports and asks, as `bearing_explorer.compute.jobs.Work` does."""
 
     def progress(self, part: float, _: str = "") -> None:
-        """Tell how much is done, 0 to 1."""
+        """Report how much is done, 0 to 1."""
 
     def cancelled(self) -> bool:
         """Whether to end soon, with what is found."""
@@ -433,18 +369,18 @@ class Survey:
 
     @property
     def _in_rows(self) -> bool:
-        return bool(self.question.choice.output) and self.question.grid.in_rows
+        return bool(self.question.output.in_sweep) and self.question.grid.in_rows
 
     def _find(self, at: tuple[NDArray[np.intp], NDArray[np.intp]], job: Job | None) -> None:
-        choice = self.question.choice
-        if not choice.output:
+        output = self.question.output
+        if not output.in_sweep:
             for j in at[0]:
                 for i in at[1]:
                     self._put(j, i, *self._size(j, i, job))
             return
         grid = self.question.grid
         rows, columns = at
-        if choice.needs in (MOTION, ORBIT, MASS):
+        if output.needs in (MOTION, ORBIT, MASS):
             rows, columns = self._without_too_long(rows, columns)
             if not rows.size * columns.size:
                 return
@@ -453,16 +389,16 @@ class Survey:
             grid, axes=(Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
         )
         status, numbers = part.compute()
-        found = numbers[choice.output]
-        if choice.mode:
+        found = numbers[output.in_sweep]
+        if output.mode:
             found = (
-                found[..., grid.labels.index(choice.mode)]
-                if choice.mode in grid.labels
+                found[..., grid.labels.index(output.mode)]
+                if output.mode in grid.labels
                 else np.full(status.shape, math.nan)
             )
         for b, j in enumerate(rows):
             for a, i in enumerate(columns):
-                value = float(found[a, b]) / choice.unit_si
+                value = float(found[a, b]) / output.unit_si
                 why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
                 self._put(j, i, value, why)
 
@@ -498,7 +434,7 @@ class Survey:
         """Why a motion or an orbit is not even begun; empty where it is."""
         try:
             scene = self._scene(row, column)
-            if self.question.choice.needs == ORBIT:
+            if self.question.output.needs == ORBIT:
                 return _TOO_LONG_ORBIT if (common_ball_passes(scene) or 0) > LONGEST_ORBIT else ""
             rate = step_rates(scene, _SETTINGS.sample_rate)
         except ValueError:
@@ -517,7 +453,7 @@ class Survey:
             found = extent_error(self._scene(row, column), progress=go_on)
         except ValueError as error:
             return math.nan, refusal(error)
-        missed = found.error / self.question.choice.unit_si
+        missed = found.error / self.question.output.unit_si
         return missed, "" if math.isfinite(missed) else found.sizing.status
 
 
@@ -528,7 +464,7 @@ def coarse(question: Question) -> Plane:
     return survey.plane(question.first_stride)
 
 
-planes: ComputedOnce[Plane] = ComputedOnce(coarse, 64)
+planes: SingleFlightCache[Plane] = SingleFlightCache(coarse, 64)
 """First levels by their question, shared by all sessions."""
 
 

@@ -1,6 +1,6 @@
 """Long computations of a session, in the background: one at a time, with progress and cancel.
 
-The work runs in a thread and never touches the page. It tells how far it is, asks whether to go
+The work runs in a thread and never touches the page. It reports how far it is, asks whether to go
 on, and shows what it has found so far; all of that is taken up on the event loop of the session,
 a few times a second. A new job replaces the one before, and the end of the session cancels.
 
@@ -13,13 +13,13 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
-import os
 import threading
 import time
 from collections.abc import Awaitable, Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, Literal
+
+from bearing_explorer.compute.executors import JOBS
 
 log = logging.getLogger(__name__)
 
@@ -28,11 +28,6 @@ LONGEST = 300.0
 
 _TICK = 0.12  # [s] between two looks at a job
 _ASIDE = 1.0  # [s] that a sentence stands at least, so that it can be read and read out
-
-#: half of the machine, so that drawing has the other half
-_THREADS = ThreadPoolExecutor(
-    max_workers=max(1, (os.cpu_count() or 2) // 2), thread_name_prefix="job"
-)
 
 Mood = Literal["idle", "waiting", "busy", "done", "stopped", "failed"]
 
@@ -64,7 +59,7 @@ class Work:
         self.timed_out = False
 
     def progress(self, part: float, _: str = "") -> None:
-        """Tell how much is done, 0 to 1."""
+        """Report how much is done, 0 to 1."""
         self.part = min(max(float(part), 0.0), 1.0)
 
     def within(self, begin: float, end: float) -> Callable[[float, str], None]:
@@ -130,7 +125,7 @@ class Jobs:
         self,
         work: Callable[[Work], str],
         take: Callable[[Any], None],
-        tell: Callable[[JobState], None],
+        report: Callable[[JobState], None],
     ) -> None:
         """Begin `work` in place of what is at work.
 
@@ -140,13 +135,13 @@ class Jobs:
             computes, in a thread; returns a sentence that sums up. A ValueError is a sentence too.
         take
             gets each result that is shown, on the event loop.
-        tell
+        report
             gets the state of the job, on the event loop.
         """
         if self._ended:
             return
         before = self._job
-        self._job = job = _Job(work, take, tell)
+        self._job = job = _Job(work, take, report)
         job.task = asyncio.get_running_loop().create_task(self._run(job, before))
         if before is not None:
             before.work.stop()
@@ -167,32 +162,32 @@ class Jobs:
                 await self._look(job)
                 await asyncio.wait({before.task}, timeout=_TICK)
         if job.work.stopped:
-            await self._tell(job, _NEVER_BEGAN)
+            await self._report(job, _NEVER_BEGAN)
             return
-        waiting = _THREADS.submit(job.run)
+        waiting = JOBS.submit(job.run)
         future = asyncio.wrap_future(waiting)
         while not future.done():
             await self._look(job)
             await asyncio.wait({future}, timeout=_TICK)
             if job.work.stopped and waiting.cancel():  # its turn had not come yet
-                await self._tell(job, _NEVER_BEGAN)
+                await self._report(job, _NEVER_BEGAN)
                 return
         if not self._ended:
             await self._close(job, future)
 
     async def _look(self, job: _Job) -> None:
-        """Take up what a job tells."""
+        """Take up what a job reports."""
         found = job.work.taken()
         state = job.state()
-        if self._ended or (not found and state == job.told):
+        if self._ended or (not found and state == job.reported):
             return
 
         def change() -> None:
             for result in found:
                 job.take(result)
-            job.tell(state)
+            job.report(state)
 
-        job.told = state
+        job.reported = state
         if job is self._job:
             await self._assign(change)
 
@@ -212,25 +207,25 @@ class Jobs:
             state = JobState("stopped", part, f"Ended after {LONGEST:.0f} s. {future.result()}")
         else:
             state = JobState("done", 1.0, future.result())
-        await self._tell(job, state)
+        await self._report(job, state)
 
-    async def _tell(self, job: _Job, state: JobState) -> None:
+    async def _report(self, job: _Job, state: JobState) -> None:
         """The last words about a job; a view that works on something newer does not hear them."""
         newer = self._job
-        if self._ended or (newer is not None and newer is not job and newer.tell == job.tell):
+        if self._ended or (newer is not None and newer is not job and newer.report == job.report):
             return
         found = job.work.taken()
 
         def change() -> None:
             for result in found:
                 job.take(result)
-            job.tell(state)
+            job.report(state)
 
         await self._assign(change)
 
 
 class _Job:
-    """One job: what it does, whom it tells, and what it told last."""
+    """One job: what it does, whom it reports to, and what it reported last."""
 
     task: asyncio.Task[None]
 
@@ -238,12 +233,12 @@ class _Job:
         self,
         compute: Callable[[Work], str],
         take: Callable[[Any], None],
-        tell: Callable[[JobState], None],
+        report: Callable[[JobState], None],
     ) -> None:
         self.work = Work()
         self.take = take
-        self.tell = tell
-        self.told: JobState | None = None
+        self.report = report
+        self.reported: JobState | None = None
         self._compute = compute
         self._words = ""
         self._said_at = -math.inf

@@ -1,41 +1,20 @@
-"""Plans of the scene at hand: made when the hand rests, drawn by, and overruled by hand."""
+"""Plans of the scene at hand: how they are made, and how a person overrules them."""
 
 from __future__ import annotations
 
-import asyncio
 import dataclasses
-import logging
 import math
-import os
-from collections.abc import Awaitable, Callable, Hashable, Mapping
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Generic, TypeVar
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from bearing_explorer.compute.scheduler import Turns
 from bearing_explorer.state.settings import MotionPlanning, Settings
 from bearingcore import Scene, orbit
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.plan import BUDGETS, CURVES, SETTLED, Plan, plan
 from bearingcore.plan.motions import ORBIT_SAFETY
 from bearingcore.plan.pilot import BAND, PILOT, spectra_apart
-
-log = logging.getLogger(__name__)
-
-RESTS_AFTER = 0.25
-"""[s] without anything newer after the last picture after which the hand counts as at rest."""
-
-#: plans of all sessions wait here for their turn: half of the machine stays with what moves
-_THREADS = ThreadPoolExecutor(
-    max_workers=max(1, (os.cpu_count() or 2) // 2), thread_name_prefix="plan"
-)
-
-Inputs = TypeVar("Inputs")
-Thought = TypeVar("Thought")
-
-
-# --- plans ----------------------------------------------------------------------------------------
 
 
 def plan_for(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
@@ -173,72 +152,3 @@ def by_hand(settings: Settings) -> list[str]:
 def steps_by_hand(step_rate: float) -> str:
     """That the steps [Hz] of motions are not the program's own choice."""
     return f"steps set by hand: {step_rate:.0f} Hz"
-
-
-# --- when the hand rests --------------------------------------------------------------------------
-
-
-class Rest(Generic[Inputs, Thought]):
-    """Waits until the hand rests, thinks, and hands over; anything newer ends it.
-
-    Parameters
-    ----------
-    think
-        its second argument tells whether it was overtaken meanwhile. It runs in a thread, or in
-        turn with pictures where its `kind` was light before; what has no kind always in a thread.
-    hand_over
-        on the event loop, with what was thought, if nothing newer came.
-    drawn
-        waits until what was asked for is drawn: only then rest can begin.
-    """
-
-    def __init__(
-        self,
-        think: Callable[[Inputs, Callable[[], bool]], Thought],
-        hand_over: Callable[[Inputs, Thought], None],
-        drawn: Callable[[], Awaitable[None]],
-        turns: Turns,
-        kind: Callable[[Inputs], Hashable | None],
-        after: float = RESTS_AFTER,
-    ) -> None:
-        self._think, self._hand_over, self._drawn, self._after = think, hand_over, drawn, after
-        self._turns, self._kind = turns, kind
-        self._number = 0
-        self._task: asyncio.Task[None] | None = None
-
-    @property
-    def idle(self) -> bool:
-        """Whether there is nothing to wait for."""
-        return self._task is None or self._task.done()
-
-    def begin(self, inputs: Inputs) -> None:
-        """Something was asked for: wait for rest from now on. On the event loop."""
-        self.end()
-        self._task = asyncio.get_running_loop().create_task(self._run(inputs, self._number))
-
-    def end(self) -> None:
-        """Give up what is waited for or thought about."""
-        self._number += 1
-        if self._task is not None:
-            self._task.cancel()
-
-    async def _run(self, inputs: Inputs, number: int) -> None:
-        # The page asks for the next picture only when the last is there. Counted from the question,
-        # a hand would seem to rest while it waits for a slow server, and thinking about what it has
-        # left behind would make the server slower still.
-        await self._drawn()
-        await asyncio.sleep(self._after)
-
-        def think() -> Thought:
-            thought = self._think(inputs, lambda: number != self._number)
-            if number != self._number:  # what it cost until then says nothing
-                raise asyncio.CancelledError
-            return thought
-
-        try:
-            # cancelled before its turn, it never begins; later, nobody hears of it
-            thought = await self._turns.think(_THREADS, self._kind(inputs), think)
-        except Exception:
-            log.exception("planning failed")
-            return
-        self._hand_over(inputs, thought)

@@ -10,13 +10,9 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-import os
-import threading
-from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,9 +25,11 @@ from bearing_explorer.compute.dof_comparison import (
     static_differences,
 )
 from bearing_explorer.compute.excerpt import Excerpt, excerpt
+from bearing_explorer.compute.executors import BESIDE
 from bearing_explorer.compute.load_curve import Curve, load_curve
 from bearing_explorer.compute.planning import plan_for
 from bearing_explorer.compute.profile import Profile, profile
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
@@ -49,9 +47,7 @@ from bearingcore.statics.passes import ball_drop
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
     from bearingcore.plan import Plan
-
 Answer = TypeVar("Answer")
-
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
@@ -61,52 +57,6 @@ LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
 HASTY_PERIODS = 30
 """Periods that are integrated at most to find it meanwhile; most orbits take 5 to 12."""
-
-
-class ComputedOnce(Generic[Answer]):
-    """A bounded cache for threads: each key is computed once, the least used leaves first."""
-
-    def __init__(self, compute: Callable[..., Answer], size: int) -> None:
-        self._compute = compute
-        self._size = size
-        self._lock = threading.Lock()
-        self._known: OrderedDict[Hashable, Future[Answer]] = OrderedDict()
-
-    def __call__(self, *key: Hashable) -> Answer:
-        with self._lock:
-            future = self._known.get(key)
-            mine = future is None
-            if future is None:
-                future = self._add(key)
-            else:
-                self._known.move_to_end(key)
-        if mine:
-            try:
-                future.set_result(self._compute(*key))
-            except BaseException as error:
-                with self._lock:
-                    self._known.pop(key, None)
-                future.set_exception(error)
-        return future.result()
-
-    def keep(self, answer: Answer, *key: Hashable) -> None:
-        """Keep what was computed elsewhere."""
-        with self._lock:
-            if key not in self._known:
-                self._add(key).set_result(answer)
-
-    def _add(self, key: tuple[Hashable, ...]) -> Future[Answer]:
-        """A place for one more answer; the lock is held."""
-        future = self._known[key] = Future[Answer]()
-        while len(self._known) > self._size:
-            self._known.popitem(last=False)
-        return future
-
-    def knows(self, *key: Hashable) -> bool:
-        """Whether the answer is there already."""
-        with self._lock:
-            future = self._known.get(key)
-        return future is not None and future.done()
 
 
 def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
@@ -269,25 +219,21 @@ def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
     return plan_for(scene, view, how)
 
 
-equilibria = ComputedOnce(_over_period, 512)
-planned_equilibria = ComputedOnce(_over_nodes, 128)
-single_equilibria = ComputedOnce(_at, 2048)
-modes = ComputedOnce(_modes, 256)
-planned_modes = ComputedOnce(_modes_over_nodes, 64)
-maps = ComputedOnce(_maps, 16)  # about 2 MB each
-motions = ComputedOnce(_motion, 8)  # about 20 MB each
-step_rates = ComputedOnce(_step_rate, 512)
-excerpts = ComputedOnce(_excerpt, 64)
-spectra = ComputedOnce(_spectra, 64)
-late_spectra = ComputedOnce(_late_spectra, 64)
-orbits = ComputedOnce(_orbit, 256)
-hasty_orbits = ComputedOnce(_hasty_orbit, 256)
-plans = ComputedOnce(_plan, 256)
-motion_plans = ComputedOnce(_plan, 24)  # with their orbits, some MB where those are long
-
-
-#: what goes on beside a drawing; kernels release the interpreter lock
-_BESIDE = ThreadPoolExecutor(max(1, (os.cpu_count() or 2) // 2), "beside")
+equilibria = SingleFlightCache(_over_period, 512)
+planned_equilibria = SingleFlightCache(_over_nodes, 128)
+single_equilibria = SingleFlightCache(_at, 2048)
+modes = SingleFlightCache(_modes, 256)
+planned_modes = SingleFlightCache(_modes_over_nodes, 64)
+maps = SingleFlightCache(_maps, 16)  # about 2 MB each
+motions = SingleFlightCache(_motion, 8)  # about 20 MB each
+step_rates = SingleFlightCache(_step_rate, 512)
+excerpts = SingleFlightCache(_excerpt, 64)
+spectra = SingleFlightCache(_spectra, 64)
+late_spectra = SingleFlightCache(_late_spectra, 64)
+orbits = SingleFlightCache(_orbit, 256)
+hasty_orbits = SingleFlightCache(_hasty_orbit, 256)
+plans = SingleFlightCache(_plan, 256)
+motion_plans = SingleFlightCache(_plan, 24)  # with their orbits, some MB where those are long
 
 
 class Results:
@@ -296,21 +242,21 @@ class Results:
     scene: the Scene shown
     cage_angle: the cage angle shown [rad]
     focus: which of the scene's defects is looked at
-    equilibrium, sound_equilibrium: over the stretch of the curves, with the defect and without
-    now, sound_now: at `cage_angle` alone (arrays of length 1)
-    modes, sound_modes: over the same cage angles
+    equilibrium, healthy_equilibrium: over the stretch of the curves, with the defect and without
+    now, healthy_now: at `cage_angle` alone (arrays of length 1)
+    modes, healthy_modes: over the same cage angles
     band_modes: the modes where only their bands count; at fewer cage angles while a hand moves
     extent: of the defect looked at [rad]
-    sound_all_around: like sound_equilibrium, over all that a pinned scene does
+    healthy_all_around: like healthy_equilibrium, over all that a pinned scene does
     maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
     plan: what the scene's curves or motion are drawn by, where they are drawn by a plan
-    motion, sound_motion: simulated motion
+    motion, healthy_motion: simulated motion
     settled_since: [s] of the motion, when its start is forgotten
     excerpt: some ball passes of the settled motion
     spectra: {dof: Spectrum} of the housing's acceleration from rest on
-    late_spectra, sound_late_spectra: the same of the settled motion
+    late_spectra, healthy_late_spectra: the same of the settled motion
     ball_passes: after how many of them the scene is as before; None where it never is
     orbit: the motion that repeats itself; None where it takes too many ball passes to look for
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
@@ -324,11 +270,11 @@ class Results:
     slow = frozenset(
         {
             "motion",
-            "sound_motion",
+            "healthy_motion",
             "excerpt",
             "spectra",
             "late_spectra",
-            "sound_late_spectra",
+            "healthy_late_spectra",
             "orbit",
             "orbit_spectra",
             "dof_comparison",
@@ -353,7 +299,7 @@ class Results:
     ) -> None:
         """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
 
-        `pinned`: what the attributes that begin with ``sound_`` are of, instead of the scene
+        `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
         without its defect.
         """
         self.scene = scene
@@ -367,7 +313,7 @@ class Results:
     @property
     def beside(self) -> Scene:
         """What is drawn in grey beside the scene: a pinned one, or itself without its defect."""
-        return self.scene.sound() if self.pinned is None else self.pinned.scene
+        return self.scene.healthy() if self.pinned is None else self.pinned.scene
 
     @property
     def beside_words(self) -> str:
@@ -379,7 +325,7 @@ class Results:
     @property
     def beside_name(self) -> str:
         """What it is called in the names of columns."""
-        return "sound" if self.pinned is None else "pinned"
+        return "healthy" if self.pinned is None else "pinned"
 
     @property
     def over_shaft(self) -> bool:
@@ -422,7 +368,7 @@ class Results:
         if view not in CURVES:
             return motion_plans(self.scene, view, how)
         if self.scene.defects:
-            plans(self.scene.sound(), view, how)
+            plans(self.scene.healthy(), view, how)
         return plans(self.scene, view, how)
 
     @cached_property
@@ -440,14 +386,14 @@ class Results:
             return None
         return self.plans[view]
 
-    def _nodes(self, sound: bool) -> bytes | None:
-        """Cage angles that a plan has chosen, those of the sound bearing by a plan of its own."""
+    def _nodes(self, healthy: bool) -> bytes | None:
+        """Cage angles that a plan has chosen, those of the healthy bearing by a plan of its own."""
         if self.plan is None or self.plan.cage_angles is None:
             return None
         plan = self.plan
-        if sound and self.scene.defects:
+        if healthy and self.scene.defects:
             view = plan.view
-            plan = plans(self.scene.sound(), view, self.settings.planning(view))
+            plan = plans(self.scene.healthy(), view, self.settings.planning(view))
         angles = plan.cage_angles
         assert angles is not None
         # without a defect of the inner race curves are shorter
@@ -456,8 +402,8 @@ class Results:
             return None
         return angles.tobytes()
 
-    def _static(self, scene: Scene, sound: bool = False) -> Equilibrium:
-        nodes = self._nodes(sound)
+    def _static(self, scene: Scene, healthy: bool = False) -> Equilibrium:
+        nodes = self._nodes(healthy)
         if nodes is None:
             return equilibria(scene, *self.stretch)
         return planned_equilibria(scene, nodes)
@@ -468,17 +414,17 @@ class Results:
         return self._static(self.scene)
 
     @cached_property
-    def sound_equilibrium(self) -> Equilibrium:
+    def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
         if self.pinned is not None:
             return equilibria(self.pinned.scene, *self.stretch)
-        return self._static(self.scene.sound(), sound=True)
+        return self._static(self.scene.healthy(), healthy=True)
 
     @cached_property
-    def sound_all_around(self) -> Equilibrium:
+    def healthy_all_around(self) -> Equilibrium:
         """The same over whatever stretch holds all that happens in a pinned scene."""
         if self.pinned is None:
-            return self.sound_equilibrium
+            return self.healthy_equilibrium
         own = Results(self.pinned.scene, self.cage_angle, self.settings)
         return equilibria(self.pinned.scene, *own.stretch)
 
@@ -488,9 +434,9 @@ class Results:
         return load_curve(self.equilibrium)
 
     @cached_property
-    def sound_load_curve(self) -> Curve:
+    def healthy_load_curve(self) -> Curve:
         """The same without the defect."""
-        return load_curve(self.sound_all_around)
+        return load_curve(self.healthy_all_around)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -498,7 +444,7 @@ class Results:
         return single_equilibria(self.scene, self.cage_angle)
 
     @cached_property
-    def sound_now(self) -> Equilibrium:
+    def healthy_now(self) -> Equilibrium:
         """The same without the defect."""
         return single_equilibria(self.beside, self.cage_angle)
 
@@ -516,14 +462,14 @@ class Results:
         return modes(self.scene, first, last, n // 3 + 1)
 
     @cached_property
-    def sound_modes(self) -> Modes:
+    def healthy_modes(self) -> Modes:
         """The same without the defect."""
         if self.pinned is not None:
             return self._of_pinned(modes, self.pinned.scene, *self.stretch)
-        return self._modes(self.scene.sound(), sound=True)
+        return self._modes(self.scene.healthy(), healthy=True)
 
-    def _modes(self, scene: Scene, sound: bool = False) -> Modes:
-        nodes = self._nodes(sound)
+    def _modes(self, scene: Scene, healthy: bool = False) -> Modes:
+        nodes = self._nodes(healthy)
         if nodes is None:
             return modes(scene, *self.stretch)
         return planned_modes(scene, nodes)
@@ -572,10 +518,10 @@ class Results:
 
     def begin(self, needed: frozenset[str]) -> None:
         """Begin what of these attributes can be computed beside the others, in another thread."""
-        if {"late_spectra", "sound_late_spectra"} <= needed:
+        if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
             if not late_spectra.knows(*asked):
-                _BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
+                BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
@@ -615,7 +561,7 @@ class Results:
         return motions(self.scene, self._how).since
 
     @cached_property
-    def sound_motion(self) -> Motion:
+    def healthy_motion(self) -> Motion:
         """The same without the defect, always marched."""
         return self._of_pinned(motions, self.beside, self._marching).motion
 
@@ -635,12 +581,12 @@ class Results:
         return late_spectra(self.scene, self._how)
 
     @property
-    def sound_settled_since(self) -> float:
+    def healthy_settled_since(self) -> float:
         """When [s] of that motion its start is forgotten."""
         return motions(self.beside, self._marching).since
 
     @cached_property
-    def sound_late_spectra(self) -> dict[str, Spectrum]:
+    def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect, always marched."""
         return self._of_pinned(late_spectra, self.beside, self._marching)
 

@@ -5,8 +5,8 @@ picture, which costs as much as a light picture itself. With a class on board th
 waits for. So what was light the last time, and is of the same kind now, is computed on the event
 loop: one session after the other, and between two of them all that browsers have said is heard.
 
-What a session thinks about while its hand rests would make the pictures of all others six times as
-dear from a thread. It has its turn too, where it is light, after all pictures that wait.
+What a session plans while its hand rests would make the pictures of all others cost six times as
+much if it ran in a thread. It has its turn too, where it is light, after all pictures that wait.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from concurrent.futures import Executor
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
-from bearing_explorer.server.live import in_thread
+from bearing_explorer.compute.executors import in_thread
 
 Result = TypeVar("Result")
 
 LIGHT = 0.006
 """[s] of one core that a light picture may cost."""
-LIGHT_THOUGHT = 0.03
-"""[s] of one core that a light thought may cost."""
+LIGHT_IDLE_WORK = 0.03
+"""[s] of one core that light idle work may cost."""
 PATIENCE = 2.0
-"""[s] that a light thought lets pictures pass."""
+"""[s] that light idle work lets pictures pass."""
 _MOST_KINDS = 64
 
 
@@ -36,14 +36,14 @@ class _Line:
 
     def __init__(self) -> None:
         self.turn = asyncio.Lock()
-        self.thought = asyncio.Lock()
+        self.idle = asyncio.Lock()
         self.pictures = 0  # that wait
 
 
 _lines: WeakKeyDictionary[asyncio.AbstractEventLoop, _Line] = WeakKeyDictionary()
 
 
-class Turns:
+class Scheduler:
     """Computes the pictures of one session, and remembers what kinds of them cost."""
 
     def __init__(self) -> None:
@@ -79,7 +79,7 @@ class Turns:
         """Run what takes long, in the threads that are for it."""
         return await in_thread(self._measured, None, function, *args, slow=True)
 
-    async def think(
+    async def run_idle(
         self,
         threads: Executor,
         kind: Hashable | None,
@@ -90,11 +90,11 @@ class Turns:
 
         What has no kind is never light. Cancelled before it had its turn it never begins.
         """
-        kind = None if kind is None else ("thought", kind)
-        if kind is None or not self.is_light(kind, LIGHT_THOUGHT):
+        kind = None if kind is None else ("idle", kind)
+        if kind is None or not self.is_light(kind, LIGHT_IDLE_WORK):
             return await asyncio.wrap_future(threads.submit(self._noted, kind, function, *args))
         line = _line()
-        async with line.thought:
+        async with line.idle:
             end = time.monotonic() + PATIENCE
             while line.pictures and time.monotonic() < end:
                 await asyncio.sleep(0.01)

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from bearing_explorer.export.python_script import Script, quoted, short
+from bearing_explorer.measurement.diagnoses import ROUGH, SLIP
 from bearing_explorer.measurement.signal import Measured
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def _recording(script: Script, measured: Measured) -> None:
         script.add(
             f"table = read_table({name}, Path({name}).read_bytes())",
             f"recording = table.recording({columns}, {along}, {quoted(repr(origin.unit))}, {rate}, "
-            f"{short(origin.full_scale)})",
+            f"{short(origin.full_scale)}{_beside(measured)})",
         )
         return
     script.core("Recording", "simulate")
@@ -44,6 +45,15 @@ def _recording(script: Script, measured: Measured) -> None:
         "settled = motion.outer_acceleration[motion.time >= 0.3]",
         f"recording = Recording(settled[:, own], {rate}, {along})",
     )
+
+
+def _beside(measured: Measured) -> str:
+    """What is known of sensor and shaft, as further arguments."""
+    known = {
+        "sensitivity": measured.origin.sensitivity if measured.origin is not None else None,
+        "shaft_speed": measured.recording.shaft_speed,
+    }
+    return "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
 
 
 def _signal(script: Script, direction: str) -> None:
@@ -123,6 +133,29 @@ def _columns(script: Script, direction: str, top: float) -> None:
     )
 
 
+def _diagnosis(script: Script, results: Results, measured: Measured, view: Any) -> None:
+    script.core("diagnose")
+    speed = {
+        "given": "scene.shaft_speed",
+        "rough": f"({1.0 - ROUGH:g} * scene.shaft_speed, {1.0 + ROUGH:g} * scene.shaft_speed)",
+        "unknown": "None",
+    }[view.speed]
+    script.add(
+        f"found = diagnose(recording, scene.bearing, {speed}, slip={SLIP:g})",
+        "print(found.status)",
+        "columns = found.table().in_units().named()",
+    )
+    _plot(
+        script,
+        'plt.plot(columns["envelope_frequency_hz"], columns["envelope_level_db"])',
+        "for part in found.evidence:",
+        '    plt.axvline(part.frequency, linestyle="--", label=part.part)',
+        'plt.xlabel("Frequency (Hz)")',
+        'plt.ylabel("Over the surroundings (dB)")',
+        "plt.legend()",
+    )
+
+
 def _size(script: Script, results: Results, measured: Measured, view: Any) -> None:
     script.numpy()
     script.core("size_defect")
@@ -146,5 +179,6 @@ _MAKERS = {
     "measurement": _in_time,
     "measured-spectrum": _spectrum,
     "measured-envelope": _envelope,
+    "diagnosis": _diagnosis,
     "sizing": _size,
 }

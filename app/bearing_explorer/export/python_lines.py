@@ -69,7 +69,7 @@ def _angles(script: Script, angles: NDArray[np.float64], results: Results, scene
 def _beside(script: Script, results: Results) -> str:
     """The lines' name for what is drawn in grey; adds the pinned scene where there is one."""
     if results.pinned is None:
-        return "scene.sound()"
+        return "scene.healthy()"
     script.add(f"pinned = {script.scene(results.pinned.scene)}  # what is drawn in grey")
     return "pinned"
 
@@ -163,7 +163,7 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
 
 def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "equilibrium", results.equilibrium, results.sound_all_around, beside)
+    _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
     script.add(
         "columns = {",
         '    "ball_angle_deg": np.degrees(found.ball_angle.ravel()) % 360.0,',
@@ -217,7 +217,7 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
 
 def _stiffness(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "equilibrium", results.equilibrium, results.sound_equilibrium, beside)
+    _both(script, results, "equilibrium", results.equilibrium, results.healthy_equilibrium, beside)
     script.core("STIFFNESS_TERMS")
     script.add(
         "columns = {}",
@@ -278,7 +278,7 @@ def _maps(script: Script, results: Results, view: Any) -> None:
 
 def _modes(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "modes", results.modes, results.sound_modes, beside)
+    _both(script, results, "modes", results.modes, results.healthy_modes, beside)
     name = results.beside_name
     script.add(
         'columns = {"cage_angle_deg": np.degrees(found.cage_angles)}',
@@ -350,8 +350,8 @@ def _vibration_spectrum(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _motion(script, results)
     _late(script, results)
-    other = results.sound_motion
-    half = math.ceil(results.sound_settled_since * other.sample_rate - 1e-6)
+    other = results.healthy_motion
+    half = math.ceil(results.healthy_settled_since * other.sample_rate - 1e-6)
     name = results.beside_name
     script.core("simulate")
     script.add(
@@ -437,17 +437,17 @@ def _explore(script: Script, results: Results, view: Any) -> None:
         (name, f"np.linspace({short(values[0])}, {short(values[-1])}, {values.size})")
         for name, values in (found.x.in_si, found.y.in_si)
     )
-    choice = found.question.choice
-    if choice.output:
+    output = found.question.output
+    if output.in_sweep:
         script.part("sweep", "sweep")
-        mode = f'.sel(mode="{choice.mode}")' if choice.mode else ""
+        mode = f'.sel(mode="{output.mode}")' if output.mode else ""
         script.add(
             "swept = sweep(",
             "    scene,",
             f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
-            f'    outputs=["{choice.output}"],',
+            f'    outputs=["{output.in_sweep}"],',
             ")",
-            f'values = swept["{choice.output}"]{mode}.values',
+            f'values = swept["{output.in_sweep}"]{mode}.values',
         )
     else:
         script.part("diagnosis.sizing_error", "extent_error")
@@ -461,7 +461,7 @@ def _explore(script: Script, results: Results, view: Any) -> None:
             "    except ValueError as why:",
             "        print(why)",
         )
-    script.add(f'columns = {{"{choice.column}": values}}')
+    script.add(f'columns = {{"{output.column}": values}}')
     _plot(script, f"plt.pcolormesh({x[1]}, {y[1]}, values)", "plt.colorbar()")
 
 

@@ -1,4 +1,4 @@
-"""Colour scales for maps: perceptually even, and told apart by colour-blind eyes.
+"""Colour scales for maps: perceptually even, and distinct to colour-blind eyes.
 
 `SEQUENTIAL` for numbers of one sign, from dark to light; `DIVERGING` for numbers of both signs,
 blue below zero and orange above it, as light as paper at zero and equally dark at both ends;
@@ -53,7 +53,7 @@ DIVERGING_DARK = _diverging(0.27, 0.78)
 """(256, 3) sRGB, blue to black to orange."""
 
 
-def packed(scale: np.ndarray) -> list[int]:
+def packed_colors(scale: np.ndarray) -> list[int]:
     """The colours as browsers keep pixels: red in the lowest byte, opaque."""
     red, green, blue = scale.T
     return [int(x) for x in 0xFF000000 + (blue << 16) + (green << 8) + red]

@@ -1,33 +1,55 @@
-"""Numbers on a grid as a picture: sent through the wire, read under the pointer, clicked to go.
+"""Heat maps: numbers on a grid as a picture, read under the pointer, clicked to go there.
 
-The wire carries columns of floats, so a picture travels as one column: a head that says where the
-grid lies and which quantities its sides are, then the values of each layer, row by row from below.
+Every heat map of the page is read and clicked by the same scripts, `reading` and `going`; what
+draws it may be HoloViews, a canvas of sixteen maps, or a `GridImage`, which comes in the packed
+source.
+
+The packed source carries columns of floats, so a picture travels as one column: a head that says
+where the grid lies and which quantities its sides are, then the values of each layer, row by row
+from below.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from bokeh.events import Tap
-from bokeh.models import ColorMapper, ColumnDataSource, CustomJS, CustomJSHover, HoverTool
+from bokeh.models import (
+    ColorBar,
+    ColorMapper,
+    ColumnDataSource,
+    CustomJS,
+    CustomJSHover,
+    GlyphRenderer,
+    HoverTool,
+)
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantity_list import Quantity
+
+_NO_SIDES: dict[str, list[float]] = {"across": [], "up": []}
+"""What the sides of a grid are before the first numbers."""
 
 CLEAR = "#00000000"
 """No colour at all: what lies below is seen."""
 
 _HEAD = 9
-_TOOLTIP = (
-    '<div style="font: 12px system-ui, sans-serif; line-height: 1.45">'
+_PLACE = asset_text("heat_map_place.js")
+TOOLTIP = (
+    f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; line-height: 1.45">'
     "$x{custom}<br>$y{custom}<br><b>@image{custom}</b></div>"
 )
+"""What stands under the pointer: both places and the value."""
+VALUE_FIELDS = {"$x": "x", "$y": "y", "@image": "value"}
+"""Which field of TOOLTIP says what."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +79,121 @@ class Side:
     def for_browser(self) -> dict[str, str]:
         """What the scripts need to know."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
-        return {"name": self.name, "words": self.words, "unit": unit, "label": self.label}
+        return {"name": self.name, "words": self.words, "unit": unit}
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where the maps of a figure lie, and what their sides stand for.
+
+    Attributes
+    ----------
+    image
+        Bokeh's source of the pictures: image, x, y, dw, dh.
+    sides
+        everything that a side may stand for; the first to the right and the second upwards where
+        no source says which (``across``, ``up``).
+    stands
+        the source that says so, and what the ends stand for (``x_first``, ``x_last``, ``y_first``,
+        ``y_last``) where that is not what the map is drawn over.
+    count
+        how many pictures of the source are maps.
+    digits
+        places are those of the middles of cells, or with this the very ones, rounded to as many
+        digits behind the point.
+    """
+
+    image: Any
+    sides: Sequence[Side]
+    stands: Any = None
+    count: int = 1
+    digits: int | None = None
+
+    @property
+    def args(self) -> dict[str, Any]:
+        """What both scripts need to know."""
+        return {
+            "image": self.image,
+            "stands": self.stands,
+            "count": self.count,
+            "digits": self.digits,
+            "sides": [side.for_browser() for side in self.sides],
+        }
+
+
+def going(places: Places) -> CustomJS:
+    """What a click does: the quantities of both sides become those of the place clicked at."""
+    return CustomJS(args=places.args, code=_PLACE + asset_text("heat_map_click.js"))
+
+
+def sections(image: Any, **args: Any) -> CustomJS:
+    """Draws the line across a map at the pointer, see heat_map_sections.js."""
+    return CustomJS(args={"image": image, **args}, code=_PLACE + asset_text("heat_map_sections.js"))
+
+
+def reading(
+    places: Places,
+    renderers: Sequence[GlyphRenderer],
+    say: str,
+    layers: Sequence[Any] = (),
+    tooltip: str = TOOLTIP,
+    fields: Mapping[str, str] = VALUE_FIELDS,
+    **args: Any,
+) -> HoverTool:
+    """Shows what stands under the pointer, without a word to the server.
+
+    Parameters
+    ----------
+    say
+        JavaScript: body of a function of `cell`, the numbers of all `layers` there, and `at`, the
+        place; it returns what they mean.
+    fields
+        what the fields of the tooltip show: "x", "y" or "value".
+    args
+        models and numbers that `say` knows besides.
+    """
+    code = f"{style.JS_PREFIX}{_PLACE}const say = (cell, at) => {{{say}}}\n" + asset_text(
+        "heat_map_read.js"
+    )
+    known = {**places.args, "layers": list(layers), **args}
+    return HoverTool(
+        renderers=list(renderers),
+        visible=False,  # no button: it is always on
+        point_policy="follow_mouse",
+        tooltips=tooltip,
+        formatters={
+            field: CustomJSHover(args={**known, "wanted": wanted}, code=code)
+            for field, wanted in fields.items()
+        },
+    )
+
+
+def color_bar(mapper: ColorMapper, title: str = "", width: int = 10, **options: Any) -> ColorBar:
+    """The scale beside a map."""
+    return ColorBar(
+        color_mapper=mapper,
+        title=title,
+        width=width,
+        major_tick_line_color=None,
+        major_label_text_font=style.FONT,
+        major_label_text_font_size=style.SMALL_TEXT_SIZE,
+        major_label_text_color=style.FAINT_INK,
+        title_text_font=style.FONT,
+        title_text_font_style="normal",
+        title_text_font_size=style.SMALL_TEXT_SIZE,
+        title_text_color=style.INK,
+        background_fill_color=None,
+        **options,
+    )
+
+
+def ring_this_scene(plot: figure, mark: ColumnDataSource, level: str) -> None:
+    """A ring at the place of the scene: dark on light, so that it shows on every colour."""
+    for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
+        plot.scatter(
+            "x", "y", source=mark, size=15, fill_color=None, line_color=color, line_width=width,
+            level=level,
+        )  # fmt: skip
 
 
 class GridImage:
@@ -81,7 +217,7 @@ class GridImage:
     def __init__(
         self,
         plot: figure,
-        wire: Wire,
+        packed: PackedSource,
         name: str,
         mappers: Sequence[ColorMapper],
         sides: Sequence[Side],
@@ -90,7 +226,7 @@ class GridImage:
         self.name = name
         self._sides = list(sides)
         self._n_layers = len(mappers)
-        cells = wire.source(name, "packed")
+        cells = packed.source(name, "packed")
         blank = {"x": [0.0], "y": [0.0], "dw": [1.0], "dh": [1.0], "alpha": [0.0]}
         layers = [
             ColumnDataSource({"image": [np.zeros((1, 1), np.float32)], **blank}, syncable=False)
@@ -104,33 +240,17 @@ class GridImage:
             for layer, mapper in zip(layers, mappers, strict=True)
         ]  # fmt: skip
         plot.toolbar_inner = False  # it would lie on the picture
-        known = [side.for_browser() for side in self._sides]
-        shared = {"quantities": known, "head": _HEAD}
         axes = {"x_axis": plot.xaxis[0], "y_axis": plot.yaxis[0]}
         for axis in axes.values():
-            axis.syncable = False  # or each change of its label would be told to the server
+            axis.syncable = False  # or the server would hear of each change of its label
+        places = Places(layers[0], self._sides, stands=ColumnDataSource(_NO_SIDES, syncable=False))
+        known = {**axes, "layers": layers, "stands": places.stands, "head": _HEAD}
+        labels = [side.label for side in self._sides]
         cells.js_on_change(
-            "data",
-            CustomJS(args={**shared, **axes, "layers": layers}, code=asset_text("heat_map.js")),
+            "data", CustomJS(args={**known, "labels": labels}, code=asset_text("heat_map.js"))
         )
-        plot.js_on_event(
-            Tap, CustomJS(args={**shared, "cells": cells}, code=asset_text("grid_click.js"))
-        )
-        code = f"const say = (cell) => {{{say}}}\n" + asset_text("grid_read.js")
-        args = {**shared, "cells": cells, "n_layers": self._n_layers}
-        readers = {
-            field: CustomJSHover(args={**args, "wanted": wanted}, code=code)
-            for field, wanted in (("$x", "x"), ("$y", "y"), ("@image", "value"))
-        }
-        plot.add_tools(
-            HoverTool(
-                renderers=self.renderers[:1],
-                visible=False,  # no button: it is always on
-                point_policy="follow_mouse",
-                tooltips=_TOOLTIP,
-                formatters=readers,
-            )
-        )
+        plot.js_on_event(Tap, going(places))
+        plot.add_tools(reading(places, self.renderers[:1], say, layers))
 
     def columns(
         self,

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import DOF_NAMES
+from bearingcore.statics.equilibrium import TERM_SYMBOLS
 
 UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""
@@ -18,10 +19,7 @@ NEGLIGIBLE = 1e-6
 
 PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
 """Row and column of each term."""
-TERM_UNITS = [UNITS[(i > 2) + (j > 2)] for i, j in PLACES]
-
-_SUBSCRIPTS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
-SYMBOLS = [f"k{_SUBSCRIPTS[DOF_NAMES[i]]}{_SUBSCRIPTS[DOF_NAMES[j]]}" for i, j in PLACES]
+SYMBOLS = list(TERM_SYMBOLS.values())
 """Symbols of the terms; all but the first letter is a subscript."""
 
 
@@ -42,11 +40,6 @@ class Cell:
         """Heights of values on an axis with these limits."""
         low, high = limits
         return self.bottom + (self.top - self.bottom) * (value - low) / (high - low)
-
-
-def unit_name(unit: str) -> str:
-    """A unit as the name of a column has it: "N·m/rad" is "n_m_per_rad"."""
-    return unit.replace("N·m", "n_m").replace("/", "_per_").replace("N", "n")
 
 
 def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:

@@ -30,7 +30,7 @@ from bokeh.plotting import figure
 
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""
-SOUND = "#8E93A3"
+HEALTHY = "#8E93A3"
 """The same bearing without its defect."""
 DEFECT = "#E69F00"
 """Where the defect is."""
@@ -49,7 +49,7 @@ DIRECTIONS = ("x", "y", "z", "rx", "ry")
 DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
 """Colour of each direction of motion, in the order of `DIRECTIONS`."""
 BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
-"""Colours of balls that are told apart, taken in turn."""
+"""Colours of balls that are shown one by one, taken in turn."""
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 TEXT_SIZE = "12px"
@@ -204,7 +204,7 @@ def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Rang
     setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
     axis.formatter = tick_formatter(quantity, shown)
     if quantity.prefixed:
-        axis.syncable = False  # or each change of its label would be told to the server
+        axis.syncable = False  # or the server would hear of each change of its label
         follow = CustomJS(
             args={
                 "axis": axis,
@@ -259,7 +259,7 @@ def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
 
 
 def words_of(source: ColumnDataSource, code: str) -> CustomJSExpr:
-    """Text made in the browser from the numbers of `source`, as the wire carries no words.
+    """Text made in the browser from the numbers of `source`, as the packed source carries no words.
 
     `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
     ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.

@@ -16,22 +16,26 @@ import numpy as np
 
 from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
-from bearingcore.signals.recording import UNITS
+from bearingcore.signals.facts import Finding
+from bearingcore.signals.units import STANDARD_GRAVITY, UNITS, VOLTAGES, kind_of
 
-FIELDS = ("x", "y", "unit", "full_scale", "sample_rate", "shaft_speed")
+FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate", "shaft_speed")
 LONGEST_TEXT = 40
 NONE = ""
 """The choice of no column."""
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
+MOST_SAID = 12
+"""Numbers and words of a file that are shown."""
+
 _WORDS = {
     "sample_rate": ("The sample rate", "Hz", 10.0, 1e7),
     "full_scale": ("What a 1 in the file stands for", "", 1e-12, 1e12),
+    "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
     "shaft_speed": ("The shaft speed", "Hz", 1e-3, 1e4),
 }
-_SAYS_X = {"x", "ax", "hor", "horiz", "horizontal", "h"}
-_SAYS_Y = {"y", "ay", "ver", "vert", "vertical", "v"}
+_USUAL_SENSITIVITY = "100"
 
 
 @dataclass(frozen=True)
@@ -53,71 +57,177 @@ class FormError(ValueError):
 
 def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
     """What stands in the form at first; `shaft_speed_hz` where the file does not tell it."""
-    data = [index for index in range(len(table.names)) if index != table.time_column]
-    x = next((i for i in data if _tokens(table.names[i]) & _SAYS_X), None)
-    y = next((i for i in data if _tokens(table.names[i]) & _SAYS_Y and i != x), None)
-    if x is None and y is None and data:
-        x, y = (data[0], data[1]) if len(data) == 2 else (None, data[0])
-    rate = table.suggested_rate
-    headings = " ".join(table.names[i] for i in (x, y) if i is not None)
+    contents = table.contents
+    rate, speed = contents.sample_rate, contents.shaft_speed
+    chosen = contents.choice.columns
     return {
-        "x": NONE if x is None else str(x),
-        "y": NONE if y is None else str(y),
-        "unit": "g" if _in_g(headings) else "m/s²",
+        "x": str(chosen.get("x", NONE)),
+        "y": str(chosen.get("y", NONE)),
+        "unit": contents.unit.value,
         "full_scale": "1",
-        "sample_rate": "" if rate is None else f"{rate:.8g}",
-        "shaft_speed": speed_told(table.scalars) or f"{shaft_speed_hz:g} Hz",
+        "sensitivity": _USUAL_SENSITIVITY,
+        "sample_rate": "" if rate is None else f"{rate.value:.8g}",
+        "shaft_speed": f"{shaft_speed_hz:g} Hz" if speed is None else _written(speed, table),
     }
 
 
-def columns_of(table: Table) -> list[list[str]]:
-    """[value, words] of the columns to choose from; times and none first."""
-    time = table.time_column
-    return [[NONE, "not measured"]] + [
-        [str(index), _short(name)] for index, name in enumerate(table.names) if index != time
+def _written(speed: Finding[float], table: Table) -> str:
+    """A speed in the unit in which machines of its kind are told: rpm where the file does."""
+    hertz = speed.value / (2.0 * math.pi)
+    return f"{60.0 * hertz:.6g} rpm" if "rpm" in speed.reason.lower() else f"{hertz:.6g} Hz"
+
+
+def reasons(table: Table) -> dict[str, str]:
+    """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
+    contents = table.contents
+    rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
+    told = dict.fromkeys(choice.columns, choice.reason)
+    told["unit"] = _because(contents.unit)
+    if not table.full_scale_known:
+        told["full_scale"] = "Full scale of the recorder, in the unit."
+    told["sensitivity"] = "A guess: the usual sensor. It stands on its label."
+    told["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
+    told["shaft_speed"] = (
+        "The file does not say it; this is the scene's." if speed is None else _because(speed)
+    )
+    return {name: words[:1].upper() + words[1:] for name, words in told.items()}
+
+
+def _because(finding: Finding[Any]) -> str:
+    return f"{'Said by' if finding.told else 'A guess:'} {finding.reason}"
+
+
+def questions(table: Table) -> dict[str, str]:
+    """What a person has to answer before the signal can be taken, by field."""
+    contents = table.contents
+    asked: dict[str, str] = {}
+    choice = contents.choice
+    if choice.question:
+        asked["y"] = choice.question + (f" A guess: {choice.reason}." if choice.columns else "")
+    rate = contents.sample_rate
+    if rate is not None and not rate.told:
+        trouble = contents.sampling.trouble if contents.sampling is not None else ""
+        question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
+        asked["sample_rate"] = f"{trouble} {question}".strip()
+    return asked
+
+
+def said(table: Table) -> str:
+    """What else a file says about itself, in a line; its load in newtons too."""
+    contents = table.contents
+    told = [
+        f"{_short(name)} {_short(text)}" for name, text in list(contents.said.items())[:MOST_SAID]
     ]
+    words = f"The file says: {', '.join(told)}." if told else ""
+    if contents.load is not None:
+        sure = "" if contents.load.told else " if it is in pounds"
+        words += f" Its load is {contents.load.value:.4g} N{sure}."
+    return words.strip()
+
+
+def load_told(table: Table) -> float | None:
+    """The load [N] that a file gives, where there is one."""
+    load = table.contents.load
+    return load.value if load is not None and load.value > 0.0 else None
+
+
+def columns_of(table: Table) -> list[list[str]]:
+    """[value, words] of the columns to choose from; none first, no times."""
+    offered = [
+        [str(index), _short(column.name) + (f" ({column.place})" if column.place else "")]
+        for index, column in enumerate(table.contents.columns)
+        if column.role != "time"
+    ]
+    return [[NONE, "not measured"], *offered]
 
 
 def usable(table: Table) -> bool:
     """Whether any of the columns could be a signal."""
-    signals = [table.columns[:, i] for i in range(len(table.names)) if i != table.time_column]
-    return any(np.isfinite(signal).all() and np.ptp(signal) > 0.0 for signal in signals)
+    for index, column in enumerate(table.contents.columns):
+        signal = table.columns[:, index]
+        filled = np.flatnonzero(~np.isnan(signal))
+        if column.role != "time" and filled.size:
+            signal = signal[: filled[-1] + 1]  # a shorter column ends earlier
+            if np.isfinite(signal).all() and np.ptp(signal) > 0.0:
+                return True
+    return False
 
 
-def understood(table: Table, form: Mapping[str, Any]) -> Asked:
-    """The recording that a form asks for; `FormError` with sentences where it cannot be."""
+def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) -> Asked:
+    """The recording that a form asks for; `FormError` with sentences where it cannot be.
+
+    `speed_known` says whether the shaft speed is that of the measurement, or only the scene's.
+    """
     texts = {name: str(form.get(name, ""))[:LONGEST_TEXT].strip() for name in FIELDS}
     refused: dict[str, str] = {}
     numbers: dict[str, float] = {}
+    voltage = texts["unit"] in VOLTAGES
     for name in _WORDS:
+        if name == "sensitivity" and not voltage:
+            continue
         try:
             numbers[name] = _speed(texts[name]) if name == "shaft_speed" else _read(name, texts)
         except ValueError as error:
             refused[name] = str(error)
     chosen = {name: texts[name] for name in ("x", "y") if texts[name] != NONE}
     if not chosen:
-        refused["y"] = "Choose the column of at least one direction."
+        refused["y"] = table.contents.choice.question or (
+            "Choose the column of at least one direction."
+        )
     elif len(set(chosen.values())) < len(chosen):
         refused["x"] = "x and y cannot be the same column."
     elif not all(_is_index(text, len(table.names)) for text in chosen.values()):
         refused["y"] = "There is no such column."
+    else:
+        refused |= _unfit(table, {name: int(text) for name, text in chosen.items()}, texts["unit"])
     if texts["unit"] not in UNITS:
-        refused["unit"] = "The unit is m/s² or g."
+        refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
     if refused:
         raise FormError(refused)
+    columns = tuple(int(text) for text in chosen.values())
+    speed = 2.0 * math.pi * numbers["shaft_speed"]
+    # [V/(m/s²)], of a number in mV/g
+    sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY if voltage else None
     try:
         recording = table.recording(
-            [int(text) for text in chosen.values()],
+            columns,
             list(chosen),
             texts["unit"],
             numbers["sample_rate"],
             numbers["full_scale"],
+            sensitivity=sensitivity,
+            shaft_speed=speed if speed_known else None,
         )
     except ValueError as error:
         raise FormError({next(iter(chosen)): f"These columns are no signal: {error}."}) from None
-    columns = tuple(int(text) for text in chosen.values())
-    origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"])
-    return Asked(recording, 2.0 * math.pi * numbers["shaft_speed"], origin)
+    origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
+    return Asked(recording, speed, origin)
+
+
+def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]:
+    """Sentences on columns that cannot be directions of one bearing's acceleration."""
+    refused: dict[str, str] = {}
+    columns = {name: table.contents.columns[index] for name, index in chosen.items()}
+    places = {column.place for column in columns.values()} - {""}
+    if len(places) > 1:
+        refused["x"] = (
+            f"These are sensors at two places ({' and '.join(sorted(places))}), not two directions "
+            "of one bearing: choose one place."
+        )
+    units = {column.unit for column in columns.values()} - {None}
+    if len(units) > 1:
+        refused["x"] = (
+            f"The headings give two units ({' and '.join(sorted(map(str, units)))}): choose one of "
+            "these columns."
+        )
+    for name, column in columns.items():
+        if column.unit is not None and column.unit not in UNITS:
+            refused[name] = f"“{_short(column.name)}” is in {column.unit}: no acceleration."
+        elif column.unit is not None and unit in UNITS and kind_of(column.unit) != kind_of(unit):
+            refused["unit"] = (
+                f"“{_short(column.name)}” says {column.unit}, which is no {kind_of(unit)}."
+            )
+    return refused
 
 
 def _read(name: str, texts: Mapping[str, str]) -> float:
@@ -156,28 +266,6 @@ def number_of(text: str, words: str, unit: str, least: float, most: float) -> fl
 
 def _is_index(text: str, count: int) -> bool:
     return text.isascii() and text.isdecimal() and len(text) < 5 and int(text) < count
-
-
-def _tokens(heading: str) -> set[str]:
-    """The words of a heading, without units in brackets."""
-    bare = re.sub(r"[\[(].*?[\])]", " ", heading.lower())
-    return {word for word in re.split(r"[^a-z0-9]+", bare) if word}
-
-
-def _in_g(headings: str) -> bool:
-    """Whether a heading gives g as its unit."""
-    return re.search(r"[\[(/_\s]g[\])\s]|[\[(/_\s]g$", headings) is not None
-
-
-def speed_told(scalars: Mapping[str, float]) -> str:
-    """Shaft speed among the single numbers of a file, with its unit; empty without one."""
-    for name, value in scalars.items():
-        if math.isfinite(value) and value > 0.0:
-            if "rpm" in name.lower():
-                return f"{value:g} rpm"
-            if name.lower() in ("shaft_speed_hz", "shaft_frequency", "fr", "f_shaft", "speed_hz"):
-                return f"{value:g} Hz"
-    return ""
 
 
 def _short(name: str) -> str:

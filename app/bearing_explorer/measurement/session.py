@@ -19,12 +19,17 @@ import numpy as np
 
 from bearing_explorer.compute.jobs import Change
 from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.measurement.background import noise_level, true_part
+from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
     Asked,
     FormError,
     columns_of,
     guess,
-    speed_told,
+    load_told,
+    questions,
+    reasons,
+    said,
     understood,
     usable,
 )
@@ -32,6 +37,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.diagnosis.variants import Tolerances, variant
 
@@ -40,17 +46,12 @@ log = logging.getLogger(__name__)
 MOST_NUMBERS = 4_000_000
 """Numbers of a table that a session keeps; later rows are left out."""
 
-NOISES: Mapping[str, float] = {"40": 40.0, "20": 20.0, "10": 10.0, "none": math.inf}
-"""Signal over noise [dB] of simulated measurements."""
-
-MACHINES = ("same", "different")
-"""Whether the measured machine has the numbers of the scene, or only about those."""
-
 RATE = 25_600.0
 """[Hz] of simulated measurements."""
 
-PASSES = 60.0
-"""Ball passes in one, where that is neither very short nor very long."""
+PASSES = 200.0
+"""Ball passes in one, where that is neither very short nor very long: enough to tell lines apart
+that lie a turn of the shaft beside each other."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
 SETTLING = 0.3  # [s] before a simulated measurement begins
@@ -60,7 +61,9 @@ FIRST_WORDS = (
     "scene beside."
 )
 
-_SPEED_OF_SCENE = "The shaft speed is that of the scene: type in the measured one."
+_SPEED_OF_SCENE = (
+    "The shaft speed is that of the scene: type in the measured one if it was another."
+)
 
 #: two files at a time are read, whoever brings them: reading takes memory, and the threads that
 #: draw must stay free
@@ -77,6 +80,14 @@ class MeasurementState:
     columns: list[list[str]] = field(default_factory=list)
     values: dict[str, str] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
+    #: why the fields are filled in as they are
+    reasons: dict[str, str] = field(default_factory=dict)
+    #: fields that a person has to answer before the signal is taken
+    open: list[str] = field(default_factory=list)
+    #: what the file says beside its signals
+    said: str = ""
+    #: [N] in the file, None where it tells none
+    load: float | None = None
     scaled: bool = False
 
 
@@ -115,10 +126,15 @@ class Measurement:
         #: back with it, so that pieces of a file that was given up are told from those of the next
         self.show: Callable[[MeasurementState], None] = lambda _: None
         self.want: Callable[[int, int], None] = lambda begin, of: None
+        #: takes a message as the controls send it
+        self.change_scene: Callable[[dict[str, Any]], None] = lambda _: None
         self._editor = editor
         self._assign = assign
         self._draw = draw
+        #: which part is damaged, looked for in the background
+        self.diagnoses = Diagnoses(assign, draw)
         self._table: Table | None = None
+        self._first: dict[str, str] = {}  # the form as it was filled in
         self._cut = ""
         self._upload: Upload | None = None
         self._latest = 0  # number of what was asked for last: what it overtook is dropped
@@ -131,6 +147,7 @@ class Measurement:
         """The session is over."""
         self._ended = True
         self._upload = self._table = None
+        self.diagnoses.stop()
 
     def redraw(self) -> None:
         """Draw again with what the views have been told."""
@@ -145,7 +162,9 @@ class Measurement:
         if "piece" in message and message.get("of") == self._uploads:
             self._take_piece(message["piece"])
         if isinstance(form := message.get("form"), dict):
-            self._take_form(form)
+            self._take_form(form, message.get("sure") is True)
+        if message.get("load") is True and self._table is not None:
+            self._take_load(self._table)
         if isinstance(wish := message.get("simulate"), dict):
             self._simulate(wish)
 
@@ -186,48 +205,82 @@ class Measurement:
         self._in_background(read, self._take_read, upload.name)
 
     def _take_read(self, found: _Read) -> None:
-        """The file is read and could be asked about: it takes the place of the one before."""
-        self._table, self._cut = found.table, found.cut
+        """The file is read and could be asked about: it takes the place of the one before.
+
+        The figures of the one before leave with it, so that none stands under another's name.
+        """
+        table = found.table
+        self._table, self._cut, self._first = table, found.cut, found.form
+        self.measured = self.sized = None
         if found.asked is not None:
             self.measured = _measured(found.asked)
-            told = "" if speed_told(found.table.scalars) else _SPEED_OF_SCENE
+            told = "" if table.contents.shaft_speed is not None else _SPEED_OF_SCENE
             words, bad = self._summary(told), False
         else:
-            words = f"{found.table.name} is read. " + " ".join(found.refused.values())
-            bad = True
+            words = f"{table.name} is read. {_WAITS} " + " ".join(
+                {**found.asks, **found.refused}.values()
+            )
+            bad = bool(found.refused) and not found.asks
         self._tell(
             words=words,
             bad=bad,
             busy=False,
-            columns=columns_of(found.table),
+            columns=columns_of(table),
             values=found.form,
-            refused=found.refused,
-            scaled=found.table.name.lower().endswith(".wav"),
+            refused={name: text for name, text in found.refused.items() if name not in found.asks},
+            reasons={**reasons(table), **found.asks},
+            open=list(found.asks),
+            said=said(table),
+            load=load_told(table),
+            scaled=not table.full_scale_known,
         )
         self._draw()
 
-    def _take_form(self, form: Mapping[Any, Any]) -> None:
-        """The columns, the unit or the rates are others than before."""
+    def _take_form(self, form: Mapping[Any, Any], sure: bool) -> None:
+        """The columns, the unit or the rates are others than before, or a person is sure of them.
+
+        What the file leaves open is taken once it has been answered or agreed to.
+        """
         table = self._table
         if table is None:
             return
         texts = {name: str(form.get(name, ""))[:40] for name in self.state.values}
+        first = self._first
+        left = [name for name in self.state.open if not sure and texts.get(name) == first.get(name)]
+        if "y" in left and texts.get("x"):
+            left.remove("y")
+        known = sure or texts.get("shaft_speed") != first.get("shaft_speed")
+        known = known or _speed_is_told(table)
         self._latest += 1
         self._in_background(
-            lambda: _tried(table, texts), lambda found: self._take_tried(texts, found), table.name
+            lambda: _tried(table, texts, known),
+            lambda found: self._take_tried(texts, found, left),
+            table.name,
         )
 
-    def _take_tried(self, texts: dict[str, str], found: Asked | FormError) -> None:
+    def _take_tried(self, texts: dict[str, str], found: Asked | FormError, left: list[str]) -> None:
         if isinstance(found, FormError):
             stays = " What is drawn is the signal as it was." if self.measured else ""
             self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
             return
+        if left:
+            table = self._table
+            words = " ".join(questions(table).get(name, "") for name in left) if table else ""
+            self._tell(words=f"{_WAITS} {words}", bad=False, values=texts, refused={}, open=left)
+            return
         self.measured = _measured(found)
-        self._tell(words=self._summary(), bad=False, busy=False, values=texts, refused={})
+        self._tell(words=self._summary(), bad=False, busy=False, values=texts, refused={}, open=[])
         self._draw()
 
+    def _take_load(self, table: Table) -> None:
+        """The load of the file, downwards, into the scene."""
+        load = load_told(table)
+        if load is not None:
+            self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
+
     def _summary(self, *more: str) -> str:
-        words = (summary(self.measured, self._editor.scene), self._cut, *more)
+        notes = self.measured.recording.notes if self.measured is not None else ()
+        words = (summary(self.measured, self._editor.scene), self._cut, *notes, *more)
         return " ".join(filter(None, words))
 
     # Simulated ones
@@ -248,15 +301,18 @@ class Measurement:
         self._in_background(make, self._take_simulated, "The scene")
 
     def _take_simulated(self, found: Measured) -> None:
-        self._table, self._cut, self.measured = None, "", found
-        self._tell(words=self._summary(), bad=False, busy=False, columns=[], values={}, refused={})
+        self._table, self._cut, self.measured, self.sized = None, "", found, None
+        self._tell(words=self._summary(), bad=False, busy=False, **_NO_FORM)
         self._draw()
 
     # Saying and doing
 
     def _refuse(self, sentence: str) -> None:
-        stays = " The signal before it stays." if self.measured is not None else ""
-        self._tell(words=f"{sentence}{stays}", bad=True, busy=False)
+        """Say what is wrong with a file; the signal before it leaves, as its name is gone."""
+        left = " The signal before it is put away." if self.measured is not None else ""
+        self._table = self.measured = self.sized = None
+        self._tell(words=f"{sentence}{left}", bad=True, busy=False, **_NO_FORM)
+        self._draw()
 
     def _tell(self, **news: Any) -> None:
         self.state = dataclasses.replace(self.state, **news)
@@ -290,6 +346,14 @@ class Measurement:
         task.add_done_callback(self._tasks.discard)
 
 
+_NO_FORM: Mapping[str, Any] = {
+    "columns": [], "values": {}, "refused": {}, "reasons": {}, "open": [], "said": "", "load": None,
+}  # fmt: skip
+"""Of a state without a file."""
+
+_WAITS = "Nothing is drawn yet:"
+
+
 @dataclass(frozen=True)
 class _Read:
     """A file's table, what stands in its form, and the recording or why there is none yet."""
@@ -299,6 +363,7 @@ class _Read:
     cut: str
     asked: Asked | None
     refused: dict[str, str]
+    asks: dict[str, str]
 
 
 def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
@@ -311,22 +376,28 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
     table, cut = _shortened(table)
-    form = guess(table, shaft_speed_hz)
-    found = _tried(table, form)
+    form, asks = guess(table, shaft_speed_hz), questions(table)
+    found = _tried(table, form, _speed_is_told(table))
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
-        return _Read(table, form, cut, None, found.sentences)
-    return _Read(table, form, cut, found, {})
+        return _Read(table, form, cut, None, found.sentences, asks)
+    return _Read(table, form, cut, None if asks else found, {}, asks)
+
+
+def _speed_is_told(table: Table) -> bool:
+    """Whether the file itself says how fast the shaft turned."""
+    speed = table.contents.shaft_speed
+    return speed is not None and speed.told
 
 
 def _measured(asked: Asked) -> Measured:
     return Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
 
 
-def _tried(table: Table, form: Mapping[str, str]) -> Asked | FormError:
+def _tried(table: Table, form: Mapping[str, str], speed_known: bool) -> Asked | FormError:
     try:
-        return understood(table, form)
+        return understood(table, form, speed_known)
     except FormError as refused:
         return refused
 
@@ -337,9 +408,7 @@ def _shortened(table: Table) -> tuple[Table, str]:
     most = MOST_NUMBERS // columns
     if rows <= most:
         return table, ""
-    kept = dataclasses.replace(
-        table, columns=table.columns[:most].copy(), sample_rate=table.suggested_rate
-    )
+    kept = dataclasses.replace(table, columns=table.columns[:most].copy())
     return kept, f"Only the first {_thousands(most)} of {_thousands(rows)} rows are used."
 
 
@@ -397,7 +466,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     signal = motion.outer_acceleration[first:, columns]
     if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
         raise ValueError("Not possible: the simulated housing does not move along x or y.")
-    level = np.sqrt(np.mean(signal**2, axis=0)) * 10.0 ** (-noise_db / 20.0)
+    level = noise_level(truth, signal, columns, noise_db, settings)
     noisy = signal + level * rng.standard_normal(signal.shape)
     name = "Simulated" + (f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else "")
     directions = tuple(motion.dofs[index] for index in columns)
@@ -405,4 +474,8 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         recording = Recording(noisy, motion.sample_rate, directions, name)
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
-    return Measured(recording, scene.shaft_speed, scene.defects[0].extent if single else None)
+    extent = scene.defects[0].extent if single else None
+    return Measured(
+        recording, scene.shaft_speed, extent,
+        true_part=true_part(scene), noiseless=math.isinf(noise_db),
+    )  # fmt: skip

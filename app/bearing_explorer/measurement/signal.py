@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.compute.results import ComputedOnce, Results, Settings
+from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearingcore.signals.envelope_band import PIECES
 
 if TYPE_CHECKING:
@@ -35,12 +36,16 @@ HIGHEST_SHARE = 0.4
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit]."""
+    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit].
+
+    `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages.
+    """
 
     file: str
     columns: tuple[int, ...]
     unit: str
     full_scale: float
+    sensitivity: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,12 +62,18 @@ class Measured:
         [rad] of the defect where the signal is a simulated one, else None.
     origin
         the file, where it comes from one.
+    true_part
+        the part that is damaged, or "none", where the signal is a simulated one; else "".
+    noiseless
+        whether it is simulated without any noise.
     """
 
     recording: Recording
     shaft_speed: float
     true_extent: float | None = None
     origin: Origin | None = None
+    true_part: str = ""
+    noiseless: bool = False
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False
@@ -204,5 +215,5 @@ def _envelope(
     return core.envelope_spectrum(signal, motion.sample_rate, (low, high), resolution)
 
 
-simulated_spectra = ComputedOnce(_spectrum, 64)
-simulated_envelopes = ComputedOnce(_envelope, 64)
+simulated_spectra = SingleFlightCache(_spectrum, 64)
+simulated_envelopes = SingleFlightCache(_envelope, 64)

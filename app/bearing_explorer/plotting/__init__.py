@@ -2,7 +2,7 @@
 
 ``from app import plotting`` and hand a result to the function that is called like it:
 
-    plotting.load_distribution(equilibrium(scene), sound=equilibrium(scene.sound()))
+    plotting.load_distribution(equilibrium(scene), healthy=equilibrium(scene.healthy()))
 
 Every object has dimensions with names and units, lies on the page's colours, and can be laid out,
 overlaid, sliced and saved as any HoloViews object can (``+``, ``*``, ``.select``, ``hv.save``).

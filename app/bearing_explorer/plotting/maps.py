@@ -8,11 +8,10 @@ from typing import Any
 import holoviews as hv
 import numpy as np
 
-from bearing_explorer.compute.explore import term_words
 from bearing_explorer.figures import style
-from bearing_explorer.figures.matrix_cells import TERM_UNITS
 from bearing_explorer.plotting.style import Axes, color_scale, dimension
-from bearingcore import STIFFNESS_TERMS, Maps
+from bearingcore import Maps
+from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 
 LOADED_BALLS = "loaded_balls"
 _EXTENT = style.AxisQuantity("Extent", "Δφf", "°")
@@ -38,8 +37,8 @@ def _map(found: Maps, term: str) -> hv.Image:
         quantity = style.AxisQuantity("Loaded balls", "", "")
     else:
         values = found.term(term)
-        unit = TERM_UNITS[STIFFNESS_TERMS.index(term)]
-        quantity = style.AxisQuantity("", term_words(term), unit, prefixed=True)
+        unit = TERM_UNITS[term]
+        quantity = style.AxisQuantity("", TERM_SYMBOLS[term], unit, prefixed=True)
     palette, limits = color_scale(values)
     image = hv.Image(
         (np.degrees(found.cage_angles), np.degrees(found.extents), values),

@@ -51,7 +51,7 @@ def spectrum(
     Parameters
     ----------
     found
-        one spectrum with one column, or several by the words that tell them apart.
+        one spectrum with one column, or several by words that distinguish them.
     highest
         [Hz] up to which it is drawn; None draws all.
     """

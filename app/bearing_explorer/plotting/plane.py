@@ -7,6 +7,7 @@ histogram, selected with the mouse, is what stays bright on the map.
 from __future__ import annotations
 
 import dataclasses
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -14,13 +15,13 @@ from typing import TYPE_CHECKING, Any
 import holoviews as hv
 import numpy as np
 import param
-from bokeh.models import CustomJS, CustomJSHover, HoverTool
+from bokeh.models import HoverTool
 from holoviews.plotting.bokeh.links import LinkCallback
 from holoviews.plotting.links import Link
 from numpy.typing import NDArray
 
-from bearing_explorer.assets import asset_text
 from bearing_explorer.figures import style
+from bearing_explorer.figures.heat_map import Places, Side, reading, sections
 from bearing_explorer.figures.style import AxisQuantity
 from bearing_explorer.plotting.style import Axes, color_scale, dimension
 
@@ -28,12 +29,12 @@ if TYPE_CHECKING:
     from xarray import DataArray
 
 NO_ANSWER = "#B9BEC4"
-NO_SECTION = "no line"
 BINS = 24
-_TOOLTIP = (
-    f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; line-height: 1.45">'
-    "$x{custom}<br>$y{custom}<br><b>@image{custom}</b></div>"
-)
+_SAY = """
+if (isNaN(cell[0])) return "no answer"
+const plain = String(Number(cell[0].toPrecision(4))).replace("-", "\\u2212")
+return `${words}: ` + (prefixed ? si(cell[0], unit.trim(), 4) : plain + unit)
+"""
 _WHY = (
     f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; max-width: 260px; '
     'white-space: normal">No answer: @reason</div>'
@@ -130,16 +131,13 @@ class _SectionCallback(LinkCallback):
         self.root_model, self.link = root_model, link
         self.source_plot, self.target_plot = source_plot, target_plot
         line, title = target_plot.handles["source"], target_plot.handles["plot"].title
-        line.syncable = title.syncable = False  # or each movement would be told to the server
+        line.syncable = title.syncable = False  # or the server would hear of each movement
         names = ("along", "value", "sideways", "words", "unit", "mark")
-        follow = CustomJS(
-            args={
-                "image": source_plot.handles["source"],
-                "line": line,
-                "title": title,
-                **{name: getattr(link, name) for name in names},
-            },
-            code=asset_text("explore_sections.js"),
+        follow = sections(
+            source_plot.handles["source"],
+            line=line,
+            title=title,
+            **{name: getattr(link, name) for name in names},
         )
         for event in self.on_source_events:
             source_plot.handles["plot"].js_on_event(event, follow)
@@ -302,33 +300,19 @@ class _Reading:
     """A hook: what stands under the pointer, with the prefix its number asks for."""
 
     def __init__(self, x: AxisQuantity, y: AxisQuantity, value: AxisQuantity) -> None:
-        self._of = {"$x": ("x", x), "$y": ("y", y), "@image": ("value", value)}
+        self._sides = [Side("", axis.name, axis.symbol, axis.unit) for axis in (x, y)]
+        words = {"words": value.words, "unit": _spaced(value.unit), "prefixed": value.prefixed}
+        self._say = f"const {{words, unit, prefixed}} = {json.dumps(words)}\n{_SAY}"
 
     def __call__(self, plot: Any, _: Any) -> None:
         if "reading" in plot.handles:
             return
-        code = style.JS_PREFIX + asset_text("explore_read.js")
-        readers = {
-            field: CustomJSHover(
-                args={
-                    "image": plot.handles["source"],
-                    "wanted": wanted,
-                    "words": quantity.words,
-                    "unit": _spaced(quantity.unit),
-                    "prefixed": quantity.prefixed,
-                },
-                code=code,
-            )
-            for field, (wanted, quantity) in self._of.items()
-        }
-        plot.handles["reading"] = HoverTool(
-            renderers=[plot.handles["glyph_renderer"]],
-            visible=False,  # no button: it is always on
-            point_policy="follow_mouse",
-            tooltips=_TOOLTIP,
-            formatters=readers,
+        image = plot.handles["source"]
+        tool = reading(
+            Places(image, self._sides), [plot.handles["glyph_renderer"]], self._say, [image]
         )
-        plot.handles["plot"].add_tools(plot.handles["reading"])
+        plot.handles["reading"] = tool
+        plot.handles["plot"].add_tools(tool)
 
 
 def _image(data: Field) -> hv.Image:

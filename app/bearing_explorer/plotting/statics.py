@@ -8,20 +8,20 @@ from collections.abc import Sequence
 import holoviews as hv
 import numpy as np
 
-from bearing_explorer.compute.explore import mode_words, term_words
 from bearing_explorer.compute.load_curve import load_curve
 from bearing_explorer.figures import style
-from bearing_explorer.figures.matrix_cells import TERM_UNITS
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
 from bearingcore import STIFFNESS_TERMS, Equilibrium, Modes
 from bearingcore.common import checks
+from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
+from bearingcore.sweep.outputs import mode_symbol
 
 _CAGE_ANGLE = dimension("cage_angle_deg", style.CAGE_ANGLE)
 _COLORS = (*style.DIRECTION_COLORS, "#E69F00", "#F0C419", style.INK)
 
 
 def load_distribution(
-    state: Equilibrium, *, sound: Equilibrium | None = None, cage_angle: float | None = None
+    state: Equilibrium, *, healthy: Equilibrium | None = None, cage_angle: float | None = None
 ) -> hv.Overlay:
     """What a ball carries at each place around the bearing (Fig. 3), and the balls where they are.
 
@@ -29,7 +29,7 @@ def load_distribution(
     ----------
     state
         over a ball spacing or more, or the curve has gaps.
-    sound
+    healthy
         the same without the defect, drawn grey.
     cage_angle
         [rad] at which the balls are drawn: the nearest that `state` has; None takes the first.
@@ -39,7 +39,7 @@ def load_distribution(
     axes = Axes(style.BALL_ANGLE, style.BALL_LOAD)
     drawn: list[hv.Element] = []
     for given, label, color in (
-        (sound, "without the defect", style.SOUND),
+        (healthy, "without the defect", style.HEALTHY),
         (state, "with the defect", style.DEFECTIVE),
     ):
         if given is not None:
@@ -63,7 +63,7 @@ def stiffness(
     state: Equilibrium,
     terms: Sequence[str] = ("k_xx", "k_yy"),
     *,
-    sound: Equilibrium | None = None,
+    healthy: Equilibrium | None = None,
 ) -> hv.Overlay:
     """Terms of the stiffness of the bearing over the cage angle (Eq. 17), all of one unit.
 
@@ -71,7 +71,7 @@ def stiffness(
     ----------
     terms
         of `bearingcore.STIFFNESS_TERMS`.
-    sound
+    healthy
         the same without the defect, drawn grey.
     """
     unit = _unit_of(terms)
@@ -81,12 +81,12 @@ def stiffness(
     drawn = [
         hv.Curve((np.degrees(given.cage_angles), given.term(term)), _CAGE_ANGLE, value, label=label)
         .opts(color=color, line_width=width)
-        for given, width in ((sound, 1.5), (state, 2.0))
+        for given, width in ((healthy, 1.5), (state, 2.0))
         if given is not None
         for term, own in zip(terms, _COLORS, strict=False)
         for label, color in (
-            [(term_words(term), own)] if given is state
-            else [(f"{term_words(term)} without the defect", style.SOUND)]
+            [(TERM_SYMBOLS[term], own)] if given is state
+            else [(f"{TERM_SYMBOLS[term]} without the defect", style.HEALTHY)]
         )
     ]  # fmt: skip
     return hv.Overlay(drawn).opts(**curve_options(axes, legend_position="right"))
@@ -96,7 +96,7 @@ def _unit_of(terms: Sequence[str]) -> str:
     for term in terms:
         if term not in STIFFNESS_TERMS:
             raise checks.refuse("stiffness term", term, ", ".join(STIFFNESS_TERMS))
-    units = {TERM_UNITS[STIFFNESS_TERMS.index(term)] for term in terms}
+    units = {TERM_UNITS[term] for term in terms}
     if len(units) != 1 or len(terms) > len(_COLORS):
         raise checks.refuse(
             "terms", tuple(terms), f"1 to {len(_COLORS)} terms of one unit; here: {sorted(units)}"
@@ -104,12 +104,12 @@ def _unit_of(terms: Sequence[str]) -> str:
     return units.pop()
 
 
-def modes(found: Modes, *, sound: Modes | None = None) -> hv.Overlay:
+def modes(found: Modes, *, healthy: Modes | None = None) -> hv.Overlay:
     """Natural frequencies over the cage angle, and the band in which each moves (Fig. 8).
 
     Parameters
     ----------
-    sound
+    healthy
         the same without the defect, drawn grey.
     """
     quantity = style.AxisQuantity("Natural frequency", "f", "Hz")
@@ -125,16 +125,16 @@ def modes(found: Modes, *, sound: Modes | None = None) -> hv.Overlay:
                 [value, hv.Dimension("greatest", unit="Hz")],
             )
             drawn.append(band.opts(color=_mode_color(label), alpha=0.10, line_alpha=0.0))
-    if sound is not None:
+    if healthy is not None:
         drawn += [
             hv.Curve(
-                (np.degrees(sound.cage_angles), sound.frequency[:, i]), _CAGE_ANGLE, value
-            ).opts(color=style.SOUND, line_width=1.5)
-            for i in range(len(sound.label))
+                (np.degrees(healthy.cage_angles), healthy.frequency[:, i]), _CAGE_ANGLE, value
+            ).opts(color=style.HEALTHY, line_width=1.5)
+            for i in range(len(healthy.label))
         ]
     for i, label in enumerate(found.label):
         curve = hv.Curve(
-            (angles, found.frequency[:, i]), _CAGE_ANGLE, value, label=mode_words(label)
+            (angles, found.frequency[:, i]), _CAGE_ANGLE, value, label=mode_symbol(label)
         )
         dash = "solid" if label.endswith("1") else "dashed"
         drawn.append(curve.opts(color=_mode_color(label), line_width=2, line_dash=dash))

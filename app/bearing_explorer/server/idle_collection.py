@@ -13,10 +13,10 @@ from collections.abc import Callable
 
 from tornado.ioloop import PeriodicCallback
 
-from bearing_explorer.server.live import collect_elsewhere
+from bearing_explorer.server.bokeh_private import collect_elsewhere
 
 QUIET = 0.6
-"""[s] that nobody has said anything for, before a full collection."""
+"""[s] that nobody has sent anything for, before a full collection."""
 LONGEST = 120.0
 """[s] that a full collection waits for at most."""
 DUE = 10
@@ -25,10 +25,10 @@ DUE = 10
 _NEVER = 2**30
 
 
-class Collector:
+class IdleCollection:
     """Collects in full when that is due and nobody is waiting.
 
-    `quiet_for` tells for how long [s] nobody has said anything.
+    `quiet_for` says for how long [s] nobody has sent anything.
     """
 
     def __init__(
@@ -63,6 +63,6 @@ def begin(quiet_for: Callable[[], float]) -> None:
     gc.freeze()  # modules and kernels stay for as long as the process does
     young, middle, _ = gc.get_threshold()
     gc.set_threshold(young, middle, _NEVER)
-    collector = Collector(quiet_for)
+    collector = IdleCollection(quiet_for)
     collect_elsewhere(collector.ask)
     PeriodicCallback(collector.look, 250).start()

@@ -10,6 +10,8 @@ from __future__ import annotations
 import hashlib
 import logging
 import sys
+import time
+from collections.abc import Callable
 from typing import Any
 
 LEVELS = ("warning", "info")
@@ -18,12 +20,55 @@ LEVELS = ("warning", "info")
 log = logging.getLogger("bearing_explorer")
 
 
+_LONGEST_LINE = 1000  # characters, but for what follows it of an error of our own
+
+
 def begin(level: str) -> None:
     """Write to standard error from now on; `level` is one of LEVELS."""
-    logging.basicConfig(
-        stream=sys.stderr, level=logging.WARNING, format="%(asctime)s %(levelname)s %(message)s"
-    )
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(OneLine("%(asctime)s %(levelname)s %(message)s"))
+    handler.addFilter(Seldom())
+    logging.basicConfig(level=logging.WARNING, handlers=[handler])
     log.setLevel(level.upper())
+
+
+class OneLine(logging.Formatter):
+    """Whatever strangers sent that stands in a line, it stays one line and moves no cursor."""
+
+    def formatMessage(self, record: logging.LogRecord) -> str:  # noqa: N802 - logging's name
+        """The line."""
+        line = super().formatMessage(record)[:_LONGEST_LINE]
+        return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line)
+
+
+class Seldom(logging.Filter):
+    """Trouble of one kind is written once a second at most; the next line counts the others.
+
+    A flood must not become one of lines. What is of one kind is told by the place in a program
+    that writes it, and by the first word of our own lines.
+    """
+
+    def __init__(self, now: Callable[[], float] = time.monotonic, pause: float = 1.0) -> None:
+        super().__init__()
+        self._now = now
+        self._pause = pause
+        self._last: dict[tuple[object, ...], tuple[float, int]] = {}
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether a line is to be written."""
+        if record.levelno < logging.WARNING:
+            return True
+        what = record.args[0] if record.name == log.name and record.args else None  # type: ignore[index]
+        kind = (record.pathname, record.lineno, what)
+        now = self._now()
+        last, more = self._last.get(kind, (-self._pause, 0))
+        if now - last < self._pause:
+            self._last[kind] = (last, more + 1)
+            return False
+        self._last[kind] = (now, 0)
+        if more:
+            record.msg, record.args = f"{record.getMessage()} ({more} more like it)", ()
+        return True
 
 
 def session_name(document: Any) -> str:

@@ -13,6 +13,7 @@ from tornado.httputil import HTTPServerRequest
 from tornado.routing import Matcher, Rule
 from tornado.web import RequestHandler
 
+from bearing_explorer.server.bokeh_private import tornado_of
 from bearing_explorer.state.address import TOO_LONG
 
 LONGEST = 16_000
@@ -35,4 +36,6 @@ class _ToShort(RequestHandler):
 
 def send_on(server: Any) -> None:
     """Look at the length of every address that `server` is asked with, before all else does."""
-    server._tornado.default_router.rules.insert(0, Rule(_IsLong(), _ToShort))
+    application = tornado_of(server)
+    if application is not None:
+        application.default_router.rules.insert(0, Rule(_IsLong(), _ToShort))

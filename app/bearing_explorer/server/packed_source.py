@@ -1,4 +1,4 @@
-"""The wire: everything drawn goes to the browser as one float32 array a scene.
+"""The packed source: everything drawn goes to the browser as one float32 array a scene.
 
 Replacing the data of many sources costs one message, one serialisation and one repaint each.
 Here the server assigns ONE array on ONE small source; a callback in the browser cuts it into
@@ -58,7 +58,7 @@ window.__mark = p[0]
 """
 
 
-class Wire:
+class PackedSource:
     """Browser-side sources and ranges of one session, fed by one packed array."""
 
     def __init__(self) -> None:
@@ -69,7 +69,7 @@ class Wire:
         self._sent_ranges: dict[str, np.ndarray] = {}
         self._packet = ColumnDataSource(data={"packed": np.zeros(4, np.float32)})
         self._unpack = CustomJS(args=self._args(), code=_UNPACK)
-        self._told = 0  # how many sources and ranges the browser's callback knows
+        self._known = 0  # how many sources and ranges the browser's callback knows
         self._packet.js_on_change("data", self._unpack)
         #: an invisible model that carries the packet into the document; put it on the page once
         self.anchor = Spacer(width=0, height=0, visible=False, tags=[self._packet])
@@ -103,14 +103,14 @@ class Wire:
     ) -> int:
         """Send what changed to the browser in one message; return its size [bytes].
 
-        `mark` travels with the packet, so that the browser can tell which inputs are drawn;
+        `mark` travels with the packet, so that the browser knows which inputs are drawn;
         `worked` is how long they took once they had their turn [s].
         """
         packed = self.pack(data, ranges or {}, mark, worked)
-        if self._told != (known := len(self._sources) + len(self._ranges)):
+        if self._known != (known := len(self._sources) + len(self._ranges)):
             # Not when they are declared: the browser must have met them in a figure first.
             self._unpack.args = self._args()
-            self._told = known
+            self._known = known
         self._packet.data = {"packed": packed}
         return packed.nbytes
 
@@ -146,11 +146,6 @@ class Wire:
             heads.append((range_order[name], start, end))
         head = np.array([mark, worked, n_sources, len(heads) - n_sources], np.float32)
         return np.concatenate([head, np.array(heads, np.float32).ravel(), *blocks])
-
-    def forget(self) -> None:
-        """Send everything again next time: the browser may have missed something."""
-        self._sent_sources.clear()
-        self._sent_ranges.clear()
 
     def _block(self, name: str, columns: Columns) -> np.ndarray:
         """Columns of one source as rows of one array, in the order they were declared."""

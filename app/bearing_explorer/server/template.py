@@ -7,6 +7,8 @@ from typing import Any
 import panel as pn
 from bokeh.document import Document
 
+from bearing_explorer.server.bokeh_private import parts_of
+
 
 class PageTemplate(pn.Template):
     """Panel's template with its models counted once a page instead of once a part.
@@ -23,4 +25,4 @@ class PageTemplate(pn.Template):
             return super().server_doc(doc, *arguments, **named)
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(self._render_items)})"
+        return f"{type(self).__name__}({', '.join(parts_of(self))})"

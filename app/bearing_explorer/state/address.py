@@ -15,7 +15,8 @@ The rules of version 1, which later versions go on reading:
   stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
   read back to the last bit.
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
-  on; each is told against the first defect of the preset. `selected` is the one the sliders move.
+  on; each says what differs from the first defect of the preset. `selected` is the one the sliders
+  move.
 - `race`, `edge`, `law`, `dofs` (``auto`` or names with dots between) are words. `floor` is
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.
@@ -42,6 +43,7 @@ from functools import cache, lru_cache
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
 from bearing_explorer.state.quantities import (
     DEFECT_FIELDS,
     QUANTITIES,
@@ -56,10 +58,7 @@ from bearing_explorer.state.quantities import read as read_number
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
 from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor
 from bearingcore import (
-    CONTACT_LAWS,
     DOF_NAMES,
-    EDGES,
-    RACES,
     Defect,
     MeasuredFloor,
     RoughFloor,
@@ -80,8 +79,14 @@ LONGEST_TEXT = 2_500_000
 _MOST_FIELDS = 400
 _LONGEST_NUMBER = 40
 
-_OWN_WORDS = ("v", "preset", "defects", "selected", "law", "dofs", "tab", CAGE_ANGLE)
-_DEFECT_WORDS = ("race", "edge", "floor", "points")
+FORMER_TABS = {"sizing": "diagnosis"}
+"""What tabs were called in links that people have."""
+
+_OWN_WORDS = (
+    *("v", "preset", "defects", "selected", "dofs", "tab", CAGE_ANGLE),
+    *(choice.name for choice in OF_SCENE),
+)
+_DEFECT_WORDS = (*(choice.name for choice in OF_DEFECT), "floor", "points")
 _OF_DEFECT = [q for q in QUANTITY_LIST if q.field in DEFECT_FIELDS]
 _OF_FLOOR = [q for q in QUANTITY_LIST if q.of == "floor"]
 _OF_SCENE = [q for q in QUANTITY_LIST if q.of == "scene" and q.field not in DEFECT_FIELDS]
@@ -186,8 +191,7 @@ def _written(place: Place, without_floors: bool) -> str:
         value, was = _value(scene, quantity), _value(base, quantity)
         if value != was:
             pairs.append((quantity.name, number_text(quantity, value)))
-    if scene.contact_law != base.contact_law:
-        pairs.append(("law", scene.contact_law.replace(" ", "-")))
+    pairs += _choice_pairs(OF_SCENE, scene, base)
     if scene.dofs != base.dofs:
         pairs.append(("dofs", "auto" if scene.dofs is None else ".".join(scene.dofs)))
     if place.cage_angle:
@@ -206,19 +210,23 @@ def _defect_pairs(defect: Defect, usual: Defect, without_floors: bool) -> Iterab
         value = getattr(defect, quantity.field)
         if value != getattr(usual, quantity.field):
             yield quantity.name, number_text(quantity, value)
-    for name in ("race", "edge"):
-        if getattr(defect, name) != getattr(usual, name):
-            yield name, getattr(defect, name)
+    yield from _choice_pairs(OF_DEFECT, defect, usual)
     floor = defect.floor
     if isinstance(floor, RoughFloor):
-        yield "floor", "rough"
+        yield "floor", floor_name(floor)
         for quantity in _OF_FLOOR:
             yield quantity.name, number_text(quantity, getattr(floor, quantity.last_name))
     elif isinstance(floor, MeasuredFloor) and without_floors:
         yield "floor", "left-out"
     elif isinstance(floor, MeasuredFloor):
-        yield "floor", "measured"
+        yield "floor", floor_name(floor)
         yield "points", packed(floor)
+
+
+def _choice_pairs(choices: Iterable[Choice], owner: Any, usual: Any) -> Iterable[tuple[str, str]]:
+    for choice in choices:
+        if (name := choice.name_of(owner)) != choice.name_of(usual):
+            yield choice.name, name.replace(" ", "-")
 
 
 def _value(scene: Scene, quantity: Quantity) -> float | None:
@@ -286,10 +294,13 @@ def _read(given: dict[str, str]) -> Place:
     base = presets[preset]
     count = _count(given.pop("defects", "1"), "defects")
     selected = _count(given.pop("selected", "1"), "selected") - 1
-    law = _word(given.pop("law", None), CONTACT_LAWS, base.contact_law)
+    chosen = _choices(OF_SCENE, given)
+    for choice in OF_SCENE:
+        given.pop(choice.name, None)
     dofs = _dofs(given.pop("dofs", None), base)
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
+    tab = FORMER_TABS.get(tab, tab)
     defects, notes = [], []
     for number in range(count):
         own = {
@@ -306,31 +317,28 @@ def _read(given: dict[str, str]) -> Place:
     }  # fmt: skip
     if given:
         raise ValueError(f"“{_shown(next(iter(given)))}” is about a defect that is not there.")
-    scene = Scene(
+    scene = dataclasses.replace(
+        base,
         bearing=_part(base.bearing, fields),
         defect=defects[0] if count == 1 else tuple(defects),
         load=_part(base.load, fields),
         support=_part(base.support, fields),
-        contact_law=law,
         dofs=dofs,
-        **{
-            name: _si(fields, name, getattr(base, name))
-            for name in ("shaft_speed", "contact_damping")
-        },
+        **_own_of(base, fields),
     )
+    scene = scene.replace(**chosen) if chosen else scene
     return Place(scene, preset, selected, cage_angle, tab[:40], " ".join(notes))
 
 
-def _si(fields: Mapping[str, float | None], field: str, usual: Any) -> Any:
-    """The number given for a field of the core, or the usual one."""
-    name = next(q.name for q in _OF_SCENE if q.field == field)
-    return fields.get(name, usual)
+def _own_of(part: Any, fields: Mapping[str, float | None]) -> dict[str, Any]:
+    """The numbers given, by names, for the fields that a part of a scene has."""
+    return {
+        q.field: fields[q.name] for q in _OF_SCENE if q.name in fields and hasattr(part, q.field)
+    }
 
 
 def _part(part: Any, fields: Mapping[str, float | None]) -> Any:
-    own: dict[str, Any] = {
-        q.field: fields[q.name] for q in _OF_SCENE if q.name in fields and hasattr(part, q.field)
-    }
+    own = _own_of(part, fields)
     for name, value in own.items():
         if value is not None and name == "n_balls":
             own[name] = int(value) if value == int(value) else value
@@ -343,8 +351,7 @@ def _defect(given: dict[str, str], usual: Defect) -> Defect:
         for quantity in _OF_DEFECT
         if quantity.name in given
     }
-    fields["race"] = _word(given.get("race"), RACES, usual.race)
-    fields["edge"] = _word(given.get("edge"), EDGES, usual.edge)
+    fields |= _choices(OF_DEFECT, given)
     kind = given.get("floor", "flat")
     if kind == "rough":
         numbers = {q.last_name: _number(given.get(q.name, ""), q) for q in _OF_FLOOR}
@@ -392,13 +399,17 @@ def _count(text: str, name: str) -> int:
     return int(text[:3])
 
 
-def _word(text: str | None, options: Iterable[str], usual: str) -> str:
-    if text is None:
-        return usual
-    known = {option.replace(" ", "-"): option for option in options}
-    if text not in known:
-        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(known)}.")
-    return known[text]
+def _choices(choices: Iterable[Choice], given: Mapping[str, str]) -> dict[str, Any]:
+    """Fields of the choices that a text makes."""
+    fields = {}
+    for choice in choices:
+        text = given.get(choice.name)
+        if text is None:
+            continue
+        if text not in choice.in_links:
+            raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.in_links)}.")
+        fields[choice.field] = choice.in_links[text]
+    return fields
 
 
 def _dofs(text: str | None, base: Scene) -> tuple[str, ...] | None:

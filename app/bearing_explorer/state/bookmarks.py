@@ -73,7 +73,7 @@ def name_of(text: str) -> str:
     return " ".join(clean.split())[:LONGEST_NAME].rstrip() or "Unnamed"
 
 
-class Keeping:
+class Bookmarks:
     """The memory of one session, beside its editor."""
 
     def __init__(self, editor: SceneEditor, address: str = "") -> None:
@@ -156,7 +156,7 @@ class Keeping:
         self.say(f"“{self.pinned.name}” is pinned: grey shows it beside every scene.")
 
     def unpin(self) -> None:
-        """Grey shows the sound bearing again."""
+        """Grey shows the healthy bearing again."""
         self.pinned = None
         self.say("Grey shows the bearing without its defect again.")
 

@@ -20,7 +20,8 @@ A lesson is a text file in Markdown with a head in TOML::
 
 Parts begin with ``##``. Formulas stand between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
-that opens a tab. Files are read in the order of their names.
+that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
+says how, and simulates a measurement of it. Files are read in the order of their names.
 
 Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
 loaded, and formulas become MathML of known elements. What is wrong with a file is said with its
@@ -32,12 +33,15 @@ from __future__ import annotations
 import difflib
 import html
 import json
+import os
 import re
+import stat
 import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache, lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qsl, unquote
@@ -48,31 +52,38 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from bearing_explorer.assets import asset_path
+from bearing_explorer.state.address import FORMER_TABS
+from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.quantities import QUANTITIES
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
-from bearing_explorer.state.scene_editor import FLOORS, SceneEditor
-from bearingcore import CONTACT_LAWS, EDGES, RACES, presets
+from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
+from bearingcore import presets
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
 """Names of the tabs, each with the names of its views."""
 
-LONGEST_FILE = 60_000  # bytes
+LONGEST_FILE = 20_000  # bytes
+LONGEST_HEAD = 4_000  # characters
 LONGEST_FORMULA = 400  # characters
 MOST_LESSONS = 60
+MOST_FILES = 5_000
+"""Names that are looked at in a folder."""
+MOST_OF = {"](": 40, "$": 120, "[": 300, "|": 800, "*": 800, "`": 400, "\n": 800, "\\": 1500}
+"""How often signs may stand in a lesson that take more than their share of time to read."""
+MOST_DOTS = 100
+"""Dots in a head: names in parts take time as the square of their number."""
 _LONGEST_TITLE = 90  # characters
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
-    "race": RACES,
-    "edge": EDGES,
-    "floor": tuple(floor for floor in FLOORS if floor != "measured"),
-    "law": CONTACT_LAWS,
+    choice.name: choice.in_lessons for choice in CHOICE_LIST if choice.in_lessons
 }
 """What a lesson may choose besides numbers."""
 
 DRAGGED = (
     *(quantity.name for quantity in QUANTITY_LIST if quantity.group in SCENE_GROUPS),
-    *("race", "edge", "floor"),
+    *(choice.name for choice in CHOICE_LIST if choice.beside_words),
 )
 """The controls that can stand beside the words."""
 
@@ -156,7 +167,8 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     A folder that cannot be read, or holds none, is one fault.
     """
     try:
-        files = sorted(path for path in folder.iterdir() if path.suffix == ".md")
+        names = islice(folder.iterdir(), MOST_FILES)
+        files = sorted(path for path in names if path.suffix == ".md")
     except OSError as error:
         return [_no_lessons(folder, f"cannot be read ({error.strerror or error})")]
     if not files:
@@ -190,13 +202,23 @@ def _fault(name: str, why: str) -> Fault:
 def _from_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
     """The lesson in a file; the time and size of its last change are part of the cache's key."""
     try:
-        return read_lesson(_decoded(path.read_bytes() if size <= LONGEST_FILE else None), tabs)
+        return read_lesson(_decoded(_content(path)), tabs)
     except LessonError as error:
         return Fault(path.name, f"{path.name}, line {error.line}: {error}.")
 
 
-def _decoded(content: bytes | None) -> str:
-    if content is None or len(content) > LONGEST_FILE:
+def _content(path: Path) -> bytes:
+    """The beginning of a file, one byte more than a lesson may have: a link may lead anywhere."""
+    # a pipe that nobody writes to would be waited for
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+    with open(handle, "rb") as file:
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            raise LessonError(1, "this is not a regular file")
+        return file.read(LONGEST_FILE + 1)
+
+
+def _decoded(content: bytes) -> str:
+    if len(content) > LONGEST_FILE:
         raise LessonError(1, f"the file is longer than {LONGEST_FILE} bytes")
     try:
         return content.decode("utf-8-sig")
@@ -207,6 +229,10 @@ def _decoded(content: bytes | None) -> str:
 
 def read_lesson(text: str, tabs: Tabs) -> Lesson:
     """The lesson that `text` is; LessonError where it is none."""
+    for sign, most in MOST_OF.items():
+        if text.count(sign) > most:
+            words = {"](": "links", "\n": "lines"}.get(sign, f"signs “{sign}”")
+            raise LessonError(1, f"the lesson holds more than {most} {words}")
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if lines[0].strip() != _FENCE:
         raise LessonError(1, f"a lesson begins with a line {_FENCE}")
@@ -233,10 +259,18 @@ class _Head:
 
     def __init__(self, lines: list[str], tabs: Tabs) -> None:
         self._lines = lines
+        self._begun: tuple[SceneEditor, Snapshot] | None = None
+        text = "\n".join(lines)
+        if len(text) > LONGEST_HEAD or text.count(".") > MOST_DOTS:
+            raise LessonError(
+                1, f"the head holds more than {LONGEST_HEAD} characters or {MOST_DOTS} dots"
+            )
         try:
-            self._table = tomllib.loads("\n".join(lines))
+            self._table = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             raise _of_toml(error, len(lines)) from None
+        except RecursionError:
+            raise LessonError(1, "the head is not TOML: its lists are too deep") from None
         for name, value in self._table.items():
             if name not in _HEAD:
                 known = ", ".join(_HEAD)
@@ -247,6 +281,7 @@ class _Head:
         if missing:
             raise LessonError(1, f"the head has no {missing[0]}")
         self.text = {name: " ".join(str(self._table[name]).split()) for name in _NEEDED}
+        self.text["tab"] = FORMER_TABS.get(self.text["tab"], self.text["tab"])
         if len(self.text["title"]) > _LONGEST_TITLE:
             raise self.error("title", f"the title is longer than {_LONGEST_TITLE} characters")
         self._on_list("tab", self.text["tab"], list(dict(tabs)), "a tab")
@@ -278,11 +313,15 @@ class _Head:
             raise self.error(refused.name, str(refused)) from None
 
     def editor(self) -> SceneEditor:
-        """The scene that the lesson begins with."""
-        editor = SceneEditor(self.text["preset"])
-        values, choices = self.scene()
-        editor.choose(choices)
-        editor.set(values)
+        """The scene that the lesson begins with; the same editor each time, set back."""
+        if self._begun is None:
+            editor = SceneEditor(self.text["preset"])
+            values, choices = self.scene()
+            editor.choose(choices)
+            editor.set(values)
+            self._begun = editor, editor.snapshot()
+        editor, at_first = self._begun
+        editor.restore(at_first)
         return editor
 
 
@@ -387,16 +426,21 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
         elif token.type == "link_open":
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
-            if scheme in ("set", "show"):
-                told = _set(rest, line, head) if scheme == "set" else _show(rest, line, tabs)
+            if scheme in ("set", "show", "simulate"):
+                if scheme == "show":
+                    asks = _show(rest, line, tabs)
+                else:
+                    asks = (_set if scheme == "set" else _simulate)(rest, line, head)
                 token.type, closing = "html_inline", "</button>"
-                token.content = f'<button type="button" class="do" {told}>'
+                token.content = f'<button type="button" class="do" {asks}>'
             elif scheme in ("http", "https"):
                 token.attrSet("target", "_blank")
                 token.attrSet("rel", "noopener noreferrer")
             else:
                 raise LessonError(
-                    line, f"a link goes to “{address[:60]}”; links go to set:, show: or https:"
+                    line,
+                    f"a link goes to “{address[:60]}”; "
+                    "links go to set:, show:, simulate: or https:",
                 )
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
@@ -406,18 +450,36 @@ def _set(rest: str, line: int, head: _Head) -> str:
     changes = dict(parse_qsl(rest, keep_blank_values=True))
     if not changes:
         raise LessonError(line, "set: is followed by changes, as in set:extent_deg=64")
+    return _ask(_changed(changes, line, head))
+
+
+def _simulate(rest: str, line: int, head: _Head) -> str:
+    changes = dict(parse_qsl(rest, keep_blank_values=True))
+    noise, machine = changes.pop("noise", "20"), changes.pop("machine", MACHINES[0])
+    for name, word, known in (("noise", noise, list(NOISES)), ("machine", machine, MACHINES)):
+        if word not in known:
+            raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
+    return _ask({**_changed(changes, line, head), "simulate": {"noise": noise, "machine": machine}})
+
+
+def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:
+    """What a button asks for that changes the scene."""
     try:
         values, choices = _changes(head.editor(), changes)
     except _RefusedError as refused:
         raise LessonError(line, str(refused)) from None
-    return f'data-ask="{html.escape(json.dumps({"choose": choices, "typed": values}))}"'
+    return {"choose": choices, "typed": values}
+
+
+def _ask(message: Mapping[str, Any]) -> str:
+    return f'data-ask="{html.escape(json.dumps(message))}"'
 
 
 def _show(rest: str, line: int, tabs: Tabs) -> str:
-    name = unquote(rest)
+    name = FORMER_TABS.get(unquote(rest), unquote(rest))
     if name not in dict(tabs):
         raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(dict(tabs)))}")
-    return f'data-ask="{html.escape(json.dumps({"show": name}))}"'
+    return _ask({"show": name})
 
 
 def _formula(latex: str, display: bool, line: int) -> str:

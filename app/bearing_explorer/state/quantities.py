@@ -61,7 +61,6 @@ class Limits:
 QUANTITIES: Mapping[str, Quantity] = {quantity.name: quantity for quantity in QUANTITY_LIST}
 """All quantities by name, in the order of the page."""
 
-_OF_SCENE = [quantity for quantity in QUANTITY_LIST if quantity.of == "scene"]
 _FIELD_WORDS = {quantity.last_name: quantity.label.lower() for quantity in QUANTITY_LIST}
 
 
@@ -114,17 +113,6 @@ def _in_unit(si: float, unit_si: float) -> float:
 def in_si(quantity: Quantity, value: float) -> float | None:
     """The other way round."""
     return None if math.isnan(value) else value * quantity.unit_si
-
-
-def scene_with(
-    scene: Scene, values: Mapping[str, float], selected: int = 0, **others: Any
-) -> Scene:
-    """`scene` with numbers of the page, and other fields by name, changed.
-
-    What a defect is made of changes in the `selected` one. ValueError where the scene refuses.
-    """
-    fields = {q.field: in_si(q, values[q.name]) for q in _OF_SCENE if q.name in values}
-    return scene_with_fields(scene, {**fields, **others}, selected)
 
 
 def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:

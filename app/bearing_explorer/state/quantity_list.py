@@ -117,7 +117,7 @@ _TURNING = (
         "Hz",
         2.0 * math.pi,
         "Turning",
-        "Turns of the shaft a second. Static answers do not depend on it.",
+        "Scheduler of the shaft a second. Static answers do not depend on it.",
     ),
     Quantity(
         CAGE_ANGLE,
@@ -428,7 +428,7 @@ _CONTACT_DAMPING = (
         1.0,
         "Contact of a moving ball",
         "Viscous damping of each loaded contact. Left empty it follows from the stiffness of the "
-        "sound bearing: 10 µs times its radial stiffness a ball.",
+        "healthy bearing: 10 µs times its radial stiffness a ball.",
         optional=True,
     ),
 )

@@ -10,8 +10,10 @@ import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
+from bearing_explorer.state.choice_list import CHOICE_LIST, Choice, chosen_of
 from bearing_explorer.state.quantities import (
     FIRST_ROUGHNESS,
     GROOVES,
@@ -31,10 +33,7 @@ from bearing_explorer.state.quantities import (
 )
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST
 from bearingcore import (
-    CONTACT_LAWS,
     DOF_NAMES,
-    EDGES,
-    RACES,
     Bearing,
     Defect,
     MeasuredFloor,
@@ -46,9 +45,6 @@ from bearingcore import (
 from bearingcore.model.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
 
 MOST_DEFECTS = 6
-FLOORS = ("flat", "rough", "measured")
-NUMBERS = ("direct", "drawing")
-"""How the numbers of a bearing are given."""
 LARGEST_FILE = 1_000_000
 """Characters of a file with a measured floor."""
 
@@ -264,18 +260,16 @@ class SceneEditor:
     def choose(self, choice: Mapping[Any, Any]) -> Refused:
         """Take choices out of lists; what is not on a list is passed over."""
         refused: Refused = {}
-        if (preset := _one_of(choice.get("preset"), presets)) is not None:
-            self.take_preset(preset)
-        for name, options, act in (
-            ("race", RACES, lambda value: self._change_defect(race=value)),
-            ("edge", EDGES, self._take_edge),
-            ("floor", FLOORS, self._take_floor_kind),
-            ("law", CONTACT_LAWS, lambda value: self._change(contact_law=value)),
-            ("numbers", NUMBERS, self._take_numbers),
-        ):
-            value = _one_of(choice.get(name), options)
-            if value is not None:
-                refused |= self._tried(name, act, value)
+        own = {
+            "preset": self.take_preset,
+            "floor": self._take_floor_kind,
+            "numbers": self._take_numbers,
+        }
+        for known in CHOICE_LIST:
+            name = _one_of(choice.get(known.name), known.names)
+            if name is not None:
+                act = own.get(known.name, partial(self._take_option, known))
+                refused |= self._tried(known.name, act, name)
         if isinstance(defect := choice.get("defect"), str):
             refused |= self._tried("defect", self._take_defect, defect)
         if isinstance(dofs := choice.get("dofs"), str):
@@ -292,19 +286,20 @@ class SceneEditor:
     def _change(self, **fields: Any) -> None:
         self._take(scene_with_fields(self.scene, fields, self.selected))
 
-    def _change_defect(self, **fields: Any) -> None:
-        self._change(**fields)
-
-    def _take_edge(self, edge: str) -> None:
-        """Defects that run into one another need one edge model: all follow it."""
+    def _take_option(self, choice: Choice, name: str) -> None:
+        """Take an option of a choice that is a field of the scene or of its defects."""
+        fields = {choice.field: choice.value_of(name)}
+        if not choice.all_alike:
+            self._change(**fields)
+            return
         self._with_defects(
-            [dataclasses.replace(defect, edge=edge) for defect in self.defects], self.selected
+            [dataclasses.replace(defect, **fields) for defect in self.defects], self.selected
         )
 
     def _take_floor_kind(self, kind: str) -> None:
         floors = self.floors[self.selected]
         new = dataclasses.replace(floors, kind=kind)
-        self._change_defect(floor=new.floor)
+        self._change(floor=new.floor)
         self.floors[self.selected] = new
 
     def _take_dofs(self, dofs: str) -> None:
@@ -359,14 +354,13 @@ class SceneEditor:
 
     # A floor from a file
 
-    def take_file(self, name: str, text: str) -> None:
-        """Make a measured floor that of the defect in hand. What is wrong stands in its words."""
-        self.take_floor(name, *read_file(text))
-
     def take_floor(
         self, name: str, found: tuple[MeasuredFloor, float, float, float] | None, wrong: str
     ) -> None:
-        """The same with what `read_file` made of the text."""
+        """Make a measured floor that of the defect in hand, with what `read_file` made of its text.
+
+        What is wrong with it stands in the words of the floor.
+        """
         choice = self.floors[self.selected]
         shown = " ".join(name.split())[:40] or "The file"
         if found is None:
@@ -378,7 +372,7 @@ class SceneEditor:
         turned = center % (2.0 * math.pi)
         words = f"{shown}: {len(floor.places)} points"
         try:
-            self._change_defect(floor=floor, extent=extent, depth=depth, center=turned)
+            self._change(floor=floor, extent=extent, depth=depth, center=turned)
         except ValueError as error:
             self.floors[self.selected] = dataclasses.replace(
                 choice, kind="measured", words=f"{shown}: {refusal(error)}", bad=True
@@ -391,9 +385,9 @@ class SceneEditor:
     # What the browser needs to know
 
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
-        """All that can be told to the browser as one value; `values` asks for those alone."""
+        """All that the browser needs to know; `values` asks for those alone."""
         wanted = self.values if values is None else {name: self.values[name] for name in values}
-        told: dict[str, Any] = {
+        state: dict[str, Any] = {
             "values": {name: None if math.isnan(v) else v for name, v in wanted.items()},
             "limits": {
                 name: {"least": limit.least, "most": limit.most, "step": limit.step}
@@ -402,22 +396,17 @@ class SceneEditor:
             },
             "changed": self.changed,
         }
-        return told if values is not None else told | self._choices_state()
+        return state if values is not None else state | self._choices_state()
 
     def _choices_state(self) -> dict[str, Any]:
         scene, floor = self.scene, self.floors[self.selected]
-        defect = self.defects[self.selected]
-        drawn_bearing = scene.bearing.is_drawn
         hidden = [] if floor.kind == "rough" else [quantity.name for quantity in _OF_FLOOR]
-        hidden += _DERIVED if drawn_bearing else _DRAWN_ONLY
+        hidden += _DERIVED if scene.bearing.is_drawn else _DRAWN_ONLY
         return {
             "choices": {
+                **chosen_of(scene, self.selected),
                 "preset": self.preset,
-                "race": defect.race,
-                "edge": defect.edge,
-                "floor": floor.kind,
-                "law": scene.contact_law,
-                "numbers": "drawing" if drawn_bearing else "direct",
+                "floor": floor.kind,  # of a file that could not be read there is no floor
                 "dofs": "auto" if scene.dofs is None else " ".join(scene.dofs),
             },
             "defects": {

@@ -22,7 +22,7 @@ SWEEPABLE: Mapping[str, Quantity] = {
 """Quantities that belong to the scene, by name."""
 
 _WHOLE = frozenset({"n_balls"})
-#: where a range is more telling than all that its slider can do
+#: where a shorter range shows more than all that its slider can do
 _USUAL = {"shaft_speed_hz": (4.0, 60.0), "extent_deg": (2.0, 62.0)}
 
 
@@ -66,7 +66,7 @@ def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Lim
 
 
 def usual_range(name: str, limits: Mapping[str, Limits]) -> tuple[float, float]:
-    """Where a sweep goes unless told otherwise: as far as the slider, or where it tells most."""
+    """Where a sweep goes if nobody says otherwise: as far as the slider, or where it shows most."""
     low, high = limits[name].least, limits[name].most
     if name in _USUAL:
         first, last = _USUAL[name]

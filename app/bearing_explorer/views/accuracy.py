@@ -27,9 +27,9 @@ from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.planning import steps_by_hand
 from bearing_explorer.compute.results import Settings
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.widgets.status import scientific
 from bearing_explorer.widgets.step_choice import StepChoice
@@ -45,11 +45,11 @@ if TYPE_CHECKING:
 HEIGHT = 430
 COSTS = ("seconds", "evaluations")
 NAMES = tuple(dict.fromkeys((*METHODS, *SOLVERS, *PLACINGS, *MODELS)))
-"""Every name that a point can have: the wire carries their numbers."""
+"""Every name that a point can have: the packed source carries their numbers."""
 MOST_METHODS = max(len(METHODS), len(SOLVERS), len(PLACINGS), len(MODELS))
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#20262D")
-"""Okabe and Ito's, which colour-blind people tell apart."""
+"""Okabe and Ito's, which colour-blind people can distinguish."""
 MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆", "inverted_triangle": "▼",
            "plus": "✚", "star": "★"}  # fmt: skip
 VERDICT_LOOKS = dict(
@@ -94,15 +94,19 @@ class Accuracy(JobView[Found]):
     """Marches the scene's motions with a step rate [Hz], or None: with the program's own."""
     _note = ""
 
-    def build(self, wire: Wire) -> Any:
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.take_steps = parts.take_steps
+
+    def build(self, packed: PackedSource) -> Any:
         self._ranges: Ranges = {}
-        error = wire.range("accuracy_error", 1e-6, 10.0)
+        error = packed.range("accuracy_error", 1e-6, 10.0)
         self._sources = [
-            wire.source(f"accuracy_{slot}", *COSTS, "error", "method")
+            packed.source(f"accuracy_{slot}", *COSTS, "error", "method")
             for slot in range(MOST_METHODS)
         ]
-        self._failed = wire.source("accuracy_failed", *COSTS, "error", "method", "named")
-        self._plots = [self._chart(wire, cost, error) for cost in COSTS]
+        self._failed = packed.source("accuracy_failed", *COSTS, "error", "method", "named")
+        self._plots = [self._chart(packed, cost, error) for cost in COSTS]
         switch = RadioButtonGroup(
             labels=["Cost as time", "Cost as evaluations"],
             active=0,
@@ -119,20 +123,20 @@ class Accuracy(JobView[Found]):
         )
         whole = {"sizing_mode": "stretch_width", "margin": 0}
         self._work = pn.Column(switch, *self._plots, **whole)
-        self._stability = pn.Column(self._verdicts(wire), visible=False, **whole)
+        self._stability = pn.Column(self._verdicts(packed), visible=False, **whole)
         self._legend = pn.pane.HTML("", **whole)
         self._steps = StepChoice(self._steps_asked)
         return pn.Column(
             self.job, self._work, self._stability, self._legend, self._steps, **whole
         )  # fmt: skip
 
-    def _chart(self, wire: Wire, cost: str, error: Range1d) -> figure:
+    def _chart(self, packed: PackedSource, cost: str, error: Range1d) -> figure:
         """Error over one kind of cost."""
         timed = cost == "seconds"
         plot = style.house_figure(
             style.AxisQuantity("Time" if timed else "Evaluations", "", ""),
             style.AxisQuantity("Error", "", ""),
-            wire.range(f"accuracy_{cost}", *((1e-4, 1.0) if timed else (1e2, 1e6))),
+            packed.range(f"accuracy_{cost}", *((1e-4, 1.0) if timed else (1e2, 1e6))),
             error,
             height=HEIGHT,
             name=f"accuracy_drawing_{cost}",
@@ -200,12 +204,12 @@ class Accuracy(JobView[Found]):
         plot.on_event(Tap, lambda event: self._tapped(cost, event.x, event.y))
         return plot
 
-    def _verdicts(self, wire: Wire) -> figure:
+    def _verdicts(self, packed: PackedSource) -> figure:
         """Methods down, steps across."""
         plot = style.house_figure(
             style.AxisQuantity("Steps in a period of the highest natural frequency", "", ""),
             style.AxisQuantity("", "", ""),
-            wire.range("accuracy_steps", 0.8, 80.0),
+            packed.range("accuracy_steps", 0.8, 80.0),
             Range1d(-0.6, len(FIXED_STEP) - 0.4),
             height=300,
             name="accuracy_drawing_stability",
@@ -220,12 +224,12 @@ class Accuracy(JobView[Found]):
         plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
         for number, (color, marker) in enumerate(VERDICT_LOOKS.values()):
             plot.scatter(
-                "steps", "row", source=wire.source(f"accuracy_verdict_{number}", "steps", "row"),
+                "steps", "row", source=packed.source(f"accuracy_verdict_{number}", "steps", "row"),
                 marker=marker, size=14, fill_color=color, line_color=color, line_width=2.0,
             )  # fmt: skip
         plot.segment(
             "steps", "below", "steps", "above",
-            source=wire.source("accuracy_limits", "steps", "below", "above"),
+            source=packed.source("accuracy_limits", "steps", "below", "above"),
             line_color=style.INK, line_width=2.5,
         )  # fmt: skip
         return plot
@@ -400,13 +404,13 @@ class Accuracy(JobView[Found]):
         chosen = "" if step_rate is None else f"{step_rate:.0f}"
         if chosen and chosen not in offered:
             offered.append(chosen)
-        told = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
+        note = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
             "The program chooses the steps of the scene's motion."
         )  # fmt: skip
         self._steps.param.update(
             options=[[text, f"RK4, {text} Hz"] for text in offered],
             chosen=chosen,
-            words=self._note or told,
+            words=self._note or note,
         )
 
 
@@ -522,13 +526,13 @@ def _chart_words(chart: StabilityChart) -> str:
     for name in dict.fromkeys(t.method for t in chart.trials):
         found, limit = (v / chart.highest_frequency
                         for v in (chart.found_limit(name), chart.linear_limit[name]))  # fmt: skip
-        told = "never" if limit == 0.0 else f"below {style.number(limit, 2)}"
+        expected = "never" if limit == 0.0 else f"below {style.number(limit, 2)}"
         first = min(t.step_rate for t in chart.trials if t.method == name)
         met = "at any tried" if not math.isfinite(found) else (
             "never" if found * chart.highest_frequency <= first * 1.000001
             else f"below {style.number(found, 2)}"
         )  # fmt: skip
-        words.append(f"{name} {met} (foretold: {told})")
+        words.append(f"{name} {met} (expected: {expected})")
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
         f"In steps a period of {frequency}, the motion diverges with {', '.join(words)}. "

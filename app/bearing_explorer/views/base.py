@@ -1,22 +1,25 @@
-"""What a view is: figures made once, numbers pushed through the wire, one live sentence.
+"""What a view is: figures made once, numbers pushed through the packed source, one live sentence.
 
 A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes, and give it
 
-- `build(wire)`: make figures, sources and ranges, once, and return what goes on the page;
+- `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
 - `sentence(results)`: one sentence that says what is to be seen, for everyone;
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
+
+A view that asks for something, a scene, a job, a measured signal, takes what it needs of the
+session in `attach(parts)`.
 
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
 
 from __future__ import annotations
 
-import csv
-import io
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -26,11 +29,16 @@ from bokeh.models import Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.export.python_lines import lines_of
-from bearing_explorer.server.live import LiveComponent
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.server.packed_source import PackedSource
+from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
+    from bearing_explorer.compute.jobs import Jobs
     from bearing_explorer.compute.results import Results
+    from bearing_explorer.measurement.session import Measurement
+    from bearing_explorer.state.scene_editor import SceneEditor
+    from bearing_explorer.widgets.controls import Rows
 
 #: {source: {column: array}}
 Sources = dict[str, dict[str, np.ndarray]]
@@ -65,6 +73,37 @@ class Sentence(LiveComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("sentence.css")]
 
 
+@dataclass(frozen=True)
+class SessionParts:
+    """What a view may take of the session that it is attached to.
+
+    Parameters
+    ----------
+    editor
+        the scene as the controls have it.
+    jobs
+        the background of the session.
+    measurement
+        the signal that somebody measured.
+    draw
+        asks for a drawing.
+    ask
+        takes a message of the browser about the scene, from strangers too.
+    add_controls
+        has a panel of controls follow the scene.
+    take_steps
+        has motions marched with a step rate [Hz], or with None by the program's own.
+    """
+
+    editor: SceneEditor
+    jobs: Jobs
+    measurement: Measurement
+    draw: Callable[[], None]
+    ask: Callable[[Any], None]
+    add_controls: Callable[[Rows], None]
+    take_steps: Callable[[float | None], None]
+
+
 class View:
     """One picture of the scene. See the head of this module for what a subclass provides."""
 
@@ -76,11 +115,15 @@ class View:
     picture: ClassVar[bool] = False
     #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
     plans: ClassVar[tuple[str, ...]] = ()
+    #: whether it stands in a report; one without `needs` only with what its job has found
+    in_report: ClassVar[bool] = True
+    #: what a job of the view has found
+    found: Any = None
 
-    def __init__(self, wire: Wire) -> None:
+    def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
         self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
-        body = pn.panel(self.build(wire), margin=0)
+        body = pn.panel(self.build(packed), margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
@@ -109,7 +152,10 @@ class View:
             margin=0,
         )
 
-    def build(self, wire: Wire) -> Any:
+    def attach(self, parts: SessionParts) -> None:
+        """Take what the view needs of the session, once, before it is first on screen."""
+
+    def build(self, packed: PackedSource) -> Any:
         """Make the figures, once; return a Panel object or a Bokeh layout."""
         raise NotImplementedError
 
@@ -138,7 +184,7 @@ class View:
     @property
     def compares(self) -> bool:
         """Whether it draws something in grey beside the scene."""
-        return any(name.startswith("sound_") for name in self.needs)
+        return any(name.startswith("healthy_") for name in self.needs)
 
     def csv(self) -> str:
         """The table of what is drawn now as comma-separated values; empty before the first."""
@@ -150,9 +196,9 @@ class View:
 
     def _answer(self, event: Any) -> None:
         if event.data == "csv":
-            self._caption._send_msg({"csv": self.csv()})
+            self._caption.send({"csv": self.csv()})
         if event.data == "python":
-            self._caption._send_msg({"python": self.python()})
+            self._caption.send({"python": self.python()})
 
 
 def figures_in(layout: Any) -> list[Plot]:
@@ -160,18 +206,3 @@ def figures_in(layout: Any) -> list[Plot]:
     if isinstance(layout, Plot):
         return [layout]
     return [plot for child in getattr(layout, "children", ()) for plot in figures_in(child)]
-
-
-def as_csv(table: dict[str, np.ndarray]) -> str:
-    """Columns as comma-separated text; shorter columns end in empty cells."""
-    columns = [np.asarray(column).ravel() for column in table.values()]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(table)
-    for row in range(max((column.size for column in columns), default=0)):
-        writer.writerow([_cell(column[row]) if row < column.size else "" for column in columns])
-    return text.getvalue()
-
-
-def _cell(value: Any) -> str:
-    return f"{value:.9g}" if isinstance(value, float | np.floating) else str(value)

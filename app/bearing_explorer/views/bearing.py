@@ -6,15 +6,16 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import ColorBar, CustomJS, LinearColorMapper, Range1d
+from bokeh.models import CustomJS, LinearColorMapper, Range1d
 from bokeh.palettes import magma
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.compute.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.figures import style
+from bearing_explorer.figures.heat_map import color_bar
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ TOP_LINE, LINE_HEIGHT = 1.47, 0.1
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
-# pale to dark, even steps to the eye, told apart by colour-blind eyes and in grey print
+# pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
 LOAD_PALETTE = list(magma(256))[40:246][::-1]
 DARK_LOAD_PALETTE = list(magma(256))[62:]
 INKS = [style.INK, style.PAPER]
@@ -66,11 +67,11 @@ class BearingDrawing(View):
         "Seen along the shaft, z towards you. Bars and colours: what the balls carry. Grey rim: "
         "the same without the defect. Arrow: the load. The keyway turns with the shaft."
     )
-    needs = frozenset({"equilibrium", "sound_equilibrium", "now", "drop"})
+    needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
-        load = wire.range("bearing_load", 0.0, 100.0)
+        load = packed.range("bearing_load", 0.0, 100.0)
         half = HALF_WIDTH
         plot = style.bare_figure(
             Range1d(-half, half, syncable=False),
@@ -102,11 +103,11 @@ class BearingDrawing(View):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        self._draw_rings(plot, wire)
-        self._draw_loads(plot, wire, colors, inks)
-        self._write_words(plot, wire)
-        bar = ColorBar(
-            color_mapper=colors,
+        self._draw_rings(plot, packed)
+        self._draw_loads(plot, packed, colors, inks)
+        self._write_words(plot, packed)
+        bar = color_bar(
+            colors,
             orientation="horizontal",
             width=210,
             height=9,
@@ -114,33 +115,24 @@ class BearingDrawing(View):
             padding=2,
             title_standoff=4,
             bar_line_color=style.STEEL_EDGE,
-            major_tick_line_color=None,
-            major_label_text_font=style.FONT,
-            major_label_text_font_size=style.SMALL_TEXT_SIZE,
-            major_label_text_color=style.FAINT_INK,
-            title_text_font=style.FONT,
-            title_text_font_style="normal",
-            title_text_font_size=style.SMALL_TEXT_SIZE,
-            title_text_color=style.INK,
-            background_fill_color=None,
         )
         style.write_units(bar, style.BALL_LOAD, load)
         plot.add_layout(bar, "below")
         return plot
 
-    def _draw_rings(self, plot: figure, wire: Wire) -> None:
+    def _draw_rings(self, plot: figure, packed: PackedSource) -> None:
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_sound_loads", "x", "y"),
-            fill_color=style.SOUND,
+            source=packed.source("bearing_healthy_loads", "x", "y"),
+            fill_color=style.HEALTHY,
             fill_alpha=0.25,
             line_color=None,
         )
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_rings", "x", "y"),
+            source=packed.source("bearing_rings", "x", "y"),
             fill_color=style.STEEL,
             line_color=style.STEEL_EDGE,
             line_width=1.2,
@@ -148,13 +140,13 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_defect", "x", "y"),
+            source=packed.source("bearing_defect", "x", "y"),
             fill_color=style.DEFECT,
             fill_alpha=0.55,
             line_color="#B87A00",
             line_width=1.2,
         )
-        marks = wire.source("bearing_marks", "x", "y", "angle", "turn")
+        marks = packed.source("bearing_marks", "x", "y", "angle", "turn")
         plot.text(
             "x",
             "y",
@@ -169,15 +161,15 @@ class BearingDrawing(View):
         )
 
     def _draw_loads(
-        self, plot: figure, wire: Wire, colors: LinearColorMapper, inks: LinearColorMapper
+        self, plot: figure, packed: PackedSource, colors: LinearColorMapper, inks: LinearColorMapper
     ) -> None:
-        balls = wire.source("bearing_balls", "x", "y", "radius", "load", "number")
+        balls = packed.source("bearing_balls", "x", "y", "radius", "load", "number")
         plot.segment(
             "x0",
             "y0",
             "x1",
             "y1",
-            source=wire.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
+            source=packed.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
             line_color={"field": "load", "transform": colors},
             line_width=8,
         )
@@ -204,20 +196,20 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=wire.source("bearing_arrow", "x", "y"),
+            source=packed.source("bearing_arrow", "x", "y"),
             fill_color=style.INK,
             line_color=None,
         )
 
-    def _write_words(self, plot: figure, wire: Wire) -> None:
+    def _write_words(self, plot: figure, packed: PackedSource) -> None:
         look = {
             "text_font": {"value": style.FONT},
             "text_font_size": style.TEXT_SIZE,
             "text_color": style.FAINT_INK,
         }
-        loads = wire.source("bearing_load_words", "x", "y", "kind", "value", "angle")
+        loads = packed.source("bearing_load_words", "x", "y", "kind", "value", "angle")
         plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
-        scale = wire.source("bearing_scale_words", "x", "y", "scale")
+        scale = packed.source("bearing_scale_words", "x", "y", "scale")
         plot.text(
             "x",
             "y",
@@ -230,7 +222,7 @@ class BearingDrawing(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, load = results.scene, results.now.ball_load[0]
         load_range = self._load_range.fit(
-            results.equilibrium.ball_load, results.sound_equilibrium.ball_load
+            results.equilibrium.ball_load, results.healthy_equilibrium.ball_load
         )
         top = load_range[1]
         drawn = Shapes(scene, results.cage_angle)
@@ -240,7 +232,7 @@ class BearingDrawing(View):
             "bearing_marks": drawn.angle_marks(),
             "bearing_balls": drawn.balls(results.drop, load),
             "bearing_bars": drawn.bars(load, top),
-            "bearing_sound_loads": drawn.load_rim(*results.sound_load_curve, top),
+            "bearing_healthy_loads": drawn.load_rim(*results.healthy_load_curve, top),
             "bearing_arrow": drawn.load_arrow(),
             "bearing_load_words": load_words(scene.load),
             "bearing_scale_words": {

@@ -10,30 +10,18 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.choice_list import NUMBERS
 from bearing_explorer.state.quantities import in_unit
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.widgets.controls import Rows, choice_spec, spec_of
+from bearing_explorer.widgets.controls import Rows, spec_of
 from bearingcore import preset_notes
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
     from bearingcore import Bearing, Scene
-
-_NUMBERS = {
-    "direct": (
-        "Numbers of the contact model",
-        "As the paper prints them: groove centres, clearance and load-deflection factor are given.",
-    ),
-    "drawing": (
-        "A drawing",
-        "Groove radii and material are given; groove centres, raceway radii and the "
-        "load-deflection factor follow from them (Hertz). Contact angle and clearance describe "
-        "the same freedom: give one and leave the other 0, or give both, as the paper does.",
-    ),
-}
 
 
 class BearingRows(Rows):
@@ -62,9 +50,8 @@ class BearingEditor(ControlView):
     needs = frozenset[str]()
     picture = True
 
-    def build(self, wire: Wire) -> Any:
-        numbers = choice_spec("Given as", "", True, _NUMBERS)
-        spec = spec_of(BEARING_GROUPS, {"numbers": numbers}.items())
+    def build(self, packed: PackedSource) -> Any:
+        spec = spec_of(BEARING_GROUPS, NUMBERS)
         self.rows = BearingRows(self.forward, spec={**spec, "notes": dict(preset_notes)})
         return self.rows
 
@@ -128,8 +115,8 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             hertz(bearing.bpfi(speed)),
             "How often a point of the inner race meets a ball.",
         ),
-        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
-        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Turns of a ball about itself."),
+        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Scheduler of the cage a second."),
+        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Scheduler of a ball about itself."),
         (
             "Free contact angle",
             "α<sub>f</sub>",

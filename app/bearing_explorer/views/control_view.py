@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from bearing_explorer.views.base import View
+from bearing_explorer.views.base import SessionParts, View
 from bearing_explorer.widgets.controls import Rows
 
 
 class ControlView(View):
     """A view with a panel of controls in it; `build` makes `rows` and gives it `forward`."""
 
+    in_report = False
     rows: Rows
     _asked: Callable[[Any], None] | None = None
 
-    def listen(self, asked: Callable[[Any], None], state: dict[str, Any]) -> None:
-        """From now on `asked` hears what is asked for; the controls stand as in `state`."""
-        self._asked = asked
-        self.rows.state = state
+    def attach(self, parts: SessionParts) -> None:
+        """From now on the session hears what is asked for, and the controls follow its scene."""
+        super().attach(parts)
+        self._asked = parts.ask
+        self.rows.state = parts.editor.state()
+        parts.add_controls(self.rows)
 
     def forward(self, message: Any) -> None:
         """Hand on a message of the browser."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -33,16 +33,16 @@ class DepthProfile(View):
     )
     needs = frozenset({"profile", "drop", "now"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 60e-6, anchor="zero", least_span=1e-6)
         plot = style.house_figure(
             style.BALL_ANGLE,
             DEPTH,
-            wire.range("depth_profile_angle", 240.0, 300.0),
-            wire.range("depth_profile_depth", 60e-6, -4e-6),
+            packed.range("depth_profile_angle", 240.0, 300.0),
+            packed.range("depth_profile_depth", 60e-6, -4e-6),
             height=215,
         )
-        surface = wire.source("depth_profile_surface", "angle", "depth", "bottom")
+        surface = packed.source("depth_profile_surface", "angle", "depth", "bottom")
         plot.varea(
             "angle", "depth", "bottom", source=surface, fill_color=style.STEEL, fill_alpha=1.0
         )
@@ -50,7 +50,7 @@ class DepthProfile(View):
         plot.line(
             "angle",
             "drop",
-            source=wire.source("depth_profile_path", "angle", "drop"),
+            source=packed.source("depth_profile_path", "angle", "drop"),
             line_color=style.DEFECTIVE,
             line_width=2.0,
             line_dash=[6, 4],
@@ -58,7 +58,7 @@ class DepthProfile(View):
         plot.scatter(
             "angle",
             "drop",
-            source=wire.source("depth_profile_balls", "angle", "drop"),
+            source=packed.source("depth_profile_balls", "angle", "drop"),
             size=8,
             fill_color="white",
             line_color=style.INK,

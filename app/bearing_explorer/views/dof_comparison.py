@@ -10,12 +10,13 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
-from bearing_explorer.widgets.status import DOF_SYMBOLS, scientific
+from bearing_explorer.widgets.status import scientific
 from bearingcore import DOF_NAMES
+from bearingcore.model.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.dof_comparison import DofComparison
@@ -55,7 +56,7 @@ class DofDifferences(ControlView):
     )
     needs = frozenset({"dof_comparison", "spectra"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         spec = {"dofs": [[name, _WORDS[name]] for name in DOF_NAMES]}
         self.rows = DofRows(self.forward, spec=spec)
         return self.rows

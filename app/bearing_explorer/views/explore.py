@@ -16,15 +16,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 from bokeh.events import Tap
-from bokeh.models import CustomJS, Plot, Spacer
+from bokeh.models import Plot, Spacer
 
-from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.explore import (
     BUDGET,
-    CHOICES,
+    MAP_OUTPUTS,
     SIZES,
-    Choice,
     Job,
+    MapOutput,
     Plane,
     Question,
     planes,
@@ -32,9 +31,9 @@ from bearing_explorer.compute.explore import (
 )
 from bearing_explorer.compute.jobs import JobState, Work
 from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import Side
+from bearing_explorer.figures.heat_map import Places, Side, going, ring_this_scene
 from bearing_explorer.figures.style import AxisQuantity
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -62,12 +61,12 @@ class Asked:
 
     x: Sweep
     y: Sweep
-    choice: Choice
+    output: MapOutput
     stride: int
 
     def of(self, results: Results) -> Question:
         """The question for the scene shown."""
-        return Question(focused(results.scene, results.focus), self.x, self.y, self.choice)
+        return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
 
 
 class _While:
@@ -105,9 +104,9 @@ class ExplorePlane(JobView[Plane]):
     _news: Any = None
     _next_show = 0.0
 
-    def build(self, wire: Wire) -> Any:
-        self._mark = wire.source("explore_mark", "x", "y")
-        self._old = wire.source("explore_old", "left", "right", "bottom", "top", "alpha")
+    def build(self, packed: PackedSource) -> Any:
+        self._mark = packed.source("explore_mark", "x", "y")
+        self._old = packed.source("explore_old", "left", "right", "bottom", "top", "alpha")
         # the browser must know the sources before there is a figure that draws them
         anchor = Spacer(width=0, height=0, visible=False, tags=[self._mark, self._old])
         self._figures = pn.Column(min_height=460, sizing_mode="stretch_width", margin=0)
@@ -122,7 +121,7 @@ class ExplorePlane(JobView[Plane]):
     # The form
 
     def fields(self) -> list[dict[str, Any]]:
-        outputs = [[choice.name, choice.label, choice.group] for choice in CHOICES.values()]
+        outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
         return [
             {"name": "output", "label": "Map of", "options": outputs},
             *plane_fields(headings=True),
@@ -140,12 +139,12 @@ class ExplorePlane(JobView[Plane]):
 
     def asked(self, given: Mapping[str, str], editor: SceneEditor) -> Asked:
         """What the form asks for; ValueError with a sentence where it cannot be."""
-        if given["output"] not in CHOICES:
+        if given["output"] not in MAP_OUTPUTS:
             raise ValueError("There is no such output.")
         if given["grid"] not in [value for value, _ in _GRIDS]:
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
-        return Asked(x, y, CHOICES[given["output"]], int(given["grid"]))
+        return Asked(x, y, MAP_OUTPUTS[given["output"]], int(given["grid"]))
 
     def _asked(self, message: Any) -> None:
         if not isinstance(message, dict) or self._jobs is None:
@@ -227,7 +226,7 @@ class ExplorePlane(JobView[Plane]):
         return {
             question.x.quantity.name: x,
             question.y.quantity.name: y,
-            question.choice.column: found.values,
+            question.output.column: found.values,
             "no_answer_because": found.reasons,
         }
 
@@ -260,13 +259,13 @@ class ExplorePlane(JobView[Plane]):
 
         self._mark.js_property_callbacks = {}  # those of figures that are gone
         self._news = hv.streams.Pipe(data=field)
-        names = [plane.question.x.quantity.name, plane.question.y.quantity.name]
+        sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
         plots: list[Plot] = []
         layout = linked_figures(
             field,
             news=self._news,
             mark=self._mark,
-            hooks=[_Marks(names, self._mark, self._old)],
+            hooks=[_Marks(sides, self._mark, self._old)],
             each=lambda plot, _: plots.append(plot.handles["plot"]),
             responsive=True,
         )
@@ -310,8 +309,8 @@ class ExplorePlane(JobView[Plane]):
 class _Marks:
     """A hook: the ring at this scene, the veil over a map of another, and the click to go there."""
 
-    def __init__(self, names: list[str], mark: Any, old: Any) -> None:
-        self._names, self._mark, self._old = names, mark, old
+    def __init__(self, sides: list[Side], mark: Any, old: Any) -> None:
+        self._sides, self._mark, self._old = sides, mark, old
 
     def __call__(self, plot: Any, _: Any) -> None:
         if "marks" in plot.handles:
@@ -324,16 +323,8 @@ class _Marks:
             "left", "right", "top", "bottom", source=self._old, fill_color=style.PAPER,
             fill_alpha="alpha", line_color=None, level="overlay",
         )  # fmt: skip
-        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
-            figure.scatter(
-                "x", "y", source=self._mark, size=15, fill_color=None, line_color=color,
-                line_width=width, level="overlay",
-            )  # fmt: skip
-        go = CustomJS(
-            args={"image": plot.handles["source"], "names": self._names},
-            code=asset_text("explore_click.js"),
-        )
-        figure.js_on_event(Tap, go)
+        ring_this_scene(figure, self._mark, "overlay")
+        figure.js_on_event(Tap, going(Places(plot.handles["source"], self._sides)))
 
 
 def field_of(plane: Plane, at: tuple[float, float]) -> Field:
@@ -343,13 +334,13 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
     question = plane.question
     sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
     axes = [AxisQuantity(side.words, side.symbol, side.unit) for side in sides]
-    choice = question.choice
-    words = choice.label[0].upper() + choice.label[1:] if choice.label[0] != "k" else choice.label
-    value = AxisQuantity(words, "", choice.unit, prefixed=choice.unit not in ("", "°"))
+    output = question.output
+    words = output.label[0].upper() + output.label[1:] if output.label[0] != "k" else output.label
+    value = AxisQuantity(words, "", output.unit, prefixed=output.unit not in ("", "°"))
     return Field(
         (sides[0].name, axes[0], plane.x.values),
         (sides[1].name, axes[1], plane.y.values),
-        (choice.name.replace(":", "_"), value),
+        (output.name.replace(":", "_"), value),
         plane.values,
         plane.reasons,
         at,
@@ -359,7 +350,7 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
 def summary(plane: Plane) -> str:
     """What a map shows, in a sentence: least and greatest, where, and how much is not known."""
     question, values = plane.question, plane.values
-    what = question.choice.label
+    what = question.output.label
     missing = ""
     if plane.missing:
         reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
@@ -378,12 +369,12 @@ def summary(plane: Plane) -> str:
 
 
 def _place(plane: Plane, at: tuple[Any, ...]) -> str:
-    choice = plane.question.choice
+    output = plane.question.output
     value = float(plane.values[at])
     shown = (
-        style.with_prefix(value, choice.unit)
-        if choice.unit not in ("", "°")
-        else f"{style.number(value)}{choice.unit}"
+        style.with_prefix(value, output.unit)
+        if output.unit not in ("", "°")
+        else f"{style.number(value)}{output.unit}"
     )
     where = [
         f"{sweep.quantity.label.lower()} {style.number(float(sweep.values[k]))}"

@@ -15,7 +15,7 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.measured_view import write_over
 from bearingcore import Scene
 
@@ -105,12 +105,14 @@ def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[n
 class FrequencyLines:
     """The lines and names of all families in some figures, which share the sources."""
 
-    def __init__(self, wire: Wire, prefix: str, plots: Sequence[figure], height: float) -> None:
+    def __init__(
+        self, packed: PackedSource, prefix: str, plots: Sequence[figure], height: float
+    ) -> None:
         self._prefix = prefix
         self._row = ROW_PIXELS / height
         for family in FAMILIES:
-            lines = wire.source(f"{prefix}_{family.name}", "frequency")
-            names = wire.source(
+            lines = packed.source(f"{prefix}_{family.name}", "frequency")
+            names = packed.source(
                 f"{prefix}_{family.name}_names", "frequency", "order", "first", "row"
             )
             first = 0.5 if family.name == "half" else 1

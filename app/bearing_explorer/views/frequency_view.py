@@ -16,7 +16,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, fundamentals
 from bearing_explorer.views.measured_view import MEASURED, LookPanel, MeasuredView
@@ -94,15 +94,15 @@ class FrequencyView(MeasuredView):
     first_look: ClassVar[Look]
     needs = frozenset({"spectra"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self.look = self.first_look
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._heights = StickyRange(0.0, 1.0, anchor="zero", shrink_below=0.7)
         p = self.prefix
-        frequency = wire.range(f"{p}_frequency", 0.0, HIGHEST)
+        frequency = packed.range(f"{p}_frequency", 0.0, HIGHEST)
         ranges = {
-            "dB": wire.range(f"{p}_level", -80.0, -20.0),
-            "linear": wire.range(f"{p}_height", 0.0, 1.0),
+            "dB": packed.range(f"{p}_level", -80.0, -20.0),
+            "linear": packed.range(f"{p}_height", 0.0, 1.0),
         }
         quantities = {
             "dB": style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
@@ -119,11 +119,11 @@ class FrequencyView(MeasuredView):
             )
             for scale in SCALES
         }
-        self._lines = FrequencyLines(wire, p, list(self._plots.values()), FRAME)
-        self.decorate(wire, list(self._plots.values()))
-        measured = wire.source(f"{p}_measured", "frequency", *SCALES)
+        self._lines = FrequencyLines(packed, p, list(self._plots.values()), FRAME)
+        self.decorate(packed, list(self._plots.values()))
+        measured = packed.source(f"{p}_measured", "frequency", *SCALES)
         simulated = {
-            dof: wire.source(f"{p}_simulated_{dof}", "frequency", *SCALES) for dof in SHOWN
+            dof: packed.source(f"{p}_simulated_{dof}", "frequency", *SCALES) for dof in SHOWN
         }
         for scale, plot in self._plots.items():
             for dof, source in simulated.items():
@@ -145,7 +145,7 @@ class FrequencyView(MeasuredView):
         )
         return self.hidden
 
-    def decorate(self, wire: Wire, plots: list[figure]) -> None:
+    def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
         """Draw what lies beneath the spectra."""
 
     def decoration(self, results: Results | None, shown: Shown | None) -> Sources:

@@ -9,9 +9,9 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.jobs import Jobs, JobState, Work
-from bearing_explorer.server.live import LiveComponent
+from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.base import View
+from bearing_explorer.views.base import SessionParts, View
 
 Found = TypeVar("Found")
 
@@ -75,6 +75,10 @@ class JobView(View, Generic[Found]):
             self._job = JobPanel(self._asked, spec=spec)
             self._job.show(state)
         return self._job
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.employ(parts.jobs, parts.editor, parts.draw)
 
     def employ(self, jobs: Jobs, editor: SceneEditor, draw: Callable[[], None]) -> None:
         """From now on jobs can be started, for the scene of `editor`; `draw` asks for a drawing."""

@@ -10,7 +10,7 @@ from bokeh.models import HoverTool, Range1d
 from bearing_explorer.compute.defect_shape import pieces, spans
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -27,16 +27,16 @@ class LoadDistribution(View):
         "What a ball carries at each angle: blue with the defect, grey without; with a defect of "
         "the inner race the most in a turn of the shaft. Shaded: the defect. Dots: balls now."
     )
-    needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
         plot = style.house_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,
             Range1d(0.0, 360.0, syncable=False),
-            wire.range("load_distribution_load", 0.0, 100.0),
+            packed.range("load_distribution_load", 0.0, 100.0),
             height=280,
         )
         style.fixed_ticks(plot.xaxis[0], range(0, 361, 30))
@@ -44,7 +44,7 @@ class LoadDistribution(View):
         plot.vstrip(
             "start",
             "end",
-            source=wire.source("load_distribution_defect", "start", "end"),
+            source=packed.source("load_distribution_defect", "start", "end"),
             fill_color=style.DEFECT,
             fill_alpha=0.16,
             line_color=None,
@@ -52,21 +52,21 @@ class LoadDistribution(View):
         plot.line(
             "angle",
             "load",
-            source=wire.source("load_distribution_sound", "angle", "load"),
-            line_color=style.SOUND,
+            source=packed.source("load_distribution_healthy", "angle", "load"),
+            line_color=style.HEALTHY,
             line_width=2.0,
         )
         curve = plot.line(
             "angle",
             "load",
-            source=wire.source("load_distribution_curve", "angle", "load"),
+            source=packed.source("load_distribution_curve", "angle", "load"),
             line_color=style.DEFECTIVE,
             line_width=2.0,
         )
         plot.scatter(
             "angle",
             "load",
-            source=wire.source("load_distribution_balls", "angle", "load"),
+            source=packed.source("load_distribution_balls", "angle", "load"),
             size=8,
             fill_color="white",
             line_color=style.INK,
@@ -86,18 +86,18 @@ class LoadDistribution(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         angle, load = results.load_curve
-        sound_angle, sound_load = results.sound_load_curve
+        healthy_angle, healthy_load = results.healthy_load_curve
         now = results.now
         sources = {
             "load_distribution_defect": shaded(results.scene, results.cage_angle),
             "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
-            "load_distribution_sound": {"angle": np.degrees(sound_angle), "load": sound_load},
+            "load_distribution_healthy": {"angle": np.degrees(healthy_angle), "load": healthy_load},
             "load_distribution_balls": {
                 "angle": np.degrees(now.ball_angle[0]) % 360.0,
                 "load": now.ball_load[0],
             },
         }
-        return sources, {"load_distribution_load": self._range.fit(load, sound_load)}
+        return sources, {"load_distribution_load": self._range.fit(load, healthy_load)}
 
     def sentence(self, results: Results) -> str:
         angle, load = results.load_curve
@@ -108,9 +108,9 @@ class LoadDistribution(View):
             f"A ball carries most, {style.with_prefix(load[most], 'N')}, at "
             f"{style.in_degrees(angle[most])}"
         )
-        _, sound = results.sound_load_curve
-        if results.beside_words and np.isfinite(sound).any():
-            words += f"; {results.beside_words} {style.with_prefix(np.nanmax(sound), 'N')}"
+        _, healthy = results.healthy_load_curve
+        if results.beside_words and np.isfinite(healthy).any():
+            words += f"; {results.beside_words} {style.with_prefix(np.nanmax(healthy), 'N')}"
         if results.over_shaft:
             words += " (the most at each angle while the shaft makes this turn)"
         now = results.now
@@ -124,12 +124,12 @@ class LoadDistribution(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         angle, load = results.load_curve
-        sound_angle, sound_load = results.sound_load_curve
+        healthy_angle, healthy_load = results.healthy_load_curve
         return {
             "ball_angle_deg": np.degrees(angle[1:-1]),
             "ball_load_n": load[1:-1],
-            f"{results.beside_name}_ball_angle_deg": np.degrees(sound_angle[1:-1]),
-            f"{results.beside_name}_ball_load_n": sound_load[1:-1],
+            f"{results.beside_name}_ball_angle_deg": np.degrees(healthy_angle[1:-1]),
+            f"{results.beside_name}_ball_load_n": healthy_load[1:-1],
         }
 
 

@@ -2,8 +2,9 @@
 
 One canvas for all sixteen maps, laid out like the matrix: column j and row i of it are the unit
 square at (j, -i), and below the diagonal, where it only repeats itself, stands the map of the
-loaded balls. To the browser go whole numbers of 16 bits, two to a float of the wire; there they are
-coloured, read under the pointer, and a click asks for the extent and the cage angle clicked at.
+loaded balls. To the browser go whole numbers of 16 bits, two to a float of the packed source; there
+they are coloured, read under the pointer, and a click asks for the extent and the cage angle
+clicked at.
 """
 
 from __future__ import annotations
@@ -14,22 +15,26 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.events import Tap
-from bokeh.models import ColumnDataSource, CustomJS, CustomJSHover, HoverTool, Range1d
+from bokeh.models import ColumnDataSource, CustomJS, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, DIVERGING_DARK, SEQUENTIAL, packed
+from bearing_explorer.figures.color_scales import (
+    DIVERGING,
+    DIVERGING_DARK,
+    SEQUENTIAL,
+    packed_colors,
+)
+from bearing_explorer.figures.heat_map import Places, Side, going, reading
 from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
     SYMBOLS,
-    TERM_UNITS,
     UNITS,
     Cell,
     term_sizes,
-    unit_name,
 )
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.figures.style import (
@@ -46,16 +51,18 @@ from bearing_explorer.figures.style import (
     with_prefix,
     words_of,
 )
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
+from bearingcore.statics.equilibrium import TERM_UNITS
 
 #: how a map is coloured: kinds of scales, as the browser knows them
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
 
 _TOOLTIP = (
     '<div style="font: 12px system-ui, sans-serif; line-height: 1.45">'
-    "<b>@name: @left{custom}</b><br>Extent @right{custom}<br>@top{custom}</div>"
+    "<b>@name: @left{custom}</b><br>@right{custom}<br>@top{custom}</div>"
 )
 
 NO_ANSWER = 65535
@@ -100,7 +107,7 @@ class StiffnessMaps(View):
     )
     needs = frozenset({"maps", "now"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         """One canvas for all maps."""
         self._one_sign = [StickyRange(0.0, 1.0) for _ in PLACES]
         self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
@@ -115,19 +122,20 @@ class StiffnessMaps(View):
             ":host { min-width: 760px; } .bk-events.bk-events { cursor: crosshair; }"
             ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
         ]
-        cells = wire.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
-        grid = wire.source("maps_grid", *_GRID)
-        ticks = wire.source("maps_ticks", "x", "y", "value", "beside")
-        now = wire.source("maps_now", "x", "y", *_SIDES)
-        points = wire.source("maps_points", "bits")
+        cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
+        grid = packed.source("maps_grid", *_GRID)
+        ticks = packed.source("maps_ticks", "x", "y", "value", "beside")
+        now = packed.source("maps_now", "x", "y", *_SIDES)
+        points = packed.source("maps_points", "bits")
         frames = _frames(plot)
-        _images(plot, points)
+        images = _images(plot, points)
+        places = Places(images, _SIDES_OF, stands=grid, count=_N, digits=1)
         _names(plot, grid)
         _scales(plot, cells)
         _ticks(plot, ticks)
         _crosshair(plot, now)
-        _hover(plot, frames, cells, grid, points)
-        plot.js_on_event(Tap, _go_there(grid))
+        _hover(plot, frames, cells, places, points)
+        plot.js_on_event(Tap, going(places))
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
         return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
 
@@ -144,7 +152,7 @@ class StiffnessMaps(View):
             points.append(whole_numbers(values, low, high))
             at_now = 0.0 if abs(at_now) < NEGLIGIBLE * sizes[i] else at_now
             kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
-            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[i])))
+            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[term])))
         counts = np.where(maps.converged, maps.loaded_balls, np.nan)
         low, high = self._balls.fit(counts)
         low, high = math.floor(low), math.ceil(high)
@@ -216,17 +224,9 @@ class StiffnessMaps(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every point of every map in SI."""
-        maps = results.maps
-        extents, angles = np.meshgrid(maps.extents, maps.cage_angles, indexing="ij")
-        columns = {
-            "extent_deg": np.degrees(extents),
-            "cage_angle_deg": np.degrees(angles),
-            "loaded_balls": maps.loaded_balls,
-            "greatest_ball_load_n": maps.greatest_load,
-        }
-        for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
-            columns[f"{term}_{unit_name(unit)}"] = maps.term(term)
-        return columns
+        columns = results.maps.table().in_units().named()
+        shape = results.maps.status.shape
+        return {name: column.reshape(shape) for name, column in columns.items()}
 
 
 def whole_numbers(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.uint16]:
@@ -246,7 +246,8 @@ def as_bits(
 ) -> NDArray[np.float32]:
     """Rows and columns of the maps, their kinds, levels of the last, and all points, as floats.
 
-    The wire carries floats; two whole numbers lie in the bits of each and are never read as one.
+    The packed source carries floats; two whole numbers lie in the bits of each and are never read
+    as one.
     """
     head = np.array([*shape, *kinds, levels], np.uint16)
     numbers = np.concatenate([head, np.zeros(_HEAD - head.size, np.uint16), *points])
@@ -257,9 +258,13 @@ def as_bits(
 
 _HEAD = 20  # numbers in front of the points
 
-_GRID = (
-    "first_angle", "last_angle", "first_extent", "last_extent", "turn", "start", "of_shaft"
-)  # fmt: skip
+_GRID = ("across", "up", "x_first", "x_last", "y_first", "y_last", "turn", "start", "of_shaft")
+_SIDES_OF = (
+    Side(CAGE_ANGLE, "Cage angle", "", "°"),
+    Side("extent_deg", "Extent", "", "°"),
+    Side(CAGE_ANGLE, "Shaft angle", "", "°"),
+)
+_ACROSS, _UP = (0, 2), 1
 _SIDES = ("left", "right", "bottom", "top")
 _SIDE_COLUMNS = {side: np.array([getattr(cell, side) for cell in _CELLS]) for side in _SIDES}
 
@@ -268,7 +273,7 @@ def _grid(results: Results) -> dict[str, float]:
     """What the sides of a map stand for [deg]: half a point past the first and the last.
 
     `turn` says how far the angle that the map shows turns for a degree of cage angle: it is the
-    shaft's where a defect turns with the shaft. `start` is the cage angle where it is nought.
+    shaft's where a defect turns with the shaft. `start` is the cage angle where it is zero.
     """
     maps = results.maps
 
@@ -281,10 +286,12 @@ def _grid(results: Results) -> dict[str, float]:
     low, high = ends(np.degrees(maps.extents))
     turn = 1.0 / results.scene.bearing.cage_ratio if results.over_shaft else 1.0
     return {
-        "first_angle": first,
-        "last_angle": last,
-        "first_extent": low,
-        "last_extent": high,
+        "across": float(_ACROSS[results.over_shaft]),
+        "up": float(_UP),
+        "x_first": first,
+        "x_last": last,
+        "y_first": low,
+        "y_last": high,
         "turn": turn,
         "start": math.degrees(maps.cage_angles[0]),
         "of_shaft": float(results.over_shaft),
@@ -294,8 +301,8 @@ def _grid(results: Results) -> dict[str, float]:
 def _marks(results: Results, grid: dict[str, float]) -> dict[str, np.ndarray]:
     """Where the sliders stand, in each map."""
     angle, extent = float(results.along(results.cage_angle)), math.degrees(results.extent)
-    x = (angle - grid["first_angle"]) / (grid["last_angle"] - grid["first_angle"])
-    y = (extent - grid["first_extent"]) / (grid["last_extent"] - grid["first_extent"])
+    x = (angle - grid["x_first"]) / (grid["x_last"] - grid["x_first"])
+    y = (extent - grid["y_first"]) / (grid["y_last"] - grid["y_first"])
     return {
         "x": np.array([cell.x(np.array(x)) for cell in _CELLS]),
         "y": np.array([cell.y(np.array(y), (0.0, 1.0)) for cell in _CELLS]),
@@ -314,8 +321,8 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
         if not large and len(set(PLACES[at])) > 1:
             continue
         for beside, first, last in (
-            (_LEFT, grid["first_extent"], grid["last_extent"]),
-            (_FOOT, grid["first_angle"], grid["last_angle"]),
+            (_LEFT, grid["y_first"], grid["y_last"]),
+            (_FOOT, grid["x_first"], grid["x_last"]),
         ):
             for value in _round_numbers(first, last, 6 if large else 2):
                 share = np.array((value - first) / (last - first))
@@ -331,7 +338,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
 
 
 def _round_numbers(first: float, last: float, parts: int) -> list[float]:
-    """From nought to about `parts` equal round steps further, within the ends [deg]."""
+    """From zero to about `parts` equal round steps further, within the ends [deg]."""
     span = last - max(first, 0.0)
     steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
     step = steps[0] if steps else span / parts
@@ -361,7 +368,7 @@ def _frames(plot: figure) -> Any:
     )
 
 
-def _images(plot: figure, points: ColumnDataSource) -> None:
+def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
     """The maps and their colour scales, coloured in the browser."""
     places = [*_CELLS, *_BARS]
     images = ColumnDataSource(
@@ -375,7 +382,7 @@ def _images(plot: figure, points: ColumnDataSource) -> None:
         syncable=False,
     )
     plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
-    one, *both = (packed(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
+    one, *both = (packed_colors(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
     scales = {
         theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
     }
@@ -384,6 +391,7 @@ def _images(plot: figure, points: ColumnDataSource) -> None:
         code=asset_text("maps_color.js"),
     )
     points.js_on_change("data", color)
+    return images
 
 
 def _names(plot: figure, grid: ColumnDataSource) -> None:
@@ -485,29 +493,20 @@ def _crosshair(plot: figure, now: ColumnDataSource) -> None:
     plot.scatter("x", "y", source=now, size=8, fill_color=DEFECT, line_color=SHADE)
 
 
-def _hover(
-    plot: figure, frames: Any, cells: ColumnDataSource, grid: ColumnDataSource, points: Any
-) -> None:
+def _hover(plot: figure, frames: Any, cells: ColumnDataSource, places: Places, points: Any) -> None:
     """The value under the pointer, its extent and cage angle, without a word to the server."""
-    code = asset_text("maps_read.js")
-    args = {"cells": cells, "grid": grid, "points": points, "frames": frames.data_source}
-    args |= {"units": list(UNITS), "head": _HEAD, "none": NO_ANSWER, "greatest": GREATEST}
-    read = {
-        field: CustomJSHover(args={**args, "wanted": wanted}, code=code)
-        for field, wanted in (("@left", "value"), ("@right", "extent"), ("@top", "angle"))
-    }
     plot.add_tools(
-        HoverTool(
-            renderers=[frames],
-            visible=False,  # no button: it is always on
-            point_policy="follow_mouse",
-            tooltips=_TOOLTIP,
-            formatters=read,
+        reading(
+            places,
+            [frames],
+            asset_text("maps_value.js"),
+            tooltip=_TOOLTIP,
+            fields={"@left": "value", "@right": "y", "@top": "x"},
+            cells=cells,
+            points=points,
+            units=list(UNITS),
+            head=_HEAD,
+            none=NO_ANSWER,
+            greatest=GREATEST,
         )
     )
-
-
-def _go_there(grid: ColumnDataSource) -> CustomJS:
-    """What a click asks for goes the way of typed numbers, see controls.js."""
-    boxes = [[cell.left, cell.right, cell.bottom, cell.top] for cell in _CELLS]
-    return CustomJS(args={"grid": grid, "boxes": boxes}, code=asset_text("maps_click.js"))

@@ -21,7 +21,7 @@ class MeasuredEnvelope(FrequencyView):
 
     name = "measured-envelope"
     prefix = "measured_envelope"
-    title = "3  Its envelope: how often something knocks"
+    title = "Beside the model: the envelope"
     about = (
         "Knocks make something ring, and the ringing swells with each of them: lines at BPFO speak "
         "for the outer race, at BPFI for the inner race, at twice BSF for a ball. Unless you give "
@@ -53,7 +53,7 @@ class MeasuredEnvelope(FrequencyView):
         return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
 
     def band(self, measured: Measured, direction: str, passing: float) -> tuple[float, float]:
-        """The band [Hz] as chosen, or where knocks stand out; what is not told is guessed."""
+        """The band [Hz] as chosen, or where knocks stand out; what is not given is guessed."""
         low, high = self.look.band
         if low is None or high is None:
             best = measured.band(direction, passing)

@@ -9,7 +9,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.figures import style
 from bearing_explorer.measurement.signal import Measured, Simulated
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.views.base import Sources
 from bearing_explorer.views.frequency_view import (
@@ -35,7 +35,7 @@ class MeasuredSpectrum(FrequencyView):
 
     name = "measured-spectrum"
     prefix = "measured_spectrum"
-    title = "2  Its spectrum"
+    title = "Beside the model: the spectrum"
     about = (
         "Thin: measured. Coloured: simulated, for the scene beside. Shaded: the bands of its "
         "natural frequencies. Where measured resonances lie in the bands, the scene is like the "
@@ -54,9 +54,9 @@ class MeasuredSpectrum(FrequencyView):
         LINES,
     ]
 
-    def decorate(self, wire: Wire, plots: list[figure]) -> None:
+    def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
         for dof in SHOWN:
-            bands = wire.source(
+            bands = packed.source(
                 f"{self.prefix}_bands_{dof}", "low", "high", "direction", "number", "label_at"
             )
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import panel as pn
 import param
 from bokeh.models import ColumnDataSource, CustomJSExpr, Range1d
 from bokeh.plotting import figure
@@ -15,7 +14,7 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.export.measured_lines import measured_lines
 from bearing_explorer.figures import style
 from bearing_explorer.measurement.session import Measurement
-from bearing_explorer.views.base import View
+from bearing_explorer.views.base import SessionParts, View
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -44,25 +43,19 @@ def write_over(
     )  # fmt: skip
 
 
-def side_by_side(*parts: Any) -> pn.Column:
-    """Parts beside each other where there is room for two, else one below the other."""
-    columns = "repeat(auto-fit, minmax(min(100%, 380px), 1fr))"
-    return pn.Column(
-        *parts,
-        stylesheets=[f":host {{ display: grid; grid-template-columns: {columns}; }}"],
-        sizing_mode="stretch_width",
-        margin=0,
-    )
-
-
 NOTHING = "There is no signal yet: choose a file or simulate one above."
 
 
 class MeasuredView(View):
     """A view of the session's measurement. What `build` puts in `self.hidden` waits for one."""
 
+    in_report = False
     hidden: Any = None
     measurement: Measurement | None = None
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.measure(parts.measurement)
 
     def measure(self, measurement: Measurement) -> None:
         """From now on draw what is measured there."""

@@ -17,13 +17,14 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.excerpt import least_and_greatest
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.measurement.session import MACHINES, NOISES, Measurement, MeasurementState
+from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
-from bearingcore.signals.recording import UNITS
+from bearingcore.signals.units import UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -68,6 +69,10 @@ class MeasurementPanel(JSComponent):
             "columns": state.columns,
             "values": state.values,
             "refused": state.refused,
+            "reasons": state.reasons,
+            "open": state.open,
+            "said": state.said,
+            "load": state.load,
             "scaled": state.scaled,
         }
 
@@ -87,12 +92,12 @@ class MeasuredSignal(MeasuredView):
     )
     needs = frozenset()
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self.form = MeasurementPanel(self._asked, spec=spec())
         self.form.show(MeasurementState())
         self._all, self._close = StickyRange(-1.0, 1.0), StickyRange(-1.0, 1.0)
-        plots = [self._plot(wire, "all"), self._plot(wire, "close")]
-        self._mark_events(wire, plots[1])
+        plots = [self._plot(packed, "all"), self._plot(packed, "close")]
+        self._mark_events(packed, plots[1])
         wide: dict[str, Any] = {
             "sizing_mode": "stretch_width",
             "margin": 0,
@@ -101,24 +106,24 @@ class MeasuredSignal(MeasuredView):
         self.hidden = pn.Row(*plots, visible=False, **wide)
         return pn.Column(self.form, self.hidden, **wide)
 
-    def _plot(self, wire: Wire, part: str) -> figure:
+    def _plot(self, packed: PackedSource, part: str) -> figure:
         plot = style.house_figure(
             TIME,
             ACCELERATION,
-            wire.range(f"measurement_{part}_time", 0.0, 1.0),
-            wire.range(f"measurement_{part}_size", -1.0, 1.0),
+            packed.range(f"measurement_{part}_time", 0.0, 1.0),
+            packed.range(f"measurement_{part}_size", -1.0, 1.0),
             height=HEIGHT,
             title="All of it" if part == "all" else f"{PASSES:.0f} ball passes",
         )
         # the weaker direction is drawn over the stronger one
-        source = wire.source(f"measurement_{part}", "time", *SHOWN)
+        source = packed.source(f"measurement_{part}", "time", *SHOWN)
         for dof in reversed(SHOWN):
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
             plot.line("time", dof, source=source, line_color=color, line_width=1.2)
         return plot
 
-    def _mark_events(self, wire: Wire, plot: figure) -> None:
-        events = wire.source("measurement_events", *_EVENT_COLUMNS)
+    def _mark_events(self, packed: PackedSource, plot: figure) -> None:
+        events = packed.source("measurement_events", *_EVENT_COLUMNS)
         plot.vspan("time", source=events, line_color=style.INK, line_alpha=0.55, line_width=1.0)
         words = style.words_of(events, _EDGE_WORDS)
         write_over(plot, events, words, "time", "row", style.INK, x_offset=3)
@@ -212,9 +217,8 @@ def spec() -> dict[str, Any]:
     return {
         "most": MOST_BYTES,
         "piece": PIECE,
-        "accept": ".csv,.txt,.dat,.tsv,.asc,.wav,.mat,text/plain,text/csv,audio/wav",
         "formats": (
-            "CSV or text, WAV, or MATLAB (.mat up to version 7); at most "
+            "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
             f"{MOST_BYTES // 2**20} MB. Or drop it here."
         ),
         "noises": [["20", "20 dB"], *[noise for noise in noises if noise[0] != "20"]],

@@ -10,26 +10,15 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import values_of
 from bearing_explorer.state.quantity_list import MODEL_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.widgets.controls import Rows, choice_spec, spec_of
+from bearing_explorer.widgets.controls import Rows, spec_of
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-
-_LAWS = {
-    "published": (
-        "Published, may pull",
-        "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
-    ),
-    "no tension": (
-        "Without tension",
-        "The same damping, but a contact never pulls: its force ends at zero.",
-    ),
-}
 
 
 class ModelRows(Rows):
@@ -58,9 +47,8 @@ class ModelEditor(ControlView):
     )
     needs = frozenset({"contact_damping"})
 
-    def build(self, wire: Wire) -> Any:
-        law = choice_spec("Contact law", "Contact of a moving ball", False, _LAWS)
-        self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS, {"law": law}.items()))
+    def build(self, packed: PackedSource) -> Any:
+        self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS))
         return self.rows
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

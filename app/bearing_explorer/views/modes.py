@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
@@ -46,21 +46,23 @@ class NaturalFrequencies(View):
         "orange y. Shaded: the band in which a mode moves. Grey: the bearing without its defect. "
         "Black: now."
     )
-    needs = frozenset({"modes", "sound_modes"})
+    needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0)
-        self._angle_range = wire.range("modes_angle", 0.0, 30.0)
+        self._angle_range = packed.range("modes_angle", 0.0, 30.0)
         plot = style.house_figure(
             style.CAGE_ANGLE,
             FREQUENCY,
             self._angle_range,
-            wire.range("modes_frequency", 0.0, 2000.0),
+            packed.range("modes_frequency", 0.0, 2000.0),
             height=HEIGHT,
             right=128,
         )
-        bands = wire.source("modes_bands", "low", "high", "direction", "number", "end", "label_at")
+        bands = packed.source(
+            "modes_bands", "low", "high", "direction", "number", "end", "label_at"
+        )
         colors = direction_mapper()
         plot.hstrip(
             "low",
@@ -73,19 +75,19 @@ class NaturalFrequencies(View):
         plot.line(
             "angle",
             "frequency",
-            source=wire.source("modes_sound", "angle", "frequency"),
-            line_color=style.SOUND,
+            source=packed.source("modes_healthy", "angle", "frequency"),
+            line_color=style.HEALTHY,
             line_width=1.5,
         )
         for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True):
             plot.line(
                 "angle",
                 "frequency",
-                source=wire.source(f"modes_{direction}", "angle", "frequency"),
+                source=packed.source(f"modes_{direction}", "angle", "frequency"),
                 line_color=color,
                 line_width=2.0,
             )
-        style.now_line(plot, wire.source("modes_now", "now"))
+        style.now_line(plot, packed.source("modes_now", "now"))
         self._label(plot, bands, colors)
         self._axis = plot.xaxis[0]
         return plot
@@ -105,8 +107,8 @@ class NaturalFrequencies(View):
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        modes, sound = results.modes, results.sound_modes
-        shown = self._range.fit(modes.frequency, sound.frequency)
+        modes, healthy = results.modes, results.healthy_modes
+        shown = self._range.fit(modes.frequency, healthy.frequency)
         angle = results.along(modes.cage_angles)
         bands = band_rows(modes)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
@@ -115,7 +117,7 @@ class NaturalFrequencies(View):
         bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
         sources: Sources = {
             "modes_bands": bands,
-            "modes_sound": lines(results.along(sound.cage_angles), sound.frequency),
+            "modes_healthy": lines(results.along(healthy.cage_angles), healthy.frequency),
             "modes_now": {"now": results.along([results.cage_angle])},
         }
         for direction in style.DIRECTIONS:
@@ -128,7 +130,7 @@ class NaturalFrequencies(View):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, sound = results.modes.bands(), results.sound_modes.bands()
+        bands, healthy = results.modes.bands(), results.healthy_modes.bands()
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             return "There is no static state to take natural frequencies from."
@@ -137,8 +139,8 @@ class NaturalFrequencies(View):
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
-        if results.beside_words and np.isfinite(sound.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} within {_from_to(sound[first])}"
+        if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
+            text += f"; {results.beside_words} {first} within {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -148,7 +150,7 @@ class NaturalFrequencies(View):
             self._axis.axis_label = over.label()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        modes, sound = results.modes, results.sound_modes
+        modes, healthy = results.modes, results.healthy_modes
         table = {"cage_angle_deg": np.degrees(modes.cage_angles)}
         if results.over_shaft:
             table["shaft_angle_deg"] = results.along(modes.cage_angles)
@@ -157,9 +159,9 @@ class NaturalFrequencies(View):
         for i, label in enumerate(modes.label):
             table[f"{label}_damping_ratio"] = modes.damping_ratio[:, i]
         beside = results.beside_name
-        table[f"{beside}_cage_angle_deg"] = np.degrees(sound.cage_angles)
-        for i, label in enumerate(sound.label):
-            table[f"{beside}_{label}_hz"] = sound.frequency[:, i]
+        table[f"{beside}_cage_angle_deg"] = np.degrees(healthy.cage_angles)
+        for i, label in enumerate(healthy.label):
+            table[f"{beside}_{label}_hz"] = healthy.frequency[:, i]
         return table
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
@@ -25,6 +25,7 @@ from bearing_explorer.views.vibration_spectrum import (
     drawn_levels,
 )
 from bearing_explorer.widgets.status import StatusLine, scientific
+from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ _LOST_LONG = {
     ),
     "+1": (
         "Every ball pass alike is possible but does not last: the machine goes to another orbit, "
-        "and which one hangs on where it comes from"
+        "and which one depends on where it comes from"
     ),
 }
 
@@ -73,7 +74,7 @@ class SteadyOrbit(View):
     )
     needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02) for _ in SHOWN]
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
@@ -81,22 +82,22 @@ class SteadyOrbit(View):
         self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
         # a row that wraps: Panel's own asks for the width of all its parts together
         plots = pn.Column(
-            self._multipliers(wire),
-            self._path(wire),
-            self._spectrum(wire),
+            self._multipliers(packed),
+            self._path(packed),
+            self._spectrum(packed),
             sizing_mode="stretch_width",
             margin=0,
             stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
         )
         return pn.Column(self.status, plots, sizing_mode="stretch_width", margin=0)
 
-    def _multipliers(self, wire: Wire) -> figure:
-        shown = wire.range("orbit_multipliers", -1.2, 1.2)
+    def _multipliers(self, packed: PackedSource) -> figure:
+        shown = packed.range("orbit_multipliers", -1.2, 1.2)
         plot = _square(
             style.AxisQuantity("", "", ""),
             style.AxisQuantity("", "", ""),
             shown,
-            wire.range("orbit_multipliers_up", -1.2, 1.2),
+            packed.range("orbit_multipliers_up", -1.2, 1.2),
         )
         plot.xaxis.axis_label, plot.yaxis.axis_label = "Multipliers, real part", "Imaginary part"
         turn = np.linspace(0.0, 2.0 * math.pi, 121)
@@ -105,42 +106,42 @@ class SteadyOrbit(View):
         plot.line("x", "y", source=circle, line_color="#00704F", line_width=1.5)
         for name, color in (("orbit_inside", style.DEFECTIVE), ("orbit_outside", "#D55E00")):
             plot.scatter(
-                "x", "y", source=wire.source(name, "x", "y"), size=10, fill_color=color,
+                "x", "y", source=packed.source(name, "x", "y"), size=10, fill_color=color,
                 fill_alpha=0.85, line_color="white", line_width=1.0,
             )  # fmt: skip
         return plot
 
-    def _path(self, wire: Wire) -> figure:
+    def _path(self, packed: PackedSource) -> figure:
         plot = _square(
             style.AxisQuantity("Inner ring along x", "", "µm"),
             style.AxisQuantity("Along y", "", "µm"),
-            wire.range("orbit_x", -1.0, 1.0),
-            wire.range("orbit_y", -1.0, 1.0),
+            packed.range("orbit_x", -1.0, 1.0),
+            packed.range("orbit_y", -1.0, 1.0),
         )
         plot.line(
-            "x", "y", source=wire.source("orbit_marched", "x", "y"), line_color=style.SOUND,
+            "x", "y", source=packed.source("orbit_marched", "x", "y"), line_color=style.HEALTHY,
             line_width=3.0,
         )  # fmt: skip
         plot.line(
-            "x", "y", source=wire.source("orbit_path", "x", "y"), line_color=style.DEFECTIVE,
+            "x", "y", source=packed.source("orbit_path", "x", "y"), line_color=style.DEFECTIVE,
             line_width=1.4,
         )  # fmt: skip
         return plot
 
-    def _spectrum(self, wire: Wire) -> figure:
+    def _spectrum(self, packed: PackedSource) -> figure:
         plot = style.house_figure(
             FREQUENCY,
             style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
             Range1d(0.0, HIGHEST, syncable=False),
-            wire.range("orbit_level", -80.0, -20.0),
+            packed.range("orbit_level", -80.0, -20.0),
             height=HEIGHT + 40,
         )
         # beside the squares where there is room, else as wide as the card
         plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
-        marched = wire.source("orbit_marched_levels", "frequency", *SHOWN)
-        found = wire.source("orbit_levels", "frequency", *SHOWN)
+        marched = packed.source("orbit_marched_levels", "frequency", *SHOWN)
+        found = packed.source("orbit_levels", "frequency", *SHOWN)
         for dof in SHOWN:
-            plot.line("frequency", dof, source=marched, line_color=style.SOUND, line_width=4.0)
+            plot.line("frequency", dof, source=marched, line_color=style.HEALTHY, line_width=4.0)
         for dof in SHOWN:
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
             plot.line("frequency", dof, source=found, line_color=color, line_width=1.6)
@@ -199,6 +200,8 @@ class SteadyOrbit(View):
             )
         if orbit.status == NO_START:
             return "There is no static state to begin from, so no orbit was looked for."
+        if orbit.status == TOO_MANY_STEPS:
+            return f"The search would take too long: {orbit.cost}."
         if orbit.status == NOT_CONVERGED and results.moving:
             return (
                 "A short search found no motion that repeats with every ball pass; it goes on when "

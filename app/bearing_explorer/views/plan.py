@@ -12,11 +12,12 @@ from bokeh.models import CustomJSTickFormatter, FixedTicker, Range1d
 
 from bearing_explorer.assets import asset_path, asset_text
 from bearing_explorer.figures import style
-from bearing_explorer.server.live import LiveComponent
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.plan_choice import TITLES
-from bearing_explorer.widgets.status import DOF_SYMBOLS, scientific
+from bearing_explorer.widgets.status import scientific
+from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.plan import CURVES, SETTLED
 
 if TYPE_CHECKING:
@@ -59,13 +60,13 @@ class PlanInFull(View):
     needs = frozenset()
     plans = (*CURVES, SETTLED)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._rows: dict[str, Any] = {"heads": list(HEADS), "rows": [], "remarks": []}
         self._table = PlanTable(sizing_mode="stretch_width", margin=0)
         plot = style.house_figure(
             style.CAGE_ANGLE,
             style.AxisQuantity("", "", ""),
-            wire.range("plan_angle", 0.0, 30.0),
+            packed.range("plan_angle", 0.0, 30.0),
             Range1d(-0.6, len(CURVES) - 0.4, syncable=False),
             height=150,
         )
@@ -79,7 +80,7 @@ class PlanInFull(View):
             "angle",
             "row",
             marker="dash",
-            source=wire.source("plan_nodes", "angle", "row"),
+            source=packed.source("plan_nodes", "angle", "row"),
             angle=0.5 * math.pi,
             size=16,
             line_color=style.DEFECTIVE,

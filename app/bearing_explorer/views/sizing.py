@@ -19,7 +19,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import focused
@@ -52,6 +52,10 @@ BEFORE = 0.14
 NAME_WIDTH = 0.36
 """Of a band's name, as a share of the width of its figure."""
 
+OUTER, INNER = "outer race", "inner race"
+FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
+"""What may be said to be damaged: value and words."""
+
 _KNOCK_WORDS = "return 'knock'"
 _EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
 
@@ -64,11 +68,12 @@ class DefectSize(JobView[Sized], MeasuredView):
     """Candidates for the extent with their probabilities, and their curves over the measured."""
 
     name = "sizing"
-    title = "4  The size of the defect"
+    title = "3  How large"
     about = (
-        "The time from a ball's entry to a ball's exit gives the extent up to whole ball spacings. "
-        "So every extent is simulated and asked how well it explains the mean ball pass and the "
-        "spectrum. Point at a candidate to see it, coloured, over what was measured, thin."
+        "Of a defect on the outer race. The time from a ball's entry to a ball's exit gives the "
+        "extent up to whole ball spacings. So every extent is simulated and asked how well it "
+        "explains the mean ball pass and the spectrum. Point at a candidate to see it, coloured, "
+        "over what was measured, thin."
     )
     needs = frozenset()
     start = "Find the size"
@@ -77,17 +82,17 @@ class DefectSize(JobView[Sized], MeasuredView):
         "the scene; its extent is not looked at."
     )
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
         self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self.candidates = CandidateList(self._looked_at)
         self._looked: int | None = None
         self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
         self._levels = {dof: StickyRange(-80.0, -20.0, least_span=30.0) for dof in SHOWN}
-        seconds = wire.range("sizing_time", 0.0, 0.03)
-        frequency = wire.range("sizing_frequency", 0.0, 2500.0)
-        events = wire.source("sizing_events", "time", "exit", "row", "shift")
-        knocks = wire.source("sizing_knocks", "time", "shift")
+        seconds = packed.range("sizing_time", 0.0, 0.03)
+        frequency = packed.range("sizing_frequency", 0.0, 2500.0)
+        events = packed.source("sizing_events", "time", "exit", "row", "shift")
+        knocks = packed.source("sizing_knocks", "time", "shift")
         self._rows = {}
         wide: dict[str, Any] = {
             "sizing_mode": "stretch_width",
@@ -96,8 +101,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         }
         for dof in SHOWN:
             self._rows[dof] = pn.Row(
-                self._pass_plot(wire, dof, seconds, events, knocks),
-                self._spectrum_plot(wire, dof, frequency),
+                self._pass_plot(packed, dof, seconds, events, knocks),
+                self._spectrum_plot(packed, dof, frequency),
                 **wide,
             )
         self._answer_part = pn.Column(
@@ -111,13 +116,13 @@ class DefectSize(JobView[Sized], MeasuredView):
         return self.hidden
 
     def _pass_plot(
-        self, wire: Wire, dof: str, seconds: Range1d, events: Any, knocks: Any
+        self, packed: PackedSource, dof: str, seconds: Range1d, events: Any, knocks: Any
     ) -> figure:
         plot = style.house_figure(
             style.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
             style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
             seconds,
-            wire.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
+            packed.range(f"sizing_pass_size_{dof}", -1.0, 1.0),
             height=HEIGHT,
             title=f"Mean ball pass along {dof}",
         )
@@ -127,56 +132,61 @@ class DefectSize(JobView[Sized], MeasuredView):
         plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
         words = style.words_of(events, _EDGE_WORDS)
         write_over(plot, events, words, "time", "row", style.INK, x_offset="shift")
-        self._curves(wire, plot, dof, "pass", "time", "size")
+        self._curves(packed, plot, dof, "pass", "time", "size")
         return plot
 
-    def _spectrum_plot(self, wire: Wire, dof: str, frequency: Range1d) -> figure:
+    def _spectrum_plot(self, packed: PackedSource, dof: str, frequency: Range1d) -> figure:
         plot = style.house_figure(
             FREQUENCY,
             style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
             frequency,
-            wire.range(f"sizing_level_{dof}", -80.0, -20.0),
+            packed.range(f"sizing_level_{dof}", -80.0, -20.0),
             height=HEIGHT,
             title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
         )
         color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-        bands = wire.source(f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at")
+        bands = packed.source(
+            f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at"
+        )
         plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
         words = style.words_of(bands, BAND_WORDS)
         write_over(plot, bands, words, "label_at", 0.93, color, text_align="center")
-        self._curves(wire, plot, dof, "spectrum", "frequency", "level")
+        self._curves(packed, plot, dof, "spectrum", "frequency", "level")
         return plot
 
     def _curves(
-        self, wire: Wire, plot: figure, dof: str, what: str, along: str, value: str
+        self, packed: PackedSource, plot: figure, dof: str, what: str, along: str, value: str
     ) -> None:
         color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
         for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
-            source = wire.source(f"sizing_{what}_{who}_{dof}", along, value)
+            source = packed.source(f"sizing_{what}_{who}_{dof}", along, value)
             plot.line(along, value, source=source, line_color=line, line_width=width)
 
     # The job
 
     def fields(self) -> list[dict[str, Any]]:
-        return []
+        return [{"name": "fault", "label": "Damaged is", "options": FAULTS}]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        return {}, {}
+        return {"fault": ""}, {}
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         measured = self.measured
         if measured is None:
             raise ValueError(NOTHING)
         scene = measured.scene(focused(editor.scene, editor.selected))
+        fault = given.get("fault") or None
+        if fault not in (None, OUTER):
+            raise ValueError(f"Not possible: damaged is {OUTER!r}, or what the diagnosis says.")
 
         def work(job: Work) -> str:
-            return compute(job, measured, scene)
+            return compute(job, measured, scene, fault)
 
         return work
 
     def _take(self, found: Sized) -> None:
-        if self.measurement is not None:
-            self.measurement.sized = found
+        if self.measurement is not None:  # events are drawn into the signal where they are told
+            self.measurement.sized = found if told(found.sizing) else None
         self._looked = None
         super()._take(found)
 
@@ -207,7 +217,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         sized = self.sized
-        if sized is None:
+        if sized is None or not sized.sizing.candidates:
             return self._nothing(), {}
         sizing = sized.sizing
         candidate = self.candidate(sizing)
@@ -274,8 +284,9 @@ class DefectSize(JobView[Sized], MeasuredView):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         sized = self.sized
-        self._answer_part.visible = sized is not None
-        if sized is None:
+        answered = sized is not None and bool(sized.sizing.candidates)
+        self._answer_part.visible = answered
+        if sized is None or not answered:
             return
         self.status.line = status(sized)
         self.candidates.rows = rows(sized)
@@ -291,7 +302,7 @@ class DefectSize(JobView[Sized], MeasuredView):
             return NOTHING
         sized = self.sized
         if sized is None:
-            return "The size has not been looked for yet."
+            return self._not_yet(results)
         words = sized.sizing.status
         truth = sized.measured.true_extent
         if truth is not None:
@@ -302,26 +313,39 @@ class DefectSize(JobView[Sized], MeasuredView):
             words += " The scene has changed since; this is the answer for the one before."
         return words
 
+    def _not_yet(self, results: Results) -> str:
+        """That nothing was looked for, and whether there is something to look for."""
+        words = "The size has not been looked for yet."
+        measured, measurement = self.measured, self.measurement
+        if measured is None or measurement is None:
+            return words
+        found = measurement.diagnoses.newest(measured, results.scene.bearing)
+        if found is None or found.fault == OUTER:
+            return words
+        if found.fault == INNER:
+            return (
+                f"{words} The inner race is damaged: its defect turns through the load, no ball "
+                "pass is like the next, and its size cannot be had this way."
+            )
+        return (
+            f"{words} Step 2 does not say that the outer race is damaged. If that is known from "
+            "elsewhere, choose it here."
+        )
+
     def table(self, results: Results) -> dict[str, np.ndarray]:
         sized = self.sized
         if sized is None:
             return {}
-        candidates = sized.sizing.candidates
-        table = {
-            "extent_deg": np.degrees([c.extent for c in candidates]),
-            "ball_spacings": np.array([c.turns for c in candidates]),
-            "probability": np.array([c.probability for c in candidates]),
-            "edge": np.array([c.edge for c in candidates]),
-            "waveform_misfit": np.array([c.waveform_misfit.mean() for c in candidates]),
-            "spectrum_misfit": np.array([c.spectrum_misfit.mean() for c in candidates]),
-        }
-        for name in candidates[0].factors:
-            table[f"{name}_factor"] = np.array([c.factors[name] for c in candidates])
-        return table
+        return sized.sizing.table().in_units().named()
 
 
-def compute(job: Work, measured: Measured, scene: Scene) -> str:
-    """Size the defect. Runs in a job's thread."""
+def told(sizing: Sizing) -> bool:
+    """Whether a sizing has an answer, be it a bound."""
+    return bool(sizing.candidates) and (sizing.conclusive or bool(sizing.bound))
+
+
+def compute(job: Work, measured: Measured, scene: Scene, fault: str | None = None) -> str:
+    """Size the defect; `fault` where it is known what is damaged. Runs in a job's thread."""
     started = time.perf_counter()
 
     def progress(share: float) -> None:
@@ -330,7 +354,7 @@ def compute(job: Work, measured: Measured, scene: Scene) -> str:
             raise Given
 
     try:
-        sizing = size_defect(measured.recording, scene, progress=progress)
+        sizing = size_defect(measured.recording, scene, fault=fault, progress=progress)
     except Given:
         return "There is no answer yet."
     except ValueError as error:
@@ -338,6 +362,8 @@ def compute(job: Work, measured: Measured, scene: Scene) -> str:
     for candidate in sizing.candidates:
         _ = candidate.bands  # here, and not while somebody waits for a drawing
     job.show(Sized(measured, scene, sizing))
+    if not sizing.candidates:
+        return "There is no size to look for."
     return f"Every extent from 1° to 110° was tried, in {time.perf_counter() - started:.1f} s."
 
 
@@ -350,14 +376,19 @@ def status(sized: Sized) -> dict[str, Any]:
     off = 100.0 * (passes.frequency / nominal - 1.0)
     side = "above" if off > 0.0 else "below"
     spacing = math.degrees(scene.bearing.ball_spacing)
-    uncertainty = 1e3 * events.time_uncertainty
+    off_by = events.time_uncertainty
+    known = math.isfinite(off_by) and off_by < 0.5 * events.time_difference
     details = [
-        f"entry to exit Δt = {style.number(1e3 * events.time_difference, 3)} ± "
-        f"{style.number(uncertainty, 1)} ms",
+        f"entry to exit Δt = {style.number(1e3 * events.time_difference, 3)}"
+        f"{f' ± {style.number(1e3 * off_by, 1)}' if known else ''} ms",
         f"ball spacing {style.number(spacing, 3)}°",
         f"{passes.n_passes} ball passes at {style.number(passes.frequency, 4)} Hz"
         + (f", {abs(off):.2f} % {side} BPFO" if abs(off) >= 0.01 else ""),
     ]
+    if sizing.bound:
+        # the status says how far: it is the bound that counts, not where the search ended
+        words = sizing.status.partition(":")[0].rstrip(".")
+        return {"mood": "good", "words": words, "details": details}
     if not sizing.conclusive:
         return {"mood": "bad", "words": "The signal cannot tell", "details": details}
     size = f"{in_degrees(best.extent)} ± {in_degrees(sizing.extent_uncertainty)}"

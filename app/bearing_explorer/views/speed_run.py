@@ -12,7 +12,6 @@ import numpy as np
 import panel as pn
 from bokeh.models import (
     CheckboxGroup,
-    ColorBar,
     CustomJS,
     GlyphRenderer,
     LinearColorMapper,
@@ -25,9 +24,9 @@ from numpy.typing import NDArray
 
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, ends
+from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, color_bar, ends
 from bearing_explorer.figures.ranges import nice_range
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import (
@@ -89,9 +88,9 @@ class SpeedRunSpectra(JobView[Found]):
     start = "Run up"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes first."
 
-    def build(self, wire: Wire) -> Any:
-        frequency = wire.range("speed_run_frequency", 0.0, HIGHEST)
-        plot_parts = {dof: self._plot(wire, frequency, dof) for dof in SHOWN}
+    def build(self, packed: PackedSource) -> Any:
+        frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
+        plot_parts = {dof: self._plot(packed, frequency, dof) for dof in SHOWN}
         switch = RadioButtonGroup(
             labels=[f"Along {dof}" for dof in SHOWN],
             active=1,
@@ -124,17 +123,19 @@ class SpeedRunSpectra(JobView[Found]):
             margin=0,
         )
 
-    def _plot(self, wire: Wire, frequency: Range1d, dof: str) -> tuple[figure, list[GlyphRenderer]]:
+    def _plot(
+        self, packed: PackedSource, frequency: Range1d, dof: str
+    ) -> tuple[figure, list[GlyphRenderer]]:
         speed = _SIDES[SPEED]
         if dof == SHOWN[0]:
             self._images: dict[str, GridImage] = {}
-            self._speeds = wire.range("speed_run_speed", 0.0, 60.0)
-            self._harmonics = wire.source("speed_run_harmonics", "frequency", "speed")
-            self._names = wire.source(
+            self._speeds = packed.range("speed_run_speed", 0.0, 60.0)
+            self._harmonics = packed.source("speed_run_harmonics", "frequency", "speed")
+            self._names = packed.source(
                 "speed_run_harmonic_names", "frequency", "speed", "number", "inner"
             )
-            self._now = wire.source("speed_run_now", "speed")
-            self._marched = wire.source("speed_run_marched", "frequency", "speed")
+            self._now = packed.source("speed_run_now", "speed")
+            self._marched = packed.source("speed_run_marched", "frequency", "speed")
         plot = style.house_figure(
             style.AxisQuantity("Frequency", "f", "Hz"),
             style.AxisQuantity(speed.words, speed.symbol, speed.unit),
@@ -147,7 +148,7 @@ class SpeedRunSpectra(JobView[Found]):
         plot.stylesheets = [":host { cursor: crosshair; }"]
         plot.visible = dof == SHOWN[1]
         plot.syncable = False  # which of them is seen is the browser's business
-        shown = wire.range(f"speed_run_level_{dof}", -80.0, -20.0)
+        shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
         mapper = LinearColorMapper(
             palette=list(Viridis256), low=-80.0, high=-20.0, nan_color=CLEAR, syncable=False
         )
@@ -160,9 +161,9 @@ class SpeedRunSpectra(JobView[Found]):
                 ),
             )
         self._images[dof] = GridImage(
-            plot, wire, f"speed_run_cells_{dof}", [mapper], list(_SIDES.values()), _SAY
+            plot, packed, f"speed_run_cells_{dof}", [mapper], list(_SIDES.values()), _SAY
         )
-        marks = [*self._mark_bands(plot, wire, dof), *self._mark_harmonics(plot)]
+        marks = [*self._mark_bands(plot, packed, dof), *self._mark_harmonics(plot)]
         for mark in marks:
             mark.syncable = False
         plot.scatter(
@@ -171,11 +172,12 @@ class SpeedRunSpectra(JobView[Found]):
         )  # fmt: skip
         for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6)):
             plot.hspan(y="speed", source=self._now, line_color=color, line_width=width)
-        plot.add_layout(_bar(mapper, dof), "right")
+        title = f"S{dof} (dB re 1 (m/s²)²/Hz)"
+        plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
         return plot, marks
 
-    def _mark_bands(self, plot: figure, wire: Wire, dof: str) -> list[GlyphRenderer]:
-        bands = wire.source(
+    def _mark_bands(self, plot: figure, packed: PackedSource, dof: str) -> list[GlyphRenderer]:
+        bands = packed.source(
             f"speed_run_bands_{dof}", "low", "high", "direction", "number", "label_at"
         )
         plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
@@ -416,21 +418,3 @@ def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:
             "inner": np.full(number.size, float(inner)),
         },
     }
-
-
-def _bar(mapper: LinearColorMapper, dof: str) -> ColorBar:
-    return ColorBar(
-        color_mapper=mapper,
-        title=f"S{dof} (dB re 1 (m/s²)²/Hz)",
-        width=10,
-        bar_line_color=None,
-        major_tick_line_color=None,
-        major_label_text_font=style.FONT,
-        major_label_text_font_size=style.SMALL_TEXT_SIZE,
-        major_label_text_color=style.FAINT_INK,
-        title_text_font=style.FONT,
-        title_text_font_style="normal",
-        title_text_font_size=style.SMALL_TEXT_SIZE,
-        title_text_color=style.INK,
-        background_fill_color=None,
-    )

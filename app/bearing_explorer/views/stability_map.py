@@ -9,14 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColorBar, FixedTicker, LinearColorMapper
+from bokeh.models import FixedTicker, LinearColorMapper
 from bokeh.palettes import Blues256
 from numpy.typing import NDArray
 
 from bearing_explorer.compute.jobs import LONGEST, Work
 from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, ends
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.figures.heat_map import (
+    CLEAR,
+    GridImage,
+    Side,
+    color_bar,
+    ends,
+    ring_this_scene,
+)
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -60,6 +67,7 @@ KINDS = (
     Kind("no common period", "", "no common period", "#8B929A"),
     Kind("no static state to start from", "", "no static state", "#B9BEC4"),
     Kind("refused", "", "no such scene", "#DDE0E3"),
+    Kind("too many steps", "", "too many steps", "#767C83"),
 )
 """In the order of their codes in the picture."""
 
@@ -95,14 +103,14 @@ class OrbitStability(JobView[Found]):
         "pictures come first."
     )
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._sides = {name: Side.of(quantity) for name, quantity in SWEEPABLE.items()}
         speed, extent = self._sides["shaft_speed_hz"], self._sides["extent_deg"]
         plot = style.house_figure(
             style.AxisQuantity(speed.words, speed.symbol, speed.unit),
             style.AxisQuantity(extent.words, extent.symbol, extent.unit),
-            wire.range("stability_x", 0.0, 60.0),
-            wire.range("stability_y", 0.0, 60.0),
+            packed.range("stability_x", 0.0, 60.0),
+            packed.range("stability_y", 0.0, 60.0),
             height=HEIGHT,
             name="stability_drawing",
         )
@@ -120,24 +128,22 @@ class OrbitStability(JobView[Found]):
         )
         said = "const kinds = [" + ", ".join(f'"{k.words}"' for k in KINDS) + "]\n" + _SAY
         self._image = GridImage(
-            plot, wire, "stability_cells", [size, kind], list(self._sides.values()), said
+            plot, packed, "stability_cells", [size, kind], list(self._sides.values()), said
         )
         plot.segment(
             "x0",
             "y0",
             "x1",
             "y1",
-            source=wire.source("stability_border", "x0", "y0", "x1", "y1"),
+            source=packed.source("stability_border", "x0", "y0", "x1", "y1"),
             line_color=style.SHADE,
             line_width=1.6,
         )
-        mark = wire.source("stability_mark", "x", "y")
-        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
-            plot.scatter(
-                "x", "y", source=mark, size=15, fill_color=None, line_color=color, line_width=width,
-                level="annotation",
-            )  # fmt: skip
-        plot.add_layout(_bar(size), "right")
+        mark = packed.source("stability_mark", "x", "y")
+        ring_this_scene(plot, mark, "annotation")
+        ticks = FixedTicker(ticks=[0.0, 0.25, 0.5, 0.75, 1.0])
+        bar = color_bar(size, "|μ|, stable", ticker=ticks, bar_line_color=style.STEEL_EDGE)
+        plot.add_layout(bar, "right")
         return pn.Column(
             self.job,
             plot,
@@ -278,25 +284,6 @@ def border(
         name: np.concatenate([a, b])
         for name, a, b in zip(("x0", "y0", "x1", "y1"), upright, level, strict=True)
     }
-
-
-def _bar(mapper: LinearColorMapper) -> ColorBar:
-    return ColorBar(
-        color_mapper=mapper,
-        title="|μ|, stable",
-        ticker=FixedTicker(ticks=[0.0, 0.25, 0.5, 0.75, 1.0]),
-        width=10,
-        bar_line_color=style.STEEL_EDGE,
-        major_tick_line_color=None,
-        major_label_text_font=style.FONT,
-        major_label_text_font_size=style.SMALL_TEXT_SIZE,
-        major_label_text_color=style.FAINT_INK,
-        title_text_font=style.FONT,
-        title_text_font_style="normal",
-        title_text_font_size=style.SMALL_TEXT_SIZE,
-        title_text_color=style.INK,
-        background_fill_color=None,
-    )
 
 
 def legend() -> str:

@@ -23,11 +23,9 @@ from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
     SYMBOLS,
-    TERM_UNITS,
     UNITS,
     Cell,
     term_sizes,
-    unit_name,
 )
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.figures.style import (
@@ -35,17 +33,18 @@ from bearing_explorer.figures.style import (
     FAINT_INK,
     FONT,
     GRID,
+    HEALTHY,
     INK,
-    SOUND,
     STEEL_EDGE,
     bare_figure,
     in_degrees,
     with_prefix,
     words_of,
 )
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
+from bearingcore.statics.equilibrium import TERM_UNITS
 
 
 def _cell(row: int, column: int) -> Cell:
@@ -61,13 +60,13 @@ _PLACE_COLUMNS = {
         side: np.array([getattr(cell, side) for cell in _FRAMES])
         for side in ("left", "right", "bottom", "top")
     },
-    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS] + [len(UNITS)]),
+    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
 }
 _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
 
 
 class Stiffness(View):
-    """15 stiffness traces, defective against sound, the current cage angle marked."""
+    """15 stiffness traces, defective against healthy, the current cage angle marked."""
 
     name = "stiffness"
     title = "Stiffness of the bearing"
@@ -75,10 +74,10 @@ class Stiffness(View):
         "The 15 independent terms of its symmetric 5×5 stiffness matrix as the bearing turns: "
         "how hard the inner ring resists each displacement (column) with each load (row)."
     )
-    needs = frozenset({"equilibrium", "sound_equilibrium", "now"})
+    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
@@ -88,12 +87,12 @@ class Stiffness(View):
         plot.min_width = None
         plot.stylesheets = [":host { min-width: 760px; }"]
         self._legend = _static_parts(plot)
-        cells = wire.source("stiffness_cells", *_CELL_COLUMNS)
-        sound = wire.source("stiffness_sound", "x", "y")
-        defective = wire.source("stiffness_defective", "x", "y")
-        now = wire.source("stiffness_now", "x", "y", "low", "high")
+        cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
+        healthy = packed.source("stiffness_healthy", "x", "y")
+        defective = packed.source("stiffness_defective", "x", "y")
+        now = packed.source("stiffness_now", "x", "y", "low", "high")
         _moving_parts(plot, cells)
-        axis = wire.source("stiffness_axis", "shaft")
+        axis = packed.source("stiffness_axis", "shaft")
         _text(
             plot,
             axis,
@@ -105,7 +104,7 @@ class Stiffness(View):
             text_baseline="top",
         )
         plot.segment("x", "low", "x", "high", source=now, line_color=INK, line_alpha=0.45)
-        plot.line("x", "y", source=sound, line_color=SOUND, line_width=1.6)
+        plot.line("x", "y", source=healthy, line_color=HEALTHY, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
@@ -113,11 +112,11 @@ class Stiffness(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
-        found, sound, now = results.equilibrium, results.sound_equilibrium, results.now
+        found, healthy, now = results.equilibrium, results.healthy_equilibrium, results.now
         first, last, _ = results.stretch
-        shares = [(e.cage_angles - first) / (last - first) for e in (found, sound)]
+        shares = [(e.cage_angles - first) / (last - first) for e in (found, healthy)]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
-        scales = term_sizes(lambda term: np.concatenate([found.term(term), sound.term(term)]))
+        scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
         lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
         heads: list[tuple[float, float, float, float]] = []
@@ -132,7 +131,7 @@ class Stiffness(View):
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
         ):
-            a, b = _cleaned(found.term(term), scale), _cleaned(sound.term(term), scale)
+            a, b = _cleaned(found.term(term), scale), _cleaned(healthy.term(term), scale)
             at_now = float(_cleaned(now.term(term), scale)[0])
             limits = _trace_limits(sticky, scale, a, b)
             put(cell, limits, shares, a, b)
@@ -141,7 +140,7 @@ class Stiffness(View):
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             heads.append((limits[0], limits[1], at_now, zero))
 
-        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, sound)]
+        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, healthy)]
         low, high = self._ball_limits.fit(*counts)
         limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
         put(
@@ -161,7 +160,7 @@ class Stiffness(View):
         mark, head = np.array(marks).T, np.array(heads).T
         return {
             "stiffness_defective": drawn,
-            "stiffness_sound": beside,
+            "stiffness_healthy": beside,
             "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
@@ -173,18 +172,18 @@ class Stiffness(View):
 
     def sentence(self, results: Results) -> str:
         """How far the radial stiffness and the number of loaded balls vary."""
-        found, sound = results.equilibrium, results.sound_equilibrium
-        beside = "sound" if results.pinned is None else results.pinned.words
+        found, healthy = results.equilibrium, results.healthy_equilibrium
+        beside = "healthy" if results.pinned is None else results.pinned.words
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
-            values, sounds = found.term(term), sound.term(term)
+            values, healthy_values = found.term(term), healthy.term(term)
             least, most = np.nanmin(values), np.nanmax(values)
             line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
-            if sound.converged.any():
-                mean = _mean(sound.cage_angles, sounds)
+            if healthy.converged.any():
+                mean = _mean(healthy.cage_angles, healthy_values)
                 line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
@@ -199,21 +198,21 @@ class Stiffness(View):
         """Also in the legend what is drawn in grey."""
         super().say(results, sentence)
         if results is not None:
-            words = _legend_words(results.pinned.words if results.pinned else "sound bearing")
+            words = _legend_words(results.pinned.words if results.pinned else "healthy bearing")
             if words != self._legend.data["text"]:
                 self._legend.data = {**self._legend.data, "text": words}
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        """Every trace in SI, defective and sound."""
-        found, sound = results.equilibrium, results.sound_equilibrium
+        """Every trace in SI, defective and healthy."""
+        found, healthy = results.equilibrium, results.healthy_equilibrium
         columns: dict[str, np.ndarray] = {}
-        for kind, answer in (("defective", found), (results.beside_name, sound)):
-            columns[f"{kind}_cage_angle_deg"] = np.degrees(answer.cage_angles)
+        for kind, answer in (("defective", found), (results.beside_name, healthy)):
+            table = answer.table().in_units().prefixed(kind)
+            columns |= table.only(f"{kind}_cage_angle").named()
             if results.over_shaft:
                 columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
-            for term, unit in zip(STIFFNESS_TERMS, TERM_UNITS, strict=True):
-                columns[f"{kind}_{term}_{unit_name(unit)}"] = answer.term(term)
-            columns[f"{kind}_loaded_balls"] = answer.loaded_balls
+            shown = (*STIFFNESS_TERMS, "loaded_balls")
+            columns |= table.only(*(f"{kind}_{name}" for name in shown)).named()
         return columns
 
 
@@ -282,9 +281,9 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     _text(plot, balls, text="text", y_offset=-6, text_font_size="12px", text_color=INK)
 
     y = [-2.36, -2.52, -2.68]
-    colors, widths = [DEFECTIVE, SOUND, INK], [2.4, 2.0, 1.2]
+    colors, widths = [DEFECTIVE, HEALTHY, INK], [2.4, 2.0, 1.2]
     plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
-    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("sound bearing")})
+    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("healthy bearing")})
     _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
     return legend
 

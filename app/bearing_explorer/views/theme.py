@@ -17,7 +17,7 @@ DARK_COLORS = {
     style.INK: "#E6EBF0",
     style.FAINT_INK: "#AAB4BF",
     style.DEFECTIVE: "#46AAEC",
-    style.SOUND: "#8C959F",
+    style.HEALTHY: "#8C959F",
     style.DEFECT: "#E8A40C",
     style.STEEL: "#2C3641",
     style.STEEL_EDGE: "#667280",

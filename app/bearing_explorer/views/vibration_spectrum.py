@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearingcore.plan import SETTLED
@@ -41,18 +41,18 @@ class VibrationSpectra(View):
         "forgotten, 32 Hz resolution. Grey: without the defect. Shaded: the bands of the natural "
         "frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "sound_late_spectra", "band_modes"})
+    needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "band_modes"})
     plans = (SETTLED,)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
-        frequency = wire.range("spectrum_frequency", 0.0, HIGHEST)
-        level = wire.range("spectrum_level", -80.0, -20.0)
-        lines = wire.source("spectrum_lines", "frequency", *SHOWN)
-        sound = wire.source("spectrum_sound", "frequency", *SHOWN)
-        passes = wire.source("spectrum_passes", "frequency", "inner")
-        first = wire.source("spectrum_first_pass", "frequency", "inner")
+        frequency = packed.range("spectrum_frequency", 0.0, HIGHEST)
+        level = packed.range("spectrum_level", -80.0, -20.0)
+        lines = packed.source("spectrum_lines", "frequency", *SHOWN)
+        healthy = packed.source("spectrum_healthy", "frequency", *SHOWN)
+        passes = packed.source("spectrum_passes", "frequency", "inner")
+        first = packed.source("spectrum_first_pass", "frequency", "inner")
         plots, marks = [], []
         for dof in SHOWN:
             plot = style.house_figure(
@@ -64,12 +64,12 @@ class VibrationSpectra(View):
             )
             plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            self._shade_bands(plot, wire, dof, color)
+            self._shade_bands(plot, packed, dof, color)
             marks.append(
                 plot.vspan("frequency", source=passes, line_color=style.DEFECT, line_alpha=0.4)
             )
             marks.append(self._name_pass(plot, first))
-            plot.line("frequency", dof, source=sound, line_color=style.SOUND, line_width=1.5)
+            plot.line("frequency", dof, source=healthy, line_color=style.HEALTHY, line_width=1.5)
             plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
             plots.append(plot)
         for mark in marks:
@@ -92,8 +92,8 @@ class VibrationSpectra(View):
         )
         return pn.Column(toggle, *plots, sizing_mode="stretch_width", margin=0)
 
-    def _shade_bands(self, plot: figure, wire: Wire, dof: str, color: str) -> None:
-        bands = wire.source(
+    def _shade_bands(self, plot: figure, packed: PackedSource, dof: str, color: str) -> None:
+        bands = packed.source(
             f"spectrum_bands_{dof}", "low", "high", "direction", "number", "label_at"
         )
         plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.12, line_color=None)
@@ -142,7 +142,7 @@ class VibrationSpectra(View):
         }
         sources: Sources = {
             "spectrum_lines": drawn,
-            "spectrum_sound": drawn_levels(results.sound_late_spectra, top),
+            "spectrum_healthy": drawn_levels(results.healthy_late_spectra, top),
             "spectrum_passes": passing,
             "spectrum_first_pass": first,
         }
@@ -189,7 +189,7 @@ class VibrationSpectra(View):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
         beside = f"{results.beside_name}_"
-        spectra_of = {"": results.late_spectra, beside: results.sound_late_spectra}
+        spectra_of = {"": results.late_spectra, beside: results.healthy_late_spectra}
         for who, spectra in spectra_of.items():
             for dof, (frequency, density) in spectra.items():
                 # samples of an orbit fit its period: a hair's breadth off those of a march

@@ -12,7 +12,7 @@ from bokeh.plotting import figure
 from bearing_explorer.compute.excerpt import Event, Excerpt, least_and_greatest
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.plan import SETTLED
 
@@ -45,19 +45,21 @@ class VibrationInTime(View):
     needs = frozenset({"excerpt"})
     plans = (SETTLED,)
 
-    def build(self, wire: Wire) -> Any:
+    def build(self, packed: PackedSource) -> Any:
         self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
         self._load = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
-        time = wire.range("vibration_time", 0.0, 0.04)
+        time = packed.range("vibration_time", 0.0, 0.04)
         above = style.house_figure(
             TIME,
             ACCELERATION,
             time,
-            wire.range("vibration_acceleration", -5.0, 5.0),
+            packed.range("vibration_acceleration", -5.0, 5.0),
             height=270,
         )
-        events = wire.source("vibration_events", "time", "ball", "enters", "label_from", "label_at")
-        motion = wire.source("vibration_motion", "time", *SHOWN)
+        events = packed.source(
+            "vibration_events", "time", "ball", "enters", "label_from", "label_at"
+        )
+        motion = packed.source("vibration_motion", "time", *SHOWN)
         self._mark(above, events)
         for dof in reversed(SHOWN):
             above.line(
@@ -72,11 +74,11 @@ class VibrationInTime(View):
             TIME,
             style.BALL_LOAD,
             time,
-            wire.range("vibration_load", 0.0, 100.0),
+            packed.range("vibration_load", 0.0, 100.0),
             height=230,
         )
         self._mark(below, events)
-        self._draw_loads(below, wire)
+        self._draw_loads(below, packed)
         return pn.Column(above, below, sizing_mode="stretch_width", margin=0)
 
     def _mark(self, plot: figure, events: ColumnDataSource) -> None:
@@ -99,15 +101,15 @@ class VibrationInTime(View):
             background_fill_alpha=0.85,
         )
 
-    def _draw_loads(self, plot: figure, wire: Wire) -> None:
-        moving = wire.source("vibration_loads", "time", *(f"load{i}" for i in range(SLOTS)))
-        resting = wire.source("vibration_static_loads", "time", "load")
+    def _draw_loads(self, plot: figure, packed: PackedSource) -> None:
+        moving = packed.source("vibration_loads", "time", *(f"load{i}" for i in range(SLOTS)))
+        resting = packed.source("vibration_static_loads", "time", "load")
         plot.line("time", "load", source=resting, line_color=style.INK, line_width=1.0)
         for i, color in enumerate(style.BALL_COLORS):
             plot.line(
                 "time", f"load{i}", source=moving, line_color=color, line_width=2.0, line_alpha=0.9
             )
-        names = wire.source("vibration_ball_names", "from", "at", "ball", "slot")
+        names = packed.source("vibration_ball_names", "from", "at", "ball", "slot")
         plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(

@@ -9,7 +9,7 @@ import param
 
 from bearing_explorer.assets import asset_path, asset_text
 from bearing_explorer.figures import style
-from bearing_explorer.server.live import LiveComponent
+from bearing_explorer.server.live_component import LiveComponent
 
 if TYPE_CHECKING:
     from bearingcore import Limit

@@ -10,7 +10,7 @@ import param
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute import compiling
 from bearing_explorer.compute.planning import CHOICES, by_hand, chosen
-from bearing_explorer.server.live import LiveComponent
+from bearing_explorer.server.live_component import LiveComponent
 from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:

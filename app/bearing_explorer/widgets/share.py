@@ -9,6 +9,7 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.server.bokeh_private import send_message
 
 
 class ShareBar(JSComponent):
@@ -17,7 +18,7 @@ class ShareBar(JSComponent):
     `asked` gets messages of the browser as they come, from strangers too: judge them.
     """
 
-    #: what `Keeping.state` tells
+    #: what `Bookmarks.state` says
     state = param.Dict(default={})
 
     _esm = scripts("element.js", "figure_export.js", "report.js", "share.js")
@@ -29,4 +30,4 @@ class ShareBar(JSComponent):
 
     def answer(self, **news: Any) -> None:
         """Give the browser what it asked for: a `file` to save, a `kept` scene, a `report`."""
-        self._send_msg(news)
+        send_message(self, news)

@@ -11,9 +11,8 @@ import param
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.compute.planning import by_hand
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.live import LiveComponent
-
-DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
+from bearing_explorer.server.live_component import LiveComponent
+from bearingcore.model.scene import DOF_SYMBOLS
 
 
 class StatusLine(LiveComponent):

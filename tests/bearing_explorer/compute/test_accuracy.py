@@ -11,7 +11,7 @@ import pytest
 from bearing_explorer.compute.accuracy import TRIALS, Found, compute
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results, Settings
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.accuracy import COLORS, MOST_METHODS, NAMES, Accuracy, legend, look
 from bearing_explorer.widgets.status import status_of
@@ -46,7 +46,7 @@ EXPERIMENT = Experiment(
 
 
 def measured() -> Accuracy:
-    view = Accuracy(Wire())
+    view = Accuracy(PackedSource())
     view.found = Found(RIG, EXPERIMENT)
     return view
 
@@ -66,7 +66,7 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
     assert (failed["error"] > 1e-1).all()
     assert (failed["error"] < high).all()
     assert np.isfinite(failed["seconds"]).all()
-    assert set(sources) == set(view.data(Results(RIG.sound()))[0])
+    assert set(sources) == set(view.data(Results(RIG.healthy()))[0])
     assert view._sources[0].name != view._sources[1].name
 
 
@@ -76,7 +76,7 @@ def test_words_and_numbers_name_the_reference_and_what_failed() -> None:
     assert "LSODA and Dormand-Prince agree" in words
     assert "2·10⁻⁷ dB" in words
     assert "Verlet failed: diverged" in words
-    assert view.sentence(Results(RIG.sound())).startswith("The scene has changed")
+    assert view.sentence(Results(RIG.healthy())).startswith("The scene has changed")
     table = view.table(Results(RIG))
     assert table["spectrum_error_db"][0] == 1e-2
     assert table["status"][3].startswith("failed")
@@ -137,7 +137,7 @@ def test_more_steps_than_the_server_holds_are_refused() -> None:
 
 def test_the_stability_chart_holds_every_trial() -> None:
     chart = stability_chart(RIG, duration=0.03)
-    view = Accuracy(Wire())
+    view = Accuracy(PackedSource())
     view.found = Found(RIG, chart)
     sources, _ = view.data(Results(RIG))
     sizes = [sources[f"accuracy_verdict_{k}"]["steps"].size for k in range(4)]
@@ -154,7 +154,7 @@ def test_experiments_run_as_jobs_and_every_name_is_known(name: str) -> None:
     job.started = time.monotonic()
     assert "points after" in compute(job, RIG, name)
     (found,) = job.taken()
-    view = Accuracy(Wire())
+    view = Accuracy(PackedSource())
     view.found = found
     sources, _ = view.data(Results(RIG))
     drawn = sum(sources[f"accuracy_{k}"]["error"].size for k in range(MOST_METHODS))
@@ -170,7 +170,7 @@ def test_a_cancelled_job_keeps_nothing_where_nothing_was_measured() -> None:
 
 
 def test_unknown_experiments_are_refused() -> None:
-    view, editor = Accuracy(Wire()), SceneEditor("fan-rig")
+    view, editor = Accuracy(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match="no such"):
         view.prepare({"experiment": "../etc"}, editor)
     for name in TRIALS:

@@ -73,8 +73,8 @@ def test_static_loads_are_those_of_the_load_distribution(results: Results) -> No
     assert np.mean(moving - shown.static_load[:, 0]) == pytest.approx(0.0, abs=1.0)
 
 
-def test_a_sound_bearing_shows_the_balls_that_carry_most() -> None:
-    shown = Results(FAN_RIG.sound()).excerpt
+def test_a_healthy_bearing_shows_the_balls_that_carry_most() -> None:
+    shown = Results(FAN_RIG.healthy()).excerpt
     assert shown.events == ()
     assert shown.balls.size == 2
     assert shown.static_load.max() == pytest.approx(39.0, abs=0.2)

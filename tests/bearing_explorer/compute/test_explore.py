@@ -13,11 +13,11 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from bearing_explorer.compute import explore
-from bearing_explorer.compute.explore import CHOICES, Plane, Question, Survey, coarse, refine
+from bearing_explorer.compute.explore import MAP_OUTPUTS, Plane, Question, Survey, coarse, refine
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.export.python_lines import lines_of
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
@@ -43,7 +43,7 @@ def question(
         sweep(name, low, high, n, LIMITS)
         for (name, low, high), n in zip((x, y), shape, strict=True)
     ]
-    return Question(scene, *sweeps, CHOICES[output])
+    return Question(scene, *sweeps, MAP_OUTPUTS[output])
 
 
 class Recorder(Work):
@@ -62,11 +62,11 @@ class Recorder(Work):
 
 
 def test_whatever_a_sweep_gives_can_be_mapped_over_whatever_has_a_slider() -> None:
-    assert {choice.output for choice in CHOICES.values() if choice.output} == set(OUTPUTS)
-    assert len({choice.label for choice in CHOICES.values()}) == len(CHOICES)
+    assert {output.in_sweep for output in MAP_OUTPUTS.values() if output.in_sweep} == set(OUTPUTS)
+    assert len({choice.label for choice in MAP_OUTPUTS.values()}) == len(MAP_OUTPUTS)
     assert {quantity.field for quantity in SWEEPABLE.values()} <= set(UNITS)
     # groups stand together, or a list would name them twice
-    groups = [choice.group for choice in CHOICES.values()]
+    groups = [choice.group for choice in MAP_OUTPUTS.values()]
     assert len(set(groups)) == 1 + sum(a != b for a, b in pairwise(groups))
     known = set(explore._REASONS) | {"not_computed", "scene_refused"}
     assert set(STATUSES) == known
@@ -160,7 +160,7 @@ def test_what_has_no_answer_has_a_reason() -> None:
 
 def test_motions_that_take_too_many_steps_are_not_begun() -> None:
     short = question("acceleration_rms_y", ("extent_deg", "0.01", "60"), shape=(2, 2))
-    fast = Question(RIG.replace(shaft_speed=600.0), short.x, short.y, short.choice)
+    fast = Question(RIG.replace(shaft_speed=600.0), short.x, short.y, short.output)
     survey = Survey(fast)
     survey.compute(1)
     found = survey.plane(1)
@@ -174,7 +174,7 @@ def test_the_error_of_a_sizing_and_where_there_can_be_none() -> None:
         RIG,
         Sweep(asked.x.quantity, np.array([0.0, 38.6])),
         Sweep(asked.y.quantity, np.array([0.0, 50.0])),
-        asked.choice,
+        asked.output,
     )
     survey = Survey(small)
     assert survey.compute(1, Recorder())
@@ -250,7 +250,7 @@ FORM = {
     ],
 )
 def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
-    view, editor = ExplorePlane(Wire()), SceneEditor("fan-rig")
+    view, editor = ExplorePlane(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=words):
         view.asked({**FORM, **change}, editor)
     assert view.asked(FORM, editor).stride == 4
@@ -258,7 +258,7 @@ def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
 
 @pytest.mark.parametrize("preset", list(presets))
 def test_the_form_as_it_comes_up_can_be_answered(preset: str) -> None:
-    view, editor = ExplorePlane(Wire()), SceneEditor(preset)
+    view, editor = ExplorePlane(PackedSource()), SceneEditor(preset)
     values, _ = view.form(editor)
     asked = view.asked(values, editor)
     found = coarse(asked.of(Results(editor.scene)))
@@ -266,14 +266,14 @@ def test_the_form_as_it_comes_up_can_be_answered(preset: str) -> None:
 
 
 def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
-    wire = Wire()
-    view, editor = ExplorePlane(wire), SceneEditor("fan-rig")
+    packed = PackedSource()
+    view, editor = ExplorePlane(packed), SceneEditor("fan-rig")
     view._asking = view.asked(FORM, editor)
     results = Results(RIG)
     sources, ranges = view.data(results)
     assert sources["explore_mark"]["x"] == pytest.approx([20.0])
     assert sources["explore_old"]["alpha"].size == 0
-    assert wire.pack(sources, ranges).size > 3
+    assert packed.pack(sources, ranges).size > 3
     words = view.sentence(results)
     assert words.startswith("9 × 7 points. kyy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
@@ -294,7 +294,7 @@ def test_lines_of_python_make_the_map_again(output: str, monkeypatch: pytest.Mon
     pytest.importorskip("dask")
     mpl.use("agg")
     monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
-    view = ExplorePlane(Wire())
+    view = ExplorePlane(PackedSource())
     small = question(output, ("extent_deg", "30", "40"), ("depth_um", "50", "60"), shape=(3, 3))
     survey = Survey(small)
     survey.compute(2)

@@ -11,11 +11,11 @@ import pytest
 from bearing_explorer.compute import jobs as module
 from bearing_explorer.compute.jobs import Jobs, JobState, Work
 
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 
 class Page:
-    """What a job told and showed."""
+    """What a job reported and showed."""
 
     def __init__(self) -> None:
         self.states: list[JobState] = []
@@ -26,7 +26,7 @@ class Page:
         self.found.append(found)
         self.threads.add(threading.current_thread().name)
 
-    def tell(self, state: JobState) -> None:
+    def report(self, state: JobState) -> None:
         self.states.append(state)
         self.threads.add(threading.current_thread().name)
 
@@ -70,7 +70,7 @@ def test_a_job_tells_how_it_goes_and_shows_what_it_finds() -> None:
 
     async def session() -> str:
         jobs = Jobs(assign)
-        jobs.start(work, page.take, page.tell)
+        jobs.start(work, page.take, page.report)
         assert jobs.busy
         while not any(state.part > 0.4 for state in page.states):
             await asyncio.sleep(0.005)
@@ -94,7 +94,7 @@ def test_cancel_ends_a_job_and_keeps_what_it_found() -> None:
 
     async def session() -> None:
         jobs = Jobs(assign)
-        jobs.start(steps(500, began), page.take, page.tell)
+        jobs.start(steps(500, began), page.take, page.report)
         while not began.is_set():
             await asyncio.sleep(0.005)
         jobs.cancel()
@@ -122,11 +122,11 @@ def test_a_new_request_replaces_the_old_one() -> None:
 
     async def session() -> None:
         jobs, began = Jobs(assign), threading.Event()
-        jobs.start(alone(steps(500, began)), first.take, first.tell)
+        jobs.start(alone(steps(500, began)), first.take, first.report)
         while not began.is_set():
             await asyncio.sleep(0.005)
         for _ in range(3):  # those between never begin
-            jobs.start(alone(steps(3)), second.take, second.tell)
+            jobs.start(alone(steps(3)), second.take, second.report)
         await idle(jobs)
         await asyncio.sleep(0.05)
 
@@ -146,19 +146,19 @@ def test_the_end_of_a_session_cancels_and_says_nothing_more() -> None:
 
     async def session() -> int:
         jobs = Jobs(assign)
-        jobs.start(work, page.take, page.tell)
+        jobs.start(work, page.take, page.report)
         while not began.is_set():
             await asyncio.sleep(0.005)
         jobs.stop()
-        told = len(page.states)
+        reported = len(page.states)
         await idle(jobs)
-        jobs.start(steps(1), page.take, page.tell)
+        jobs.start(steps(1), page.take, page.report)
         assert not jobs.busy
-        return told
+        return reported
 
-    told = run(session())
-    assert ended.wait(2.0), "the thread must not go on for a page that is gone"
-    assert len(page.states) == told
+    reported = run(session())
+    assert ended.wait(60.0), "the thread must not go on for a page that is gone"
+    assert len(page.states) == reported
 
 
 @pytest.mark.parametrize(
@@ -176,11 +176,11 @@ def test_a_job_that_fails_says_so_and_the_next_one_runs(error: Exception, words:
 
     async def session() -> None:
         jobs = Jobs(assign)
-        jobs.start(broken, page.take, page.tell)
+        jobs.start(broken, page.take, page.report)
         await idle(jobs)
         assert page.states[-1].mood == "failed"
         assert page.states[-1].words == words
-        jobs.start(steps(1), page.take, page.tell)
+        jobs.start(steps(1), page.take, page.report)
         await idle(jobs)
 
     run(session())
@@ -192,16 +192,16 @@ def test_sessions_wait_for_a_thread_and_can_be_cancelled_meanwhile(
 ) -> None:
     from concurrent.futures import ThreadPoolExecutor
 
-    monkeypatch.setattr(module, "_THREADS", ThreadPoolExecutor(1))
+    monkeypatch.setattr(module, "JOBS", ThreadPoolExecutor(1))
     mine, other = Page(), Page()
 
     async def session() -> None:
         began = threading.Event()
         others, jobs = Jobs(assign), Jobs(assign)
-        others.start(steps(500, began), other.take, other.tell)
+        others.start(steps(500, began), other.take, other.report)
         while not began.is_set():
             await asyncio.sleep(0.005)
-        jobs.start(steps(3), mine.take, mine.tell)
+        jobs.start(steps(3), mine.take, mine.report)
         while not mine.states:
             await asyncio.sleep(0.005)
         assert mine.states[-1].mood == "waiting"

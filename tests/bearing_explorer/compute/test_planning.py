@@ -5,17 +5,13 @@ from __future__ import annotations
 import asyncio
 import dataclasses
 import math
-import threading
-import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 
 import numpy as np
 import pytest
-from bearing_explorer.compute import planning
-from bearing_explorer.compute.planning import Rest, by_hand, chosen, plan_for, with_choices
+from bearing_explorer.compute import idle_task, planning
+from bearing_explorer.compute.planning import by_hand, chosen, plan_for, with_choices
 from bearing_explorer.compute.results import Results, is_dear, plans
-from bearing_explorer.compute.scheduler import Turns
-from bearing_explorer.server.live import LatestWins
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.settings import MotionPlanning, Settings
 from bearing_explorer.views.base import View
@@ -25,7 +21,7 @@ from bokeh.models import Spacer
 
 from bearingcore import equilibrium, presets
 from bearingcore.plan import BUDGETS, SETTLED
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 
@@ -91,7 +87,7 @@ def test_a_march_can_be_asked_for_where_an_orbit_would_do() -> None:
 
 
 def test_an_orbit_can_be_asked_for_and_says_what_it_errs(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Also where the program itself would march, which hangs on how fast the machine is."""
+    """Also where the program itself would march, which depends on how fast the machine is."""
     plan = planning.plan
     monkeypatch.setattr(planning, "plan", lambda *a, **k: plan(*a, **(k | {"march": True})))
     asked = plan_for(LIEW_LIM, SETTLED, Settings(steady="orbit").planning(SETTLED))
@@ -124,7 +120,7 @@ def test_curves_are_drawn_at_the_planned_angles_within_the_error(preset: str) ->
     truth = equilibrium(scene, between).term("k_yy")
     drawn = np.interp(between, nodes, planned.equilibrium.term("k_yy"))
     assert np.abs(drawn - truth).max() < BUDGETS["stiffness"] * np.ptp(truth)
-    assert planned.sound_equilibrium.cage_angles.size != nodes.size, "planned on its own"
+    assert planned.healthy_equilibrium.cage_angles.size != nodes.size, "planned on its own"
     coarse = np.interp(between, usual.equilibrium.cage_angles, usual.equilibrium.term("k_yy"))
     assert np.abs(coarse - truth).max() > np.abs(drawn - truth).max()
 
@@ -190,9 +186,9 @@ def test_motions_that_are_compared_are_marched_alike() -> None:
 
 
 def test_the_plan_in_full_has_a_row_for_each_kind_of_picture() -> None:
-    from bearing_explorer.server.packed_source import Wire
+    from bearing_explorer.server.packed_source import PackedSource
 
-    view = PlanInFull(Wire())
+    view = PlanInFull(PackedSource())
     results = Results(FAN_RIG, planned=PlanInFull.plans)
     view.data(results)
     view.say(results, view.sentence(results))
@@ -208,105 +204,6 @@ def test_the_plan_in_full_has_a_row_for_each_kind_of_picture() -> None:
     assert view._table.shown == shown | {"stale": True}
 
 
-# --- when the hand rests
-
-
-async def nothing_to_draw() -> None:
-    """All is drawn."""
-
-
-def rested(
-    act: Callable[[Rest[int, int]], object],
-    drawn: Callable[[], Awaitable[None]] = nothing_to_draw,
-    think: Callable[[int, Callable[[], bool]], int] = lambda number, _: 10 * number,
-) -> list[tuple[int, int]]:
-    """What is handed over when `act` begins things, 10 ms being rest."""
-    handed: list[tuple[int, int]] = []
-
-    async def live() -> None:
-        rest: Rest[int, int] = Rest(
-            think, lambda *what: handed.append(what), drawn, Turns(), hash, 0.01
-        )
-        waited = act(rest)
-        if asyncio.iscoroutine(waited):
-            await waited
-        while not rest.idle:
-            await asyncio.sleep(0.002)
-
-    run(live())
-    return handed
-
-
-def test_only_the_newest_is_thought_about_and_in_another_thread() -> None:
-    thought: list[tuple[int, str]] = []
-
-    def think(number: int, _: Callable[[], bool]) -> int:
-        thought.append((number, threading.current_thread().name))
-        return number
-
-    assert rested(lambda rest: [rest.begin(k) for k in range(20)], think=think) == [(19, 19)]
-    assert [number for number, _ in thought] == [19]
-    assert thought[0][1].startswith("plan")
-
-
-def test_what_was_overtaken_while_it_was_thought_about_is_told_so_and_never_drawn() -> None:
-    began, told = threading.Event(), []
-
-    def think(number: int, overtaken: Callable[[], bool]) -> int:
-        began.set()
-        if number == 1:
-            end = time.monotonic() + 5.0
-            while not overtaken() and time.monotonic() < end:
-                time.sleep(0.001)
-            told.append(overtaken())
-        return number
-
-    async def act(rest: Rest[int, int]) -> None:
-        rest.begin(1)
-        while not began.is_set():
-            await asyncio.sleep(0.001)
-        rest.begin(2)
-
-    assert rested(act, think=think) == [(2, 2)]
-    assert told == [True]
-
-
-def test_rest_begins_when_what_was_asked_for_is_drawn() -> None:
-    """However long that takes: a hand that waits for a slow server does not rest."""
-    order: list[str] = []
-    worker: LatestWins[int]
-
-    async def draw(number: int) -> None:
-        await asyncio.sleep(0.05)
-        order.append(f"drawn {number}")
-
-    async def drawn() -> None:
-        await worker.finished()
-
-    def think(number: int, _: Callable[[], bool]) -> int:
-        order.append(f"thought {number}")
-        return number
-
-    async def act(rest: Rest[int, int]) -> None:
-        nonlocal worker
-        worker = LatestWins(draw)
-        for number in range(4):  # the page waits for each answer
-            worker.submit(number)
-            rest.begin(number)
-            while f"drawn {number}" not in order:
-                await asyncio.sleep(0.0)
-
-    assert rested(act, drawn, think) == [(3, 3)]
-    assert order == [*(f"drawn {number}" for number in range(4)), "thought 3"]
-
-
-def test_thinking_outlives_a_failure() -> None:
-    def fails(number: int, _: Callable[[], bool]) -> int:
-        raise RuntimeError(number)
-
-    assert rested(lambda rest: rest.begin(1), think=fails) == []
-
-
 # --- a session
 
 
@@ -316,9 +213,9 @@ class Curves(View):
     needs = frozenset({"equilibrium"})
     plans = ("stiffness",)
 
-    def build(self, wire):
+    def build(self, packed):
         self.sizes: list[int] = []
-        wire.source(self.name, "angle")
+        packed.source(self.name, "angle")
         return Spacer()
 
     def data(self, results):
@@ -338,19 +235,19 @@ def session(
 ) -> tuple[Explorer, list[str]]:
     """A session that rests after each act, and what its status line said, moving and at rest."""
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.tell", lambda self, **news: None
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
     )
-    monkeypatch.setattr(planning, "RESTS_AFTER", 0.01)
+    monkeypatch.setattr(idle_task, "RESTS_AFTER", 0.01)
     said: list[str] = []
 
     async def live() -> Explorer:
         explorer = Explorer((Section("one", "One", (Curves,)),))
-        explorer._rest._after = 0.02
+        explorer._idle_task._after = 0.02
         explorer.status.param.watch(lambda e: said.append(" · ".join(e.new["details"])), "line")
         for act in (Explorer.draw, *acts):
             said.append("")
             act(explorer)
-            while not (explorer._worker.idle and explorer._rest.idle):
+            while not (explorer._worker.idle and explorer._idle_task.idle):
                 await asyncio.sleep(0.002)
         return explorer
 

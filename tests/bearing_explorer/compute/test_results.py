@@ -2,82 +2,28 @@
 
 import math
 import threading
-import time
 
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import (
     MOST_STEPS,
     SHORTEST,
-    ComputedOnce,
     Results,
     Settings,
     orbits,
 )
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.reference import Reference
 
 from bearingcore import Scene, equilibrium, presets
 from bearingcore.dynamics.orbit import NOT_CONVERGED
 
 
-def test_threads_that_ask_together_share_one_computation() -> None:
-    calls = []
-
-    def slow(key: int) -> int:
-        calls.append(key)
-        time.sleep(0.05)
-        return 10 * key
-
-    once = ComputedOnce(slow, 4)
-    answers: list[int] = []
-    threads = [threading.Thread(target=lambda: answers.append(once(7))) for _ in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert answers == [70] * 8
-    assert calls == [7]
-
-
-def test_the_least_used_leaves_first() -> None:
-    calls = []
-    once = ComputedOnce(lambda key: calls.append(key) or key, 2)
-    for key in (1, 2, 1, 3, 1, 2):
-        assert once(key) == key
-    assert calls == [1, 2, 3, 2]
-
-
-def test_what_is_kept_counts_as_what_was_computed() -> None:
-    calls = []
-    once = ComputedOnce(lambda key: calls.append(key) or key, 2)
-    for key in (1, 2, 3):
-        once.keep(10 * key, key)
-    once.keep(0, 3)
-    assert [once.knows(key) for key in (1, 2, 3)] == [False, True, True]
-    assert once(3) == 30
-    assert not calls
-
-
-def test_a_failure_reaches_everyone_and_is_not_kept() -> None:
-    answers = iter([ValueError("no"), 5])
-
-    def sometimes() -> int:
-        answer = next(answers)
-        if isinstance(answer, Exception):
-            raise answer
-        return answer
-
-    once = ComputedOnce(sometimes, 2)
-    with pytest.raises(ValueError, match="no"):
-        once()
-    assert once() == 5
-
-
 def test_equal_scenes_share_their_answers() -> None:
     scene = presets["fan-rig"]
     one, two = Results(scene), Results(scene.replace(fy=scene.load.fy))
     assert one.equilibrium is two.equilibrium
-    assert one.sound_equilibrium is Results(scene.replace(extent=0.5)).sound_equilibrium
+    assert one.healthy_equilibrium is Results(scene.replace(extent=0.5)).healthy_equilibrium
 
 
 def test_settings_say_how_fine() -> None:
@@ -97,33 +43,33 @@ def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
     assert usual.time[-1] == pytest.approx(1.4, rel=1e-3)
 
 
-def test_what_is_pinned_stands_in_for_the_sound_bearing() -> None:
+def test_what_is_pinned_stands_in_for_the_healthy_bearing() -> None:
     scene, other = presets["fan-rig"], presets["liew-lim"].replace(n_balls=9)
     results = Results(scene, 0.1, pinned=Reference(other, "mine"))
     first, last, n = results.stretch
     angles = np.linspace(first, last, n)
     np.testing.assert_array_equal(
-        results.sound_equilibrium.term("k_yy"), equilibrium(other, angles).term("k_yy")
+        results.healthy_equilibrium.term("k_yy"), equilibrium(other, angles).term("k_yy")
     )
-    assert results.sound_now.scene == other
-    around = results.sound_all_around.cage_angles
+    assert results.healthy_now.scene == other
+    around = results.healthy_all_around.cage_angles
     assert around[-1] == pytest.approx(2.0 * np.pi / 9)
-    assert results.sound_modes.cage_angles[-1] == last
+    assert results.healthy_modes.cage_angles[-1] == last
     alone = Results(scene, 0.1)
-    assert alone.beside == scene.sound()
-    assert alone.sound_all_around is alone.sound_equilibrium
+    assert alone.beside == scene.healthy()
+    assert alone.healthy_all_around is alone.healthy_equilibrium
 
 
 def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> None:
     other = presets["liew-lim"].replace(stiffness_z=None)
     results = Results(presets["fan-rig"], 0.1, pinned=Reference(other, "mine"))
-    for name in ("sound_modes", "sound_late_spectra"):
+    for name in ("healthy_modes", "healthy_late_spectra"):
         with pytest.raises(ValueError, match=r"pinned “mine” cannot be shown.*stiffness_z"):
             getattr(results, name)
     assert np.isfinite(results.modes.frequency).all()
 
 
-def test_the_sound_spectrum_is_begun_beside_the_other_and_computed_once(
+def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scenes: list[tuple[str, bool]] = []
@@ -134,14 +80,14 @@ def test_the_sound_spectrum_is_begun_beside_the_other_and_computed_once(
         together.wait()
         return {}
 
-    monkeypatch.setattr("bearing_explorer.compute.results.late_spectra", ComputedOnce(slow, 8))
+    monkeypatch.setattr("bearing_explorer.compute.results.late_spectra", SingleFlightCache(slow, 8))
     results = Results(presets["fan-rig"])
     results.begin(frozenset({"late_spectra", "modes"}))
     assert scenes == []
-    results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
-    assert results.late_spectra == results.sound_late_spectra == {}
+    results.begin(frozenset({"late_spectra", "healthy_late_spectra"}))
+    assert results.late_spectra == results.healthy_late_spectra == {}
     assert sorted(defects for _, defects in scenes) == [False, True]
-    results.begin(frozenset({"late_spectra", "sound_late_spectra"}))
+    results.begin(frozenset({"late_spectra", "healthy_late_spectra"}))
     assert len(scenes) == 2
     assert any(name.startswith("beside") and not defects for name, defects in scenes)
 

@@ -6,9 +6,9 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from bearing_explorer.compute.scheduler import LIGHT, LIGHT_THOUGHT, Turns
+from bearing_explorer.compute.scheduler import LIGHT, LIGHT_IDLE_WORK, Scheduler
 
-from tests.bearing_explorer.loops import run
+from tests.helpers.loops import run
 
 
 def work(seconds: float) -> str:
@@ -22,9 +22,9 @@ def work(seconds: float) -> str:
 def test_what_was_light_is_done_on_the_event_loop_next_time() -> None:
     async def session() -> list[bool]:
         here = threading.current_thread().name
-        turns = Turns()
+        scheduler = Scheduler()
         return [
-            await turns.run(kind, work, seconds) == here
+            await scheduler.run(kind, work, seconds) == here
             for kind, seconds in (
                 ("one", 0.0),  # nobody knows what it costs
                 ("one", 0.0),
@@ -40,9 +40,9 @@ def test_what_was_light_is_done_on_the_event_loop_next_time() -> None:
 
 def test_waiting_for_others_does_not_make_a_picture_heavy() -> None:
     async def session() -> bool:
-        turns = Turns()
-        await turns.run("kind", time.sleep, 3.0 * LIGHT)
-        return turns.is_light("kind")
+        scheduler = Scheduler()
+        await scheduler.run("kind", time.sleep, 3.0 * LIGHT)
+        return scheduler.is_light("kind")
 
     assert run(session())
 
@@ -51,12 +51,12 @@ def test_sessions_take_turns_and_between_two_the_loop_hears_what_was_said() -> N
     order: list[str] = []
 
     async def draw(name: str) -> None:
-        turns = Turns()
-        await turns.run(name, work, 0.0)
+        scheduler = Scheduler()
+        await scheduler.run(name, work, 0.0)
         ready.append(name)
         await all_ready.wait()
         for _ in range(3):
-            await turns.run(name, order.append, name)
+            await scheduler.run(name, order.append, name)
 
     async def listen() -> None:
         while len(order) < 9:
@@ -81,21 +81,21 @@ def test_sessions_take_turns_and_between_two_the_loop_hears_what_was_said() -> N
 
 def test_how_long_pictures_take_is_known_however_long_they_waited() -> None:
     async def session() -> list[float]:
-        turns = [Turns() for _ in range(4)]
-        for one in turns:
+        schedulers = [Scheduler() for _ in range(4)]
+        for one in schedulers:
             await one.run("kind", work, 0.0)
             one.worked = 0.0
-        await asyncio.gather(*(one.run("kind", time.sleep, 0.1) for one in turns))
-        alone = [one.worked for one in turns]
-        await turns[0].run_slow(time.sleep, 0.1)
-        return [*alone, turns[0].worked]
+        await asyncio.gather(*(one.run("kind", time.sleep, 0.1) for one in schedulers))
+        alone = [one.worked for one in schedulers]
+        await schedulers[0].run_slow(time.sleep, 0.1)
+        return [*alone, schedulers[0].worked]
 
     *alone, twice = run(session())
     assert all(0.1 <= one < 0.35 for one in alone), "the last waited for 0.3 s beside"
     assert twice >= 0.2
 
 
-def test_light_thoughts_let_all_pictures_pass_and_heavy_ones_stay_in_threads() -> None:
+def test_light_idle_work_lets_all_pictures_pass_and_heavy_ones_stay_in_threads() -> None:
     order: list[str] = []
 
     def note(name: str) -> str:
@@ -104,46 +104,46 @@ def test_light_thoughts_let_all_pictures_pass_and_heavy_ones_stay_in_threads() -
 
     async def live() -> None:
         here = threading.current_thread().name
-        turns = [Turns() for _ in range(4)]
-        with ThreadPoolExecutor(1, "thought") as threads:
-            for one in turns:  # nobody knows what they cost
+        schedulers = [Scheduler() for _ in range(4)]
+        with ThreadPoolExecutor(1, "idle") as threads:
+            for one in schedulers:  # nobody knows what they cost
                 assert await one.run("kind", work, 0.0) != here
-                assert (await one.think(threads, "kind", work, 0.0)).startswith("thought")
-            doing = [one.run("kind", note, f"picture {n}") for n, one in enumerate(turns[1:])]
-            doing.insert(2, turns[0].think(threads, "kind", note, "thought"))
+                assert (await one.run_idle(threads, "kind", work, 0.0)).startswith("idle")
+            doing = [one.run("kind", note, f"picture {n}") for n, one in enumerate(schedulers[1:])]
+            doing.insert(2, schedulers[0].run_idle(threads, "kind", note, "idle"))
             assert set(await asyncio.gather(*doing)) == {here}
-            assert order[-1] == "thought"
+            assert order[-1] == "idle"
 
-            assert (await turns[1].think(threads, None, work, 0.0)).startswith("thought")
-            await turns[1].think(threads, "kind", work, 2.0 * LIGHT_THOUGHT)
-            heavy = await turns[1].think(threads, "kind", work, 0.0)
-            assert heavy.startswith("thought")
+            assert (await schedulers[1].run_idle(threads, None, work, 0.0)).startswith("idle")
+            await schedulers[1].run_idle(threads, "kind", work, 2.0 * LIGHT_IDLE_WORK)
+            heavy = await schedulers[1].run_idle(threads, "kind", work, 0.0)
+            assert heavy.startswith("idle")
 
             # known results are found at once; that does not make the others light
-            await turns[2].think(threads, "kind", work, 8.0 * LIGHT_THOUGHT)
-            await turns[2].think(threads, "kind", work, 0.0)
-            assert (await turns[2].think(threads, "kind", work, 0.0)).startswith("thought")
+            await schedulers[2].run_idle(threads, "kind", work, 8.0 * LIGHT_IDLE_WORK)
+            await schedulers[2].run_idle(threads, "kind", work, 0.0)
+            assert (await schedulers[2].run_idle(threads, "kind", work, 0.0)).startswith("idle")
 
     run(live())
 
 
-def test_a_thought_has_its_turn_however_many_pictures_wait(monkeypatch) -> None:
+def test_idle_work_has_its_turn_however_many_pictures_wait(monkeypatch) -> None:
     monkeypatch.setattr("bearing_explorer.compute.scheduler.PATIENCE", 0.02)
     stop = False
 
-    async def drag(turns: Turns) -> None:
+    async def drag(scheduler: Scheduler) -> None:
         while not stop:
-            await turns.run("kind", work, 0.002)
+            await scheduler.run("kind", work, 0.002)
 
     async def live() -> str:
         nonlocal stop
-        turns = [Turns() for _ in range(3)]
-        with ThreadPoolExecutor(1, "thought") as threads:
-            for one in turns:
+        schedulers = [Scheduler() for _ in range(3)]
+        with ThreadPoolExecutor(1, "idle") as threads:
+            for one in schedulers:
                 await one.run("kind", work, 0.0)
-                await one.think(threads, "kind", work, 0.0)
-            hands = [asyncio.ensure_future(drag(one)) for one in turns]
-            where = await turns[0].think(threads, "kind", work, 0.0)
+                await one.run_idle(threads, "kind", work, 0.0)
+            hands = [asyncio.ensure_future(drag(one)) for one in schedulers]
+            where = await schedulers[0].run_idle(threads, "kind", work, 0.0)
             stop = True
             await asyncio.gather(*hands)
             return "here" if where == threading.current_thread().name else where
@@ -151,20 +151,20 @@ def test_a_thought_has_its_turn_however_many_pictures_wait(monkeypatch) -> None:
     assert run(live()) == "here"
 
 
-def test_a_thought_that_was_overtaken_in_the_line_never_begins() -> None:
+def test_idle_work_that_was_overtaken_in_the_line_never_begins() -> None:
     began: list[int] = []
 
     async def live() -> None:
-        turns, other = Turns(), Turns()
+        scheduler, other = Scheduler(), Scheduler()
         with ThreadPoolExecutor(1) as threads:
-            await turns.think(threads, "kind", work, 0.0)
+            await scheduler.run_idle(threads, "kind", work, 0.0)
             await other.run("kind", work, 0.0)
             picture = asyncio.ensure_future(other.run("kind", work, 0.01))
-            thought = asyncio.ensure_future(turns.think(threads, "kind", began.append, 1))
+            idle = asyncio.ensure_future(scheduler.run_idle(threads, "kind", began.append, 1))
             await asyncio.sleep(0.0)
-            thought.cancel()
+            idle.cancel()
             await picture
-            await turns.think(threads, "kind", began.append, 2)
+            await scheduler.run_idle(threads, "kind", began.append, 2)
 
     run(live())
     assert began == [2]
@@ -175,21 +175,21 @@ def test_failures_come_through_and_the_next_has_its_turn() -> None:
         raise RuntimeError("a bug")
 
     async def session() -> bool:
-        turns = Turns()
+        scheduler = Scheduler()
         for _ in range(2):  # in a thread and on the loop
             with pytest.raises(RuntimeError, match="a bug"):
-                await turns.run("kind", fail)
-            await turns.run("kind", work, 0.0)
-        return await turns.run("kind", work, 0.0) == threading.current_thread().name
+                await scheduler.run("kind", fail)
+            await scheduler.run("kind", work, 0.0)
+        return await scheduler.run("kind", work, 0.0) == threading.current_thread().name
 
     assert run(session())
 
 
 def test_kinds_are_not_remembered_for_ever() -> None:
     async def session() -> int:
-        turns = Turns()
+        scheduler = Scheduler()
         for number in range(200):
-            await turns.run(number, work, 0.0)
-        return len(turns._cost)
+            await scheduler.run(number, work, 0.0)
+        return len(scheduler._cost)
 
     assert run(session()) < 100

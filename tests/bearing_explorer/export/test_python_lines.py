@@ -9,13 +9,13 @@ from bearing_explorer.compute.results import Results
 from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.export.python_script import FILE
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.views.base import View
 from bearing_explorer.views.stability_map import OrbitStability
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, presets
-from tests.bearing_explorer.views.test_stability_view import found_map
+from tests.helpers.stability import found_map
 
 mpl.use("agg")
 
@@ -98,7 +98,7 @@ def test_the_lines_give_the_numbers_of_the_figure(
     shown, cage_angle, pinned = SCENES[scene]
     plans = VIEWS[name].plans[:1] if planned else ()
     results = Results(shown, cage_angle, planned=plans, pinned=pinned)
-    view: View = VIEWS[name](Wire())
+    view: View = VIEWS[name](PackedSource())
     lines = lines_of(view, results)
     namespace = run(lines, monkeypatch)
     assert namespace["scene"] == shown
@@ -109,14 +109,14 @@ def test_the_lines_give_the_numbers_of_the_figure(
 
 @pytest.mark.parametrize("view", [v for s in SECTIONS for v in s.views], ids=lambda v: v.name)
 def test_every_view_has_lines_that_run(view: type[View], monkeypatch: pytest.MonkeyPatch) -> None:
-    lines = lines_of(view(Wire()), Results(presets["fan-rig"], 0.1))
+    lines = lines_of(view(PackedSource()), Results(presets["fan-rig"], 0.1))
     assert 'presets["fan-rig"]' in lines
     if view.name not in VIEWS:
         assert run(lines, monkeypatch)["scene"] == presets["fan-rig"]
 
 
 def test_what_a_job_found_is_made_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    view = OrbitStability(Wire())
+    view = OrbitStability(PackedSource())
     view.found = found_map()
     namespace = run(lines_of(view, Results(presets["6205"])), monkeypatch)
     assert namespace["scene"] == view.found.map.scene
@@ -144,13 +144,13 @@ def test_every_scene_can_be_said_in_python(
 ) -> None:  # fmt: skip
     from bearing_explorer.views.model_editor import ModelEditor
 
-    assert run(lines_of(ModelEditor(Wire()), Results(scene)), monkeypatch)["scene"] == scene
+    assert run(lines_of(ModelEditor(PackedSource()), Results(scene)), monkeypatch)["scene"] == scene
 
 
 def test_a_long_floor_comes_from_a_file() -> None:
     n = 500
     floor = MeasuredFloor(tuple(np.linspace(-1, 1, n)), (0.5,) * n)
     scene = presets["fan-rig"].replace(floor=floor)
-    lines = lines_of(VIEWS["bearing"](Wire()), Results(scene))
+    lines = lines_of(VIEWS["bearing"](PackedSource()), Results(scene))
     assert FILE in lines
     assert len(lines) < 2000

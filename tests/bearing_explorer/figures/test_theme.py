@@ -64,7 +64,7 @@ def test_lines_and_text_of_figures_are_seen(turned: object) -> None:
     paper = turned(style.PAPER)
     for text in (style.INK, style.FAINT_INK):
         assert contrast(turned(text), paper) >= 4.5
-    lines = {*style.DIRECTION_COLORS[:2], *style.BALL_COLORS, style.SOUND}
+    lines = {*style.DIRECTION_COLORS[:2], *style.BALL_COLORS, style.HEALTHY}
     for line in lines - {"#CC79A7"}:  # told by its label as well
         assert contrast(turned(line), paper) >= 3.0, line
 
@@ -95,7 +95,7 @@ def seen_by(kind: str, color: str) -> np.ndarray:
 @pytest.mark.parametrize("kind", ["trichromat", "protanope", "deuteranope"])
 def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: object) -> None:
     assert callable(turned)
-    meanings = [*style.DIRECTION_COLORS[:3], style.SOUND]
+    meanings = [*style.DIRECTION_COLORS[:3], style.HEALTHY]
     for pair in itertools.combinations(meanings, 2):
         a, b = (seen_by(kind, turned(color)) for color in pair)
         assert np.linalg.norm(a - b) > 0.06, pair  # 0.02 is just seen

@@ -17,9 +17,9 @@ from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE,
 from scipy.io import savemat, wavfile
 
 from bearingcore import presets, read_table
-from tests.bearing_explorer.loops import run
-from tests.bearing_explorer.measuring import measuring, signal
-from tests.bearingcore.diagnosis.test_sizing import file_from_elsewhere
+from tests.helpers.loops import run
+from tests.helpers.measuring import measuring, signal
+from tests.helpers.recordings import file_from_elsewhere
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))
@@ -76,23 +76,26 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     truth, content = file_from_elsewhere()
     made = brought("rig.csv", content)
     assert not made.state.bad
-    assert made.state.values["unit"] == "m/s²"  # the headings do not tell it
+    assert made.state.values["unit"] == "g"  # the headings do not tell it, the level lets guess
+    assert "A guess: a root mean square" in made.state.reasons["unit"]
     assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
     measured = made.measured
     assert measured is not None
     assert measured.directions == ("x", "y")
     assert measured.recording.sample_rate == pytest.approx(16_000.0 * 6 / 5 * 1.001, rel=1e-6)
     assert measured.shaft_speed == pytest.approx(RIG.shaft_speed)  # the sliders', until told
+    assert measured.recording.shaft_speed is None
     assert "type in the measured one" in made.state.words
 
     async def told() -> None:
-        made.asked({"form": {**made.state.values, "unit": "g", "shaft_speed": "720 rpm"}})
+        made.asked({"form": {**made.state.values, "unit": "m/s²", "shaft_speed": "720 rpm"}})
         await settled(made)
 
     run(told())
     assert made.measured is not None
     assert made.measured.shaft_speed == pytest.approx(truth.shaft_speed)
-    ratio = made.measured.recording.acceleration / measured.recording.acceleration
+    assert made.measured.recording.shaft_speed == made.measured.shaft_speed
+    ratio = measured.recording.acceleration / made.measured.recording.acceleration
     np.testing.assert_allclose(ratio, 9.80665)
 
 
@@ -118,12 +121,12 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
         (
             "a.mat",
             mat_of(X097_DE_time=NOISE[:, :1], X097RPM=np.array([[1797.0]]), fs=np.array([[12e3]])),
-            ("", "0", "m/s²", "12000", "1797 rpm"),
+            ("", "0", "g", "12000", "1797 rpm"),
         ),
         (
             "a.mat",
             mat_of(DE=NOISE[:, :1], FE=NOISE[:, 1:], BA=NOISE[:, :1], sr=np.array([[12e3]])),
-            ("", "0", "m/s²", "12000", "7 Hz"),
+            ("", "", "g", "12000", "7 Hz"),  # three places: asked
         ),
     ],
 )
@@ -136,7 +139,7 @@ def test_guesses(name, content, expected):
 def test_what_the_file_does_not_tell_is_asked_for():
     before = signal()
     made = brought("two.mat", mat_of(a=NOISE), before)
-    assert made.measured is before
+    assert made.measured is None  # no old figure under a new name
     assert made.state.bad
     assert "sample rate is missing" in made.state.refused["sample_rate"]
     assert "Hz" in made.state.words
@@ -164,7 +167,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
         ("shaft_speed", "0", "not possible"),
         ("shaft_speed", "rpm", "is missing"),
         ("full_scale", "0", "possible"),
-        ("unit", "furlongs", "m/s² or g"),
+        ("unit", "furlongs", "one of m/s², g, mg"),
         ("x", "2", "same column"),
         ("y", "99", "no such column"),
         ("y", "-1", "no such column"),
@@ -216,13 +219,120 @@ def test_more_numbers_than_a_session_keeps_are_left_out():
     assert found.asked.recording.sample_rate == 8000.0
 
 
+def answer(made: Measurement, **values: str) -> None:
+    """The form with other values; `sure` presses the button below it."""
+
+    async def asked() -> None:
+        sure = bool(values.pop("sure", ""))
+        made.asked({"form": {**made.state.values, **values}, "sure": sure})
+        await settled(made)
+
+    run(asked())
+
+
+def case_western(**more: np.ndarray) -> bytes:
+    """As the drive end, fan end and base of one motor are stored."""
+    sides = {f"X105_{side}_time": NOISE[:, :1] * 0.3 for side in ("DE", "FE", "BA")}
+    return mat_of(**sides, X105RPM=np.array([[1797]], dtype="u2"), **more)
+
+
+def test_sensors_at_several_places_are_asked_about_and_never_mixed():
+    made = brought("12k_IR_105.mat", case_western(), signal())
+    assert made.measured is None
+    assert not made.state.bad
+    assert set(made.state.open) == {"y", "sample_rate"}
+    assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
+    assert "Is 12000 Hz the sample rate? A guess: “12k”" in made.state.reasons["sample_rate"]
+    assert "X105RPM" in made.state.reasons["shaft_speed"]
+    assert made.state.columns[1] == ["0", "X105_DE_time (drive end)"]
+    answer(made, x="1", y="0")
+    assert made.measured is None
+    assert "two places (drive end and fan end)" in made.state.refused["x"]
+    answer(made, x="", y="0")
+    assert made.measured is None  # the rate is still only a guess
+    assert made.state.open == ["sample_rate"]
+    answer(made, y="0", sure="yes")
+    assert made.measured is not None
+    assert made.measured.recording.sample_rate == 12_000.0
+    assert made.measured.recording.shaft_speed == pytest.approx(1797 * math.pi / 30.0)
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration[:, 0], NOISE[:, 0] * 0.3 * 9.80665
+    )
+    assert not made.state.open
+
+
+def test_a_struct_says_all_and_its_load_can_be_taken_into_the_scene():
+    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
+    made = brought("run.mat", mat_of(bearing=run_, BPFO=np.array([[81.125]])))
+    assert made.measured is not None
+    assert made.measured.recording.sample_rate == 48_828.0
+    assert made.measured.shaft_speed == pytest.approx(50.0 * math.pi)
+    assert "BPFO 81.125" in made.state.said
+    assert made.state.load == pytest.approx(150 * 4.4482216)
+    taken: list[dict] = []
+    made.change_scene = taken.append
+    made.asked({"load": True})
+    assert taken == [{"typed": {"fy_n": "-667.233"}}]
+
+
+def test_voltages_need_their_sensor():
+    made = brought("v.csv", csv_of(NOISE[:, :1], "time [s],ch1 [mV]"))
+    assert made.measured is not None
+    assert made.state.values["unit"] == "mV"
+    level = made.measured.recording.acceleration.std()
+    assert level == pytest.approx(NOISE[:, 0].std() / 100.0 * 9.80665, rel=1e-4)
+    answer(made, sensitivity="10 mV/g")
+    assert made.measured.recording.acceleration.std() == pytest.approx(10.0 * level)
+    assert made.measured.origin is not None
+    assert made.measured.origin.sensitivity == pytest.approx(0.010 / 9.80665)
+    answer(made, sensitivity="0")
+    assert "sensitivity" in made.state.refused
+
+
+def test_a_velocity_is_differentiated_and_never_taken_as_an_acceleration():
+    made = brought("v.csv", csv_of(NOISE[:, :1], "time [s],vertical [mm/s]"))
+    assert made.measured is not None
+    assert "A velocity was differentiated" in made.state.words
+    answer(made, unit="g")
+    assert "says mm/s, which is no acceleration" in made.state.refused["unit"]
+
+
+def test_columns_in_two_units_are_not_read_in_one():
+    made = brought("two.csv", csv_of(NOISE, "time,x [g],y [m/s²]"))
+    assert made.measured is None
+    assert "two units (g and m/s²)" in made.state.refused["x"]
+    answer(made, x="", unit="m/s²")
+    assert made.measured is not None
+
+
+def test_a_gap_is_told_and_a_rounded_time_asks_for_its_rate():
+    rows = np.delete(np.arange(2000), slice(700, 720))
+    lines = [f"{row / 1e4:.7g},{NOISE[row, 0]:.6g}" for row in rows]
+    made = brought("gap.csv", ("time,y\n" + "\n".join(lines)).encode())
+    assert made.measured is not None
+    assert len(made.measured.recording.acceleration) == 1280
+    assert "20 samples are missing" in made.state.words
+    lines = [f"{row / 1e4:.3f},{NOISE[row, 0]:.6g}" for row in range(2000)]
+    made = brought("rounded.csv", ("time,y\n" + "\n".join(lines)).encode())
+    assert made.measured is None
+    assert made.state.open == ["sample_rate"]
+    assert "rounded to 0.001 s" in made.state.words
+    assert made.state.values["sample_rate"] == "10000"
+    answer(made, sure="yes")
+    assert made.measured is not None
+
+
+def test_a_level_that_no_bearing_gives_is_doubted():
+    made = brought("much.csv", csv_of(NOISE[:, :1] * 3e4, "time,y [g]"))
+    assert "more than bearings give" in made.state.words
+
+
 # -- bad files -------------------------------------------------------------------------------------
 
 
 def bomb() -> bytes:
-    """A MATLAB file of half a MB that unpacks to half a GB."""
-    packer = zlib.compressobj(9)
-    packed = b"".join(packer.compress(bytes(2**20)) for _ in range(512)) + packer.flush()
+    """A MATLAB file of some kB that unpacks to 64 MB."""
+    packed = zlib.compress(bytes(2**26), 9)
     return b"MATLAB 5.0".ljust(124) + b"\x00\x01IM" + struct.pack("<II", 15, len(packed)) + packed
 
 
@@ -246,22 +356,22 @@ BAD = {
     "broken wav": ("b.wav", wav_of(NOISE)[:20], "a whole WAV file"),
     "false wav": ("f.wav", b"RIFF" + bytes(3000), "a whole WAV file"),
     "broken mat": ("b.mat", mat_of(a=NOISE)[:9000], "a whole MATLAB file"),
-    "new mat": ("h.mat", b"\x89HDF\r\n\x1a\n" + bytes(999), "version 7.3; save it with '-v7'"),
+    "new mat": ("h.mat", b"\x89HDF\r\n\x1a\n" + bytes(999), "damaged or unknown part"),
     "bomb": ("z.mat", bomb(), "once unpacked"),
     "text mat": ("t.mat", mat_of(a=np.array(["some words"])), "vector or matrix of real numbers"),
 }
 
 
 @pytest.mark.parametrize(("name", "content", "told"), BAD.values(), ids=BAD)
-def test_a_bad_file_gets_a_sentence_and_leaves_all_as_it_was(name, content, told):
-    before = signal()
-    made = brought(name, content, before)
-    assert made.measured is before
+def test_a_bad_file_gets_a_sentence_and_no_old_figure_stays_under_its_name(name, content, told):
+    made = brought(name, content, signal())
+    assert made.measured is None
+    assert made.sized is None
     assert made.state.bad
     assert not made.state.busy
     assert told in made.state.words
     assert name in made.state.words
-    assert made.state.words.endswith("The signal before it stays.")
+    assert made.state.words.endswith("The signal before it is put away.")
     assert not made.state.columns
 
 
@@ -276,14 +386,14 @@ def test_a_huge_file_is_refused_before_it_is_sent():
 
 @pytest.mark.parametrize("piece", ["text", None, b"", bytes(PIECE + 1), bytes(101), {"a": 1}])
 def test_pieces_that_cannot_be_of_the_file_end_it(piece):
-    made = measuring(before := signal())
+    made = measuring(signal())
     made.asked({"file": {"name": "a.csv", "size": 100}})
     made.asked({"piece": piece, "of": 1})
     assert made.state.bad
     assert "did not arrive whole" in made.state.words
-    assert made.measured is before
+    said = made.state.words
     made.asked({"piece": bytes(10), "of": 1})  # nobody asked for it
-    assert made.measured is before
+    assert made.state.words == said
 
 
 @pytest.mark.parametrize(
@@ -295,10 +405,9 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
         [],
         {},
         {"file": 3},
-        {"file": {}},
-        {"file": {"name": None, "size": "9"}},
-        {"file": {"name": "a", "size": True}},
-        {"file": {"name": "a", "size": -3}},
+        {"load": True},
+        {"load": 7, "form": None},
+        {"sure": True},
         {"form": {"x": [1]}},
         {"form": 3},
         {"simulate": {}},
@@ -313,6 +422,18 @@ def test_nonsense_from_the_browser_changes_nothing(message):
     made = measuring(before := signal())
     made.asked(message)
     assert made.measured is before
+    assert not made._tasks
+
+
+@pytest.mark.parametrize(
+    "file",
+    [{}, {"name": None, "size": "9"}, {"name": "a", "size": True}, {"name": "a", "size": -3}],
+)
+def test_a_file_without_a_size_is_refused_in_a_sentence(file):
+    made = measuring(signal())
+    made.asked({"file": file})
+    assert "has no size" in made.state.words
+    assert made.measured is None
     assert not made._tasks
 
 

@@ -21,7 +21,7 @@ def test_a_notebook_runs_and_shows_what_it_says(path: Path) -> None:
     notebook = nbformat.read(path, as_version=4)
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert not any(cell.outputs or cell.execution_count for cell in code), "kept with outputs"
-    NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
     for cell in code:
         last = cell.source.strip().splitlines()[-1]
         if last.startswith("plotting."):

@@ -30,7 +30,7 @@ from bearingcore.diagnosis.sizing_error import extent_error
 
 SCENE = presets["fan-rig"].replace(extent=math.radians(38.6), depth=50e-6, fy=-100.0)
 STATE = equilibrium(SCENE)
-SOUND = equilibrium(SCENE.sound())
+HEALTHY = equilibrium(SCENE.healthy())
 
 
 def drawn(figure: object) -> LayoutDOM:
@@ -45,7 +45,7 @@ def labels(figure: object) -> list[str]:
 
 
 def test_load_distribution_draws_the_loads_and_where_the_balls_are() -> None:
-    figure = plotting.load_distribution(STATE, sound=SOUND, cage_angle=0.1)
+    figure = plotting.load_distribution(STATE, healthy=HEALTHY, cage_angle=0.1)
     kinds = [type(element).__name__ for element in figure]
     assert kinds == ["Curve", "Curve", "Points"]
     curve = figure.get(1)
@@ -61,7 +61,7 @@ def test_load_distribution_draws_the_loads_and_where_the_balls_are() -> None:
 
 
 def test_stiffness_has_a_curve_for_each_term() -> None:
-    figure = plotting.stiffness(STATE, ["k_xx", "k_yy"], sound=SOUND)
+    figure = plotting.stiffness(STATE, ["k_xx", "k_yy"], healthy=HEALTHY)
     assert [element.label for element in figure][2:] == ["kxx", "kyy"]
     np.testing.assert_array_equal(figure.get(3)["stiffness"], STATE.term("k_yy"))
     assert labels(figure) == ["Cage angle φc (°)", "Stiffness k (MN/m)"]
@@ -73,7 +73,7 @@ def test_stiffness_has_a_curve_for_each_term() -> None:
 
 def test_modes_have_bands_and_colours_of_their_directions() -> None:
     found = modes(SCENE)
-    figure = plotting.modes(found, sound=modes(SCENE.sound()))
+    figure = plotting.modes(found, healthy=modes(SCENE.healthy()))
     curves = {e.label: e for e in figure if isinstance(e, hv.Curve) and e.label}
     assert list(curves) == ["x₁", "y₁", "x₂", "y₂"]
     np.testing.assert_array_equal(

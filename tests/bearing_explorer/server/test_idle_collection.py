@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import panel.io.document as panel_document
-from bearing_explorer.server.idle_collection import LONGEST, QUIET, Collector
+from bearing_explorer.server.idle_collection import LONGEST, QUIET, IdleCollection
 
 
 class Clock:
@@ -13,7 +13,7 @@ class Clock:
 
     def __init__(self) -> None:
         self.now, self.quiet, self.collected = 0.0, 0.0, 0
-        self.collector = Collector(lambda: self.quiet, self._collect, lambda: self.now)
+        self.collector = IdleCollection(lambda: self.quiet, self._collect, lambda: self.now)
 
     def _collect(self) -> None:
         self.collected += 1

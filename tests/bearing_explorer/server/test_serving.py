@@ -15,16 +15,20 @@ from typing import Any
 import pytest
 from bearing_explorer.page import page
 from bearing_explorer.server import serving
-from bearing_explorer.server.serving import Limits, by_name, make_server, policy, welcome
+from bearing_explorer.server.allowed_messages import by_name, welcome
+from bearing_explorer.server.headers import policy
+from bearing_explorer.server.limits import Limits
+from bearing_explorer.server.serving import make_server
+from bearing_explorer.server.small_pages import message_page
 from bokeh.model import util as model_util
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPResponse
 from tornado.websocket import websocket_connect
 
-from tests.bearing_explorer.loops import run
-from tests.bearing_explorer.proxies import Proxy
 from tests.browser.helpers import explorer_server
 from tests.browser.helpers import serving as server_up
-from tests.page_client import PageClient
+from tests.helpers.loops import run
+from tests.helpers.page_client import PageClient
+from tests.helpers.proxies import Proxy
 
 SMALL = Limits(sessions=3, message=300_000, idle=3600.0)
 
@@ -43,7 +47,6 @@ def served(
             for socket in list(serving.sockets):
                 socket.close()
             server.stop()
-            serving.sockets.clear()
 
     run(both())
 
@@ -58,11 +61,19 @@ def origin(url: str) -> str:
     return url.rstrip("/")
 
 
-def wait_until(holds: Callable[[], bool], seconds: float = 10.0) -> None:
+def wait_until(holds: Callable[[], bool], seconds: float = 120.0) -> None:
     end = time.monotonic() + seconds
     while not holds():
         assert time.monotonic() < end
         time.sleep(0.05)
+
+
+async def closed(client: PageClient, seconds: float = 120.0) -> None:
+    """Wait until the server ends a connection."""
+    end = time.monotonic() + seconds
+    while not client.closed:
+        assert time.monotonic() < end
+        await client.news(0.1)
 
 
 def session_of(server: Any) -> Any:
@@ -105,6 +116,8 @@ def test_whoever_comes_too_late_is_asked_to_come_back() -> None:
         there = [PageClient(url) for _ in range(SMALL.sessions)]
         for client in there:
             assert await client.open_page() == 200
+        for client in there[1:]:
+            await client.open_socket(origin(url))
         late = await get(url)
         assert late.code == 503
         assert late.headers["Retry-After"] == "60"
@@ -257,11 +270,7 @@ def test_bad_frames_end_the_connection_with_a_sentence(
         await client.open_page()
         await client.open_socket(origin(url))
         await client.send_frames(*frames)
-        for _ in range(50):
-            if client.closed:
-                break
-            await client.news(0.1)
-        assert client.closed
+        await closed(client)
         assert client._socket is not None
         assert client._socket.close_code in (1002, 1008, 1009), client._socket.close_code
         assert not client.errors
@@ -279,14 +288,12 @@ def test_a_page_that_nobody_touches_is_closed_and_told_so() -> None:
         await client.open_page()
         await client.connect()
         assert await client.until_drawn()
-        for _ in range(80):
-            if client.closed:
-                break
-            await client.news(0.1)
-        assert client.closed
+        for socket in serving.sockets:  # a minute passes
+            socket._heard -= 61.0
+        await closed(client)
         assert any("session is over" in str(words) for words in client.words.values())
 
-    served(wait, Limits(idle=1.0))
+    served(wait, Limits(idle=60.0))
 
 
 def test_a_flood_waits_and_others_do_not() -> None:
@@ -346,7 +353,10 @@ def test_lines_of_the_log_name_session_scene_view_and_time(
         assert await client.until_drawn()
         names.extend(session.id for session in session_of(server))
         await client.close()
-        await asyncio.sleep(0.1)
+        end = time.monotonic() + 120.0
+        while not any(r.getMessage().startswith("left ") for r in caplog.records):
+            assert time.monotonic() < end
+            await asyncio.sleep(0.01)
 
     with caplog.at_level(logging.INFO, "bearing_explorer"):
         served(look)
@@ -393,7 +403,7 @@ def test_two_processes_share_the_port_and_end_together() -> None:
             assert await client.open_page() == 200
             await client.connect()
             await client.ask(set={"extent_deg": 30.0})
-            assert await client.until_drawn(seconds=60.0)
+            assert await client.until_drawn()
 
         await asyncio.gather(*(come(client) for client in people))
         for client in people:
@@ -444,7 +454,7 @@ def _slow_walk(document: Any) -> set[Any]:
 
 
 def test_messages_are_plain(tmp_path: Path) -> None:
-    page_text = serving.message_page("<b>", "a & b")
+    page_text = message_page("<b>", "a & b")
     assert "&lt;b&gt;" in page_text
     assert "a &amp; b" in page_text
     assert json.dumps(page_text)

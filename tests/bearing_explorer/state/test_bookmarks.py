@@ -5,12 +5,12 @@ from bearing_explorer.state.address import read
 from bearing_explorer.state.bookmarks import (
     LONGEST_NAME,
     Asked,
-    Keeping,
+    Bookmarks,
     asked_for,
     name_of,
     read_asked,
 )
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.scene_editor import SceneEditor, read_file
 
 from bearingcore import Scene, presets
 
@@ -21,55 +21,55 @@ def editor() -> SceneEditor:
 
 
 @pytest.fixture
-def keeping(editor: SceneEditor) -> Keeping:
-    return Keeping(editor)
+def bookmarks(editor: SceneEditor) -> Bookmarks:
+    return Bookmarks(editor)
 
 
-def drag(editor: SceneEditor, keeping: Keeping, **values: float) -> list[bool]:
+def drag(editor: SceneEditor, bookmarks: Bookmarks, **values: float) -> list[bool]:
     """Ten positions of a slider and the release; what `follow` said to each."""
     ended = []
     for part in range(1, 11):
         given = {name: value * part / 10 for name, value in values.items()}
         editor.set(given)
-        ended.append(keeping.follow({"set": given}))
-    return [*ended, keeping.follow({"set": {}, "released": True})]
+        ended.append(bookmarks.follow({"set": given}))
+    return [*ended, bookmarks.follow({"set": {}, "released": True})]
 
 
 def test_a_drag_is_one_step_and_the_address_waits_for_its_end(
-    editor: SceneEditor, keeping: Keeping
+    editor: SceneEditor, bookmarks: Bookmarks
 ) -> None:
-    assert drag(editor, keeping, extent_deg=40.0) == [False] * 10 + [True]
-    drag(editor, keeping, depth_um=100.0)
-    assert keeping.state()["address"] == "v=1&preset=fan-rig&extent_deg=40&depth_um=100"
-    assert keeping.go({"undo": True})
-    assert keeping.state()["address"] == "v=1&preset=fan-rig&extent_deg=40"
-    assert keeping.go({"undo": True})
+    assert drag(editor, bookmarks, extent_deg=40.0) == [False] * 10 + [True]
+    drag(editor, bookmarks, depth_um=100.0)
+    assert bookmarks.state()["address"] == "v=1&preset=fan-rig&extent_deg=40&depth_um=100"
+    assert bookmarks.go({"undo": True})
+    assert bookmarks.state()["address"] == "v=1&preset=fan-rig&extent_deg=40"
+    assert bookmarks.go({"undo": True})
     assert editor.scene == presets["fan-rig"]
-    assert not keeping.go({"undo": True})
-    assert keeping.go({"redo": True})
+    assert not bookmarks.go({"undo": True})
+    assert bookmarks.go({"redo": True})
     assert editor.values["extent_deg"] == 40.0
 
 
 def test_play_while_a_hand_moves_something_is_the_hands_step(
-    editor: SceneEditor, keeping: Keeping
+    editor: SceneEditor, bookmarks: Bookmarks
 ) -> None:
     for angle in range(1, 20):
         given = {"cage_angle_deg": angle} if angle % 2 else {"extent_deg": 20.0 + angle}
         editor.set(given)
-        keeping.follow({"set": given})
-    keeping.follow({"set": {}, "released": True})
-    keeping.go({"undo": True})
+        bookmarks.follow({"set": given})
+    bookmarks.follow({"set": {}, "released": True})
+    bookmarks.go({"undo": True})
     assert editor.values["extent_deg"] == pytest.approx(12.9)
-    keeping.go({"undo": True})
+    bookmarks.go({"undo": True})
     assert editor.values["cage_angle_deg"] == 0.0
-    assert not keeping.state()["undo"]
+    assert not bookmarks.state()["undo"]
 
 
-def test_presets_editors_and_floors_are_undone(editor: SceneEditor, keeping: Keeping) -> None:
+def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: Bookmarks) -> None:
     seen = [editor.snapshot()]
 
     def note(message: dict) -> None:
-        keeping.follow(message)
+        bookmarks.follow(message)
         seen.append(editor.snapshot())
         assert seen[-1] != seen[-2]
 
@@ -77,8 +77,8 @@ def test_presets_editors_and_floors_are_undone(editor: SceneEditor, keeping: Kee
     note({"choose": {"floor": "rough"}})
     editor.set({"rms_height_um": 7})
     note({"typed": {"rms_height_um": 7}})
-    editor.take_file("wear.txt", "250 0\n265 60\n280 0\n")
-    keeping.step()
+    editor.take_floor("wear.txt", *read_file("250 0\n265 60\n280 0\n"))
+    bookmarks.step()
     seen.append(editor.snapshot())
     editor.choose({"defect": "add"})
     note({"choose": {"defect": "add"}})
@@ -87,62 +87,62 @@ def test_presets_editors_and_floors_are_undone(editor: SceneEditor, keeping: Kee
     editor.choose({"preset": "6205"})
     note({"choose": {"preset": "6205"}})
     for kept in seen[-2::-1]:
-        assert keeping.go({"undo": True})
+        assert bookmarks.go({"undo": True})
         assert editor.snapshot() == kept
         assert editor.values == kept.values
     for kept in seen[1:]:
-        assert keeping.go({"redo": True})
+        assert bookmarks.go({"redo": True})
         assert editor.snapshot() == kept
         assert editor.state()["floor"] == editor.state()["floor"]
-    assert not keeping.go({"redo": True})
+    assert not bookmarks.go({"redo": True})
 
 
-def test_looking_at_another_defect_is_no_step(editor: SceneEditor, keeping: Keeping) -> None:
+def test_looking_at_another_defect_is_no_step(editor: SceneEditor, bookmarks: Bookmarks) -> None:
     editor.choose({"defect": "add"})
-    keeping.follow({"choose": {"defect": "add"}})
+    bookmarks.follow({"choose": {"defect": "add"}})
     editor.choose({"defect": "0"})
-    keeping.follow({"choose": {"defect": "0"}})
-    keeping.go({"undo": True})
+    bookmarks.follow({"choose": {"defect": "0"}})
+    bookmarks.go({"undo": True})
     assert len(editor.defects) == 1
 
 
-def test_what_was_kept_opens_again(editor: SceneEditor, keeping: Keeping) -> None:
+def test_what_was_kept_opens_again(editor: SceneEditor, bookmarks: Bookmarks) -> None:
     editor.set({"extent_deg": 33, "cage_angle_deg": 7})
-    kept = keeping.kept("  Monday\n<b>7 Hz</b>  ")
+    kept = bookmarks.kept("  Monday\n<b>7 Hz</b>  ")
     assert kept["name"] == "Monday <b>7 Hz</b>"
     before = editor.snapshot()
     editor.take_preset("liew-lim")
-    keeping.step()
+    bookmarks.step()
     asked = asked_for({"open": kept})
     assert asked is not None
-    assert keeping.take(asked, read_asked(asked))
+    assert bookmarks.take(asked, read_asked(asked))
     assert editor.snapshot() == before
-    assert keeping.state()["said"]["words"].endswith("is open.")
-    keeping.go({"undo": True})
+    assert bookmarks.state()["said"]["words"].endswith("is open.")
+    bookmarks.go({"undo": True})
     assert editor.preset == "liew-lim"
 
 
 def test_a_pinned_scene_is_the_reference_until_it_is_unpinned(
-    editor: SceneEditor, keeping: Keeping
+    editor: SceneEditor, bookmarks: Bookmarks
 ) -> None:
-    keeping.pin_here("first")
+    bookmarks.pin_here("first")
     pinned = editor.scene
     editor.set({"extent_deg": 33})
-    assert keeping.pinned is not None
-    assert (keeping.pinned.name, keeping.pinned.scene) == ("first", pinned)
+    assert bookmarks.pinned is not None
+    assert (bookmarks.pinned.name, bookmarks.pinned.scene) == ("first", pinned)
     asked = asked_for({"pin": {"name": "other", "text": "v=1&preset=6205"}})
     assert asked is not None
-    assert keeping.take(asked, read_asked(asked))
-    assert keeping.pinned.scene == presets["6205"]
+    assert bookmarks.take(asked, read_asked(asked))
+    assert bookmarks.pinned.scene == presets["6205"]
     assert editor.values["extent_deg"] == 33, "pinning moves nothing"
-    keeping.unpin()
-    assert keeping.state()["pinned"] == ""
+    bookmarks.unpin()
+    assert bookmarks.state()["pinned"] == ""
 
 
 def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
-    editor: SceneEditor, keeping: Keeping
+    editor: SceneEditor, bookmarks: Bookmarks
 ) -> None:
-    file = keeping.toml()
+    file = bookmarks.toml()
     assert Scene.from_toml(file["text"]) == editor.scene
     for text, words in (
         (presets["6205"].to_toml(), "is open"),
@@ -156,9 +156,9 @@ def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
         before = editor.snapshot()
         asked = asked_for({"file": {"name": "scene.toml", "text": text}})
         assert asked is not None
-        taken = keeping.take(asked, read_asked(asked))
-        assert words in keeping.state()["said"]["words"]
-        assert keeping.state()["said"]["words"].startswith("scene.toml")
+        taken = bookmarks.take(asked, read_asked(asked))
+        assert words in bookmarks.state()["said"]["words"]
+        assert bookmarks.state()["said"]["words"].startswith("scene.toml")
         assert taken == (words == "is open")
         assert taken or editor.snapshot() == before
     assert editor.preset == "6205", "the preset whose bearing it has"
@@ -196,12 +196,12 @@ def test_names_are_short_and_on_one_line(text: str, name: str) -> None:
 
 def test_an_address_brings_its_scene_and_tab(editor: SceneEditor) -> None:
     text = "v=1&preset=liew-lim&extent_deg=20&cage_angle_deg=4.5&tab=maps"
-    keeping = Keeping(editor, text)
-    assert keeping.tab == "maps"
-    assert keeping.state()["address"] == text
-    assert not keeping.state()["undo"]
+    bookmarks = Bookmarks(editor, text)
+    assert bookmarks.tab == "maps"
+    assert bookmarks.state()["address"] == text
+    assert not bookmarks.state()["undo"]
     place = read(text)
     assert place is not None
     assert editor.scene == place.scene
-    bad = Keeping(SceneEditor("fan-rig"), "v=1&extent_deg=nan")
+    bad = Bookmarks(SceneEditor("fan-rig"), "v=1&extent_deg=nan")
     assert "could not be opened" in bad.state()["said"]["words"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
 import xml.etree.ElementTree as ElementTree
 from functools import cache
@@ -14,6 +15,8 @@ import numpy as np
 import pytest
 from bearing_explorer.__main__ import options
 from bearing_explorer.compute.results import Results
+from bearing_explorer.measurement.diagnoses import SLIP
+from bearing_explorer.measurement.session import simulated
 from bearing_explorer.page import SECTIONS, TABS
 from bearing_explorer.session import Explorer
 from bearing_explorer.state import lessons
@@ -22,6 +25,7 @@ from bearing_explorer.state.lessons import (
     Lesson,
     LessonError,
     Part,
+    faults_in,
     lessons_in,
     own_folder,
     read_lesson,
@@ -37,6 +41,7 @@ from bearingcore import (
     Equilibrium,
     Scene,
     Spectrum,
+    diagnose,
     equilibrium,
     modes,
     orbit,
@@ -44,7 +49,7 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from tests import naive
+from tests.helpers import naive
 
 FILES = sorted(own_folder().glob("*.md"))
 FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -165,35 +170,36 @@ def crushed(scene: Scene) -> float:
     return 1e-3 * greatest
 
 
-SOUND = fan(0.0)
+HEALTHY = fan(0.0)
+MOTOR, TURN = presets["6205"], 2.0 * math.pi
 E = math.radians
 
 #: what a lesson says, word for word, with every number in it computed here
 CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
     "01": [
-        ("with 100 N", (-SOUND.load.fy,)),
-        ("There are 14 balls", (SOUND.bearing.n_balls,)),
-        ("Only 4 or 5 of the 14 carry anything", (*between(loads(SOUND).loaded_balls), 14)),
-        ("a ball at the very bottom carries 39 n", (below(SOUND),)),
-        ("sinks by 6.7 µm", (sunk(SOUND),)),
-        ("first 3 µm are the clearance", (1e6 * SOUND.bearing.radial_clearance,)),
+        ("with 100 N", (-HEALTHY.load.fy,)),
+        ("There are 14 balls", (HEALTHY.bearing.n_balls,)),
+        ("Only 4 or 5 of the 14 carry anything", (*between(loads(HEALTHY).loaded_balls), 14)),
+        ("a ball at the very bottom carries 39 n", (below(HEALTHY),)),
+        ("sinks by 6.7 µm", (sunk(HEALTHY),)),
+        ("first 3 µm are the clearance", (1e6 * HEALTHY.bearing.radial_clearance,)),
         ("7 balls share and the greatest load is 31 N",
          (loads(fan(0.0, radial_clearance=0.0)).loaded_balls.max(),
           loads(fan(0.0, radial_clearance=0.0)).ball_load.max())),
         ("with 20 µm two or three balls are left to carry all of it, up to 61 N each",
          (20, loads(fan(0.0, radial_clearance=20e-6)).ball_load.max())),
         ("268 N instead of 312 N",
-         (loads(fan(0.0, fy=-800.0)).ball_load.max(), 8 * round(below(SOUND)))),
+         (loads(fan(0.0, fy=-800.0)).ball_load.max(), 8 * round(below(HEALTHY)))),
     ],
     "02": [
         ("12.9° long, 50 µm deep", (math.degrees(FAN.defect.extent), 1e6 * FAN.defect.depth)),
         ("The ball at 270°", (math.degrees(FAN.defect.center),)),
         ("pressed together by 3.7 µm, the ring follows it by 1.2 µm",
-         (sunk(SOUND) - 3.0, sunk(fan()) - sunk(SOUND))),
+         (sunk(HEALTHY) - 3.0, sunk(fan()) - sunk(HEALTHY))),
         ("About 5 µm are enough", (sunk(fan()) - 3.0,)),
-        ("4 µm leave it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(SOUND))),
+        ("4 µm leave it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(HEALTHY))),
         ("5 µm leave it nothing, and 500 µm change nothing further", (5, 500)),
-        ("45 N each instead of 29 N", (below(fan(), 1), below(SOUND, 1))),
+        ("45 N each instead of 29 N", (below(fan(), 1), below(HEALTHY, 1))),
         ("Eq. 6; where the quarter comes from is a question for lesson 6", (6, 6)),
         ("at 5° the ball meets the other edge after 42 µm", (5, drop_in_the_middle(5.0))),
         ("only from 5.5° on it comes down to 50 µm", (5.5, drop_in_the_middle(5.5))),
@@ -276,6 +282,22 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
         ("with 16 384 by 0.3 dB", (16, 384, step_error(16384.0))),
         ("with 65 536 by less than 0.001 dB", (65, 536, 0.001 * (step_error(RATE) < 0.001))),
     ],
+    "10": [
+        ("its noise 20 dB below", (20,)),
+        ("Step 2, the spectrum", (2,)),
+        ("the cage makes 0.398 turns", (MOTOR.bearing.ftf(TURN),)),
+        ("the 9 balls", (MOTOR.bearing.n_balls,)),
+        ("or 3.58 times", (MOTOR.bearing.bpfo(TURN),)),
+        ("the other 5.42 times: together they are 9",
+         (MOTOR.bearing.bpfi(TURN), MOTOR.bearing.bpfo(TURN) + MOTOR.bearing.bpfi(TURN))),
+        ("then the other, 4.71 times", (2.0 * MOTOR.bearing.bsf(TURN),)),
+        ("At 29.95 turns a second these are 107.4, 162.2 and 141.2 Hz",
+         (MOTOR.shaft_speed / TURN, MOTOR.bearing.bpfo(MOTOR.shaft_speed),
+          MOTOR.bearing.bpfi(MOTOR.shaft_speed), 2.0 * MOTOR.bearing.bsf(MOTOR.shaft_speed))),
+        ("others beside it, 29.95 Hz away", (MOTOR.shaft_speed / TURN,)),
+        ("For a ball they are 11.9 Hz away", (MOTOR.bearing.ftf(MOTOR.shaft_speed),)),
+        ("up to 2 % away", (100.0 * SLIP,)),
+    ],
 }  # fmt: skip
 
 
@@ -336,18 +358,18 @@ def test_what_lessons_say_in_words() -> None:
     np.testing.assert_allclose([below(scene, 1) for scene in deep], below(deep[0], 1), rtol=1e-9)
     assert between(loads(fan(0.0, radial_clearance=20e-6)).loaded_balls) == (2, 3)
     assert loads(fan(0.0, radial_clearance=0.0)).loaded_balls.min() == 7
-    assert loads(fan(0.0, fy=-800.0)).loaded_balls.min() > loads(SOUND).loaded_balls.max()
+    assert loads(fan(0.0, fy=-800.0)).loaded_balls.min() > loads(HEALTHY).loaded_balls.max()
     # 2: from 5.5° on the floor is reached, and at 5.4° it is not
     assert drop_in_the_middle(5.4) < 49.9
     # 3: up to 30° blue lies on grey at times, beyond it never
     for extent_deg, times in ((29.0, True), (31.0, False)):
-        damaged, sound = loads(liew_lim(extent_deg)), loads(liew_lim(0.0))
-        same = np.abs(damaged.ball_load - sound.ball_load).max(axis=1) < 1e-6
+        damaged, healthy = loads(liew_lim(extent_deg)), loads(liew_lim(0.0))
+        same = np.abs(damaged.ball_load - healthy.ball_load).max(axis=1) < 1e-6
         assert same.any() == times
     # 4
-    damaged, sound = loads(liew_lim()), loads(liew_lim(0.0))
+    damaged, healthy = loads(liew_lim()), loads(liew_lim(0.0))
     assert greatest_coupling(40.0) / greatest_coupling(0.0) == pytest.approx(11.0, abs=0.5)
-    assert min(np.abs(found.term("k_xry")).min() for found in (damaged, sound)) > 0.5e6
+    assert min(np.abs(found.term("k_xry")).min() for found in (damaged, healthy)) > 0.5e6
     tied = [f"k_{a}{b}" for a in "xy" for b in ("z", "rx", "ry")]
     assert all(not loads(fan()).term(term).any() for term in tied)
     # 6
@@ -365,7 +387,32 @@ def test_what_lessons_say_in_words() -> None:
     assert orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).residual < 1e-9
     nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
     assert not nothing.converged.any()
-    assert naive.newton(SOUND, 0.0, np.zeros(5)).failure == "singular matrix"
+    assert naive.newton(HEALTHY, 0.0, np.zeros(5)).failure == "singular matrix"
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_signals_of_the_last_lesson_are_told_apart(seed: int) -> None:
+    """What its buttons simulate is diagnosed as its answer says, sidebands and all."""
+    lesson = lesson_of(FILES[-1])
+    html = "".join(part.html for part in lesson.parts[:-1])
+    buttons = ElementTree.fromstring(f"<div>{html}</div>").iter("button")
+    asked = [json.loads(button.attrib["data-ask"]) for button in buttons]
+    found = {}
+    for message in asked:
+        editor = SceneEditor("liew-lim")
+        lesson.begin(editor)
+        editor.choose(message["choose"])
+        editor.set(message["typed"])
+        assert message["simulate"] == {"noise": "20", "machine": "same"}
+        made = simulated(editor.scene, 20.0, False, seed)
+        found[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed, slip=SLIP)
+    assert {truth: one.fault for truth, one in found.items()} == {
+        "outer race": "outer race", "inner race": "inner race", "none": "none seen",
+    }  # fmt: skip
+    inner, outer = found["inner race"].of("inner race"), found["outer race"].of("outer race")
+    assert inner.sideband_spacing == pytest.approx(29.95, abs=0.1)
+    assert inner.sidebands[:3].mean() > 6.0
+    assert outer.sidebands[:3].mean() < 3.0
 
 
 @pytest.mark.parametrize("halfway", [False, True])
@@ -462,7 +509,10 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("So $x < y$ it is.", "", 16, "this part is empty"),
         ("set:extent_deg=62", "set:extent_deg=6200", 13, "6200° is out of range"),
         ("show:maps", "show:map", 13, "“map” is not a tab"),
-        ("show:maps", "ftp://a/b", 13, "links go to set:, show: or https:"),
+        ("show:maps", "ftp://a/b", 13, "links go to set:, show:, simulate: or https:"),
+        ("show:maps", "simulate:noise=5", 13, "noise is “5”; there are 40, 20, 10, none"),
+        ("show:maps", "simulate:machine=toy", 13, "machine is “toy”; there are same, different"),
+        ("show:maps", "simulate:extent_deg=640", 13, "640° is out of range"),
         ("3/2}", "3/2", 15, "its braces do not match"),
         ("So $x", "So\n$\\href{https://a}{x}$ $x", 18, "holds what a formula may not"),
     ],
@@ -587,3 +637,60 @@ def test_any_text_is_a_lesson_or_refused(text: str) -> None:
     judge(text)
     judge(GOOD.replace("Words", text))
     judge(GOOD.replace("extent_deg = 64", text))
+
+
+_HEAD = '+++\ntitle = "a"\ntab = "load"\npreset = "fan-rig"\n+++\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (_HEAD + "## A\n" + "[a](set:fy_n=1)" * 3000 + "\n## B\nx", "more than 40 links"),
+        (_HEAD + "## A\n" + "$a$ " * 4000 + "\n## B\nx", "signs “$”"),
+        (_HEAD + "## A\nx\n" * 900, "lines"),
+        (_HEAD + "## A\n" + "[" * 15_000 + "\n## B\nx", "signs “[”"),
+        (_HEAD + "## A\n" + "*a **a " * 2000 + "\n## B\nx", "signs “*”"),
+        (_HEAD + "## A\n" + "|a" * 4000 + "\n## B\nx", "signs “|”"),
+        (_HEAD + "## A\n" + "\\" * 15_000 + "\n## B\nx", "signs “\\”"),
+        ("+++\na" + ".a" * 1900 + "=1\n+++\n## A\nx\n## B\nx", "100 dots"),
+        ("+++\na=[" + "1," * 9000 + "]\n+++\n## A\nx\n## B\nx", "4000 characters"),
+        ("+++\na=" + "{a=" * 1100 + "\n+++\n## A\nx\n## B\nx", "not TOML"),
+    ],
+    ids=range(10),
+)
+def test_what_would_take_long_to_read_is_counted_and_not_read(
+    text: str, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """3,000 links took 8 s, a name in 20,000 parts half a minute."""
+
+    def begun() -> None:
+        raise AssertionError("it was read")
+
+    monkeypatch.setattr(lessons, "_markdown", begun)
+    with pytest.raises(LessonError, match=re.escape(why)):
+        read_lesson(text, TABS)
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="there is no endless file here")
+def test_a_link_to_an_endless_file_is_no_lesson(tmp_path: Path) -> None:
+    (tmp_path / "1.md").symlink_to("/dev/zero")
+    os.mkfifo(tmp_path / "2.md")
+    (tmp_path / "3.md").mkdir()
+    with (tmp_path / "4.md").open("wb") as file:
+        file.truncate(2**33)  # takes no room on the disk
+    sentences = faults_in(tmp_path, TABS)
+    assert len(sentences) == 4
+    assert "1.md, line 1: this is not a regular file." in sentences
+    assert "2.md, line 1: this is not a regular file." in sentences
+    assert any(sentence.startswith("3.md") for sentence in sentences)
+    assert "4.md, line 1: the file is longer than 20000 bytes." in sentences
+
+
+def test_a_file_that_grows_while_it_is_read_is_read_no_further(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What a file's size was said to be is not what is read."""
+    path = tmp_path / "a.md"
+    path.write_bytes(b"x" * 100_000)
+    content = lessons._content(path)
+    assert len(content) == lessons.LONGEST_FILE + 1

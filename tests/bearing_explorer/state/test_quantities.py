@@ -3,10 +3,24 @@
 import math
 
 import pytest
-from bearing_explorer.state.quantities import QUANTITIES, limits_of, read, scene_with, values_of
+from bearing_explorer.state.quantities import (
+    QUANTITIES,
+    in_si,
+    limits_of,
+    read,
+    scene_with_fields,
+    values_of,
+)
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import presets
+from bearingcore import Scene, presets
+
+
+def scene_with(scene: Scene, values: dict[str, float], **others: object) -> Scene:
+    """`scene` with numbers of the page, and other fields by name, changed."""
+    own = {name: QUANTITIES[name] for name in values if QUANTITIES[name].of == "scene"}
+    fields = {quantity.field: in_si(quantity, values[name]) for name, quantity in own.items()}
+    return scene_with_fields(scene, {**fields, **others})
 
 
 @pytest.mark.parametrize("name", list(presets))

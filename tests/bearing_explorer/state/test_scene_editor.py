@@ -208,7 +208,7 @@ def test_a_floor_comes_from_a_file(editor: SceneEditor) -> None:
     angles = np.linspace(250.0, 280.0, 61)
     depths = 40.0 * np.sin(np.pi * (angles - 250.0) / 30.0)
     text = "angle;depth\n" + "\n".join(f"{a};{d}" for a, d in zip(angles, depths, strict=True))
-    editor.take_file("wear.csv", text)
+    editor.take_floor("wear.csv", *read_file(text))
     assert isinstance(editor.scene.defect.floor, MeasuredFloor)
     assert editor.values["extent_deg"] == pytest.approx(30.0)
     assert editor.values["depth_um"] == pytest.approx(40.0)
@@ -236,7 +236,7 @@ def test_a_file_that_is_no_floor_is_refused_in_words(
     editor: SceneEditor, text: str, words: str
 ) -> None:
     before = editor.scene
-    editor.take_file("x" * 300, text)
+    editor.take_floor("x" * 300, *read_file(text))
     assert editor.scene == before
     floor = editor.state()["floor"]
     assert floor["bad"]

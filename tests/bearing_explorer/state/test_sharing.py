@@ -7,8 +7,8 @@ import pytest
 from bearing_explorer.session import Explorer
 
 from bearingcore import Scene, presets
-from tests.bearing_explorer.loops import run
-from tests.bearing_explorer.test_explorer import SECTIONS
+from tests.helpers.loops import run
+from tests.helpers.sections import SECTIONS
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def answers(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
         "bearing_explorer.widgets.share.ShareBar.answer", lambda self, **news: given.append(news)
     )
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.tell", lambda self, **news: None
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
     )
     return given
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.depth_profile import DepthProfile
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.modes import NaturalFrequencies
@@ -35,7 +35,7 @@ def test_the_mark_stands_on_the_curve(cage_angle: float) -> None:
     found = results.equilibrium
     at_now = np.interp(cage_angle, found.cage_angles, found.term("k_yy"))
     assert at_now == pytest.approx(results.now.term("k_yy")[0], rel=2e-3)
-    sources, _ = Stiffness(Wire()).data(results)
+    sources, _ = Stiffness(PackedSource()).data(results)
     share = results.along([cage_angle])[0] / 360.0
     marks, cells = sources["stiffness_now"]["x"], sources["stiffness_cells"]
     np.testing.assert_allclose(
@@ -51,7 +51,7 @@ def test_later_turns_are_not_the_first_one_again() -> None:
 
 
 def test_axes_say_what_they_are_over() -> None:
-    view = NaturalFrequencies(Wire())
+    view = NaturalFrequencies(PackedSource())
     for scene, words, end in ((INNER, "Shaft angle", 360.0), (OUTER, "Cage angle", 360.0 / 14)):
         results = Results(scene, 0.2)
         _, ranges = view.data(results)
@@ -59,9 +59,9 @@ def test_axes_say_what_they_are_over() -> None:
         view.say(results, "")
         assert view._axis.axis_label.startswith(words)
     assert "shaft" in view.sentence(Results(INNER))
-    assert "shaft" in Stiffness(Wire()).sentence(Results(INNER))
-    assert "shaft" not in Stiffness(Wire()).sentence(Results(OUTER))
-    assert "most at each angle" in LoadDistribution(Wire()).sentence(Results(INNER))
+    assert "shaft" in Stiffness(PackedSource()).sentence(Results(INNER))
+    assert "shaft" not in Stiffness(PackedSource()).sentence(Results(OUTER))
+    assert "most at each angle" in LoadDistribution(PackedSource()).sentence(Results(INNER))
     assert "shaft_angle_deg" in view.table(Results(INNER))
     assert "shaft_angle_deg" not in view.table(Results(OUTER))
 
@@ -73,7 +73,7 @@ def test_the_profile_is_that_of_the_defect_in_hand() -> None:
     outer, inner = (Results(scene, 0.2, focus=focus) for focus in (0, 1))
     assert outer.profile.race == "outer"
     assert inner.profile.race == "inner"
-    view = DepthProfile(Wire())
+    view = DepthProfile(PackedSource())
     assert view.sentence(outer).startswith("The outer-race defect is 12.9° long")
     assert "turns with the shaft" in view.sentence(inner)
     turned = 1.0 + 0.2 / OUTER.bearing.cage_ratio

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.bearing import (
     BAR_LENGTH,
     BearingDrawing,
@@ -20,7 +20,7 @@ FAN_RIG = presets["fan-rig"]
 
 
 def drawn(scene: Scene, cage_angle: float = 0.0) -> dict[str, dict[str, np.ndarray]]:
-    return BearingDrawing(Wire()).data(Results(scene, cage_angle))[0]
+    return BearingDrawing(PackedSource()).data(Results(scene, cage_angle))[0]
 
 
 def mirrored(points: dict[str, np.ndarray]) -> np.ndarray:
@@ -38,7 +38,7 @@ def test_a_symmetric_scene_gives_a_symmetric_drawing() -> None:
 
 
 def test_balls_are_to_scale_and_touch_neither_their_neighbours_nor_more_than_the_races() -> None:
-    shapes = Shapes(FAN_RIG.sound(), 0.0)
+    shapes = Shapes(FAN_RIG.healthy(), 0.0)
     none = {"outer": np.zeros(14), "inner": np.zeros(14)}
     balls = shapes.balls(none, np.zeros(14))
     assert balls["radius"][0] == pytest.approx(4.0 / 26.5)
@@ -48,7 +48,7 @@ def test_balls_are_to_scale_and_touch_neither_their_neighbours_nor_more_than_the
 
 
 def test_balls_turn_with_the_cage_and_carry_their_load_with_them() -> None:
-    scene, turn = FAN_RIG.sound(), math.radians(10.0)
+    scene, turn = FAN_RIG.healthy(), math.radians(10.0)
     before, after = drawn(scene)["bearing_balls"], drawn(scene, turn)["bearing_balls"]
     angle = np.arctan2(after["y"], after["x"]) - np.arctan2(before["y"], before["x"])
     np.testing.assert_allclose(np.mod(angle, 2.0 * math.pi), turn, atol=1e-9)
@@ -98,7 +98,7 @@ def test_a_ball_in_the_defect_sinks_into_the_ring() -> None:
 
 
 def test_bars_are_as_long_as_the_loads_and_only_loaded_balls_have_one() -> None:
-    view, results = BearingDrawing(Wire()), Results(FAN_RIG, 0.1)
+    view, results = BearingDrawing(PackedSource()), Results(FAN_RIG, 0.1)
     sources, ranges = view.data(results)
     bars, top = sources["bearing_bars"], ranges["bearing_load"][1]
     length = np.hypot(bars["x1"] - bars["x0"], bars["y1"] - bars["y0"])
@@ -109,7 +109,7 @@ def test_bars_are_as_long_as_the_loads_and_only_loaded_balls_have_one() -> None:
 
 
 def test_the_colour_bar_stays_while_the_bearing_turns() -> None:
-    view = BearingDrawing(Wire())
+    view = BearingDrawing(PackedSource())
     seen = {view.data(Results(FAN_RIG, angle))[1]["bearing_load"] for angle in np.arange(0, 6, 0.4)}
     assert len(seen) == 1
 
@@ -135,12 +135,14 @@ def test_scales_are_round() -> None:
 
 def test_the_sentence_says_who_carries_most_and_who_is_in_the_defect() -> None:
     results = Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing)
-    words = BearingDrawing(Wire()).sentence(results)
+    words = BearingDrawing(PackedSource()).sentence(results)
     assert "ball 11 is in the defect" in words
     assert f"{results.now.loaded_balls[0]} of 14 balls carry load" in words
 
 
 def test_the_table_has_a_row_for_each_ball() -> None:
-    table = BearingDrawing(Wire()).table(Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing))
+    table = BearingDrawing(PackedSource()).table(
+        Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing)
+    )
     assert {column.size for column in table.values()} == {14}
     assert table["drop_into_outer_race_um"].max() == pytest.approx(50.0)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.depth_profile import DepthProfile
 
 from bearingcore import RoughFloor, presets
@@ -28,7 +28,7 @@ def test_the_slot_is_as_long_and_deep_as_the_defect(edge: str, center_deg: float
 
 
 def test_as_in_the_paper_a_ball_does_not_reach_the_floor_of_5_degrees_but_of_20() -> None:
-    view = DepthProfile(Wire())
+    view = DepthProfile(PackedSource())
     short = Results(LIEW_LIM.replace(extent=math.radians(5.0)))
     long = Results(LIEW_LIM.replace(extent=math.radians(20.0)))
     assert short.profile.path.max() < 50e-6
@@ -39,7 +39,7 @@ def test_as_in_the_paper_a_ball_does_not_reach_the_floor_of_5_degrees_but_of_20(
 
 def test_balls_lie_on_the_path_of_their_centres() -> None:
     scene = FAN_RIG.replace(extent=math.radians(38.6), center=0.0)
-    sources, ranges = DepthProfile(Wire()).data(Results(scene, math.radians(17.0)))
+    sources, ranges = DepthProfile(PackedSource()).data(Results(scene, math.radians(17.0)))
     balls, path = sources["depth_profile_balls"], sources["depth_profile_path"]
     seen = np.isfinite(balls["angle"])
     assert seen.sum() >= 2
@@ -50,13 +50,13 @@ def test_balls_lie_on_the_path_of_their_centres() -> None:
 
 
 def test_depth_grows_downwards_and_the_floor_is_in_the_picture() -> None:
-    _, ranges = DepthProfile(Wire()).data(Results(FAN_RIG))
+    _, ranges = DepthProfile(PackedSource()).data(Results(FAN_RIG))
     bottom, top = ranges["depth_profile_depth"]
     assert top < 0.0 < 50e-6 < bottom
 
 
-def test_a_sound_race_is_flat() -> None:
-    view, results = DepthProfile(Wire()), Results(FAN_RIG.sound())
+def test_a_healthy_race_is_flat() -> None:
+    view, results = DepthProfile(PackedSource()), Results(FAN_RIG.healthy())
     sources, _ = view.data(results)
     assert not sources["depth_profile_surface"]["depth"].any()
     assert not sources["depth_profile_path"]["drop"].any()
@@ -71,4 +71,4 @@ def test_a_rough_floor_is_drawn_as_it_was_cut_and_balls_roll_over_its_peaks() ->
     assert np.std(shown.depth[inside]) == pytest.approx(5e-6, rel=0.5)
     assert np.std(shown.path[inside]) < np.std(shown.depth[inside])
     assert np.all(shown.path[inside] <= shown.depth[inside] + 1e-7)
-    assert "up to" in DepthProfile(Wire()).sentence(Results(scene))
+    assert "up to" in DepthProfile(PackedSource()).sentence(Results(scene))

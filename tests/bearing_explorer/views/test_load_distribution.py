@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.load_curve import load_curve
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.load_distribution import LoadDistribution, shaded
 
 from bearingcore import presets
@@ -18,7 +18,7 @@ FAN_RIG = presets["fan-rig"]
 @pytest.mark.parametrize("cage_angle_deg", [0.0, 4.0, 100.3])
 def test_the_balls_lie_on_the_curve(name: str, cage_angle_deg: float) -> None:
     results = Results(presets[name], math.radians(cage_angle_deg))
-    sources, _ = LoadDistribution(Wire()).data(results)
+    sources, _ = LoadDistribution(PackedSource()).data(results)
     curve, balls = sources["load_distribution_curve"], sources["load_distribution_balls"]
     # between two of its angles the curve can only be known to lie between its neighbours
     right = np.searchsorted(curve["angle"], balls["angle"])
@@ -77,30 +77,30 @@ def test_an_inner_race_defect_is_shaded_where_the_shaft_has_turned_it() -> None:
     assert shaded(scene, quarter)["start"] == pytest.approx([170.0])
 
 
-def test_a_sound_bearing_has_no_shade_and_its_curve_is_the_grey_one() -> None:
-    sources, _ = LoadDistribution(Wire()).data(Results(FAN_RIG.sound()))
+def test_a_healthy_bearing_has_no_shade_and_its_curve_is_the_grey_one() -> None:
+    sources, _ = LoadDistribution(PackedSource()).data(Results(FAN_RIG.healthy()))
     assert sources["load_distribution_defect"]["start"].size == 0
     np.testing.assert_array_equal(
-        sources["load_distribution_curve"]["load"], sources["load_distribution_sound"]["load"]
+        sources["load_distribution_curve"]["load"], sources["load_distribution_healthy"]["load"]
     )
 
 
 def test_the_sentence_gives_the_greatest_load_and_how_many_carry() -> None:
     results = Results(FAN_RIG)
-    words = LoadDistribution(Wire()).sentence(results)
+    words = LoadDistribution(PackedSource()).sentence(results)
     assert f"{results.equilibrium.ball_load.max():.1f} N" in words
     assert f"{results.now.loaded_balls[0]} of 14 balls" in words
 
 
 def test_a_bearing_without_load_is_told_not_drawn_as_a_number() -> None:
     results = Results(FAN_RIG.replace(fy=0.0))
-    view = LoadDistribution(Wire())
+    view = LoadDistribution(PackedSource())
     view.data(results)
     assert "nothing touches" in view.sentence(results)
 
 
 def test_the_table_has_as_many_rows_as_the_curve_and_no_row_twice() -> None:
-    table = LoadDistribution(Wire()).table(Results(FAN_RIG))
+    table = LoadDistribution(PackedSource()).table(Results(FAN_RIG))
     assert table["ball_angle_deg"].size == table["ball_load_n"].size
     assert table["ball_angle_deg"].min() >= 0.0
     assert table["ball_angle_deg"].max() < 360.0

@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed
+from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed_colors
 from bearing_explorer.figures.matrix_cells import PLACES
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.maps import (
     FLAT,
     GREATEST,
@@ -26,7 +26,7 @@ HEAD = 20
 
 
 def sent(results: Results) -> dict:
-    return StiffnessMaps(Wire()).data(results)[0]
+    return StiffnessMaps(PackedSource()).data(results)[0]
 
 
 def points(sources: dict) -> tuple[tuple[int, int], np.ndarray]:
@@ -58,11 +58,11 @@ def test_what_is_sent_is_what_was_computed(scene) -> None:
 
 def test_whole_numbers_pass_the_wire_unharmed_two_to_a_float() -> None:
     """Among them bit patterns that are not numbers when read as a float."""
-    wire = Wire()
-    wire.source("points", "bits")
+    packed = PackedSource()
+    packed.source("points", "bits")
     numbers = np.arange(65536, dtype=np.uint16)
     numbers = np.concatenate([numbers, numbers[::-1]])
-    packet = wire.pack({"points": {"bits": numbers.view(np.float32)}}, {})
+    packet = packed.pack({"points": {"bits": numbers.view(np.float32)}}, {})
     np.testing.assert_array_equal(packet[-numbers.size // 2 :].view(np.uint16), numbers)
 
 
@@ -91,7 +91,7 @@ def test_scales_are_of_the_kind_that_a_term_needs() -> None:
 
 
 def test_scales_stay_while_numbers_change_little() -> None:
-    view = StiffnessMaps(Wire())
+    view = StiffnessMaps(PackedSource())
     first = view.data(Results(LIEW_LIM))[0]["maps_cells"]
     second = view.data(Results(LIEW_LIM.replace(fy=-1990.0)))[0]["maps_cells"]
     np.testing.assert_array_equal(first["low"], second["low"])
@@ -110,8 +110,8 @@ def test_the_cross_stands_where_the_sliders_do(extent_deg: float, reach_deg: flo
     assert math.degrees(results.maps.extents[-1]) == pytest.approx(reach_deg)
     x = (marks["x"] - marks["left"]) / (marks["right"] - marks["left"])
     y = (marks["y"] - marks["bottom"]) / (marks["top"] - marks["bottom"])
-    angle = grid["first_angle"] + x * (grid["last_angle"] - grid["first_angle"])
-    extent = grid["first_extent"] + y * (grid["last_extent"] - grid["first_extent"])
+    angle = grid["x_first"] + x * (grid["x_last"] - grid["x_first"])
+    extent = grid["y_first"] + y * (grid["y_last"] - grid["y_first"])
     np.testing.assert_allclose(angle, 7.5)
     np.testing.assert_allclose(extent, extent_deg)
     # the middle of the point at the cross is that of the cage angle
@@ -145,7 +145,7 @@ def test_with_an_inner_race_defect_maps_are_over_a_turn_of_the_shaft() -> None:
     turn = 2.0 * math.pi * scene.bearing.cage_ratio
     results = Results(scene, 1.25 * turn)
     grid = {k: float(v[0]) for k, v in sent(results)["maps_grid"].items()}
-    middle = 0.5 * (grid["first_angle"] + grid["last_angle"])
+    middle = 0.5 * (grid["x_first"] + grid["x_last"])
     assert (middle, grid["of_shaft"]) == (pytest.approx(180.0), 1.0)
     # what a click in the middle asks for
     assert grid["start"] + middle / grid["turn"] == pytest.approx(math.degrees(1.5 * turn))
@@ -155,18 +155,18 @@ def test_with_an_inner_race_defect_maps_are_over_a_turn_of_the_shaft() -> None:
 
 
 def test_the_sentence_says_where_fewest_balls_carry_load() -> None:
-    words = StiffnessMaps(Wire()).sentence(Results(LIEW_LIM))
+    words = StiffnessMaps(PackedSource()).sentence(Results(LIEW_LIM))
     assert "Fewest balls carry load at an extent of 63°: 6.1 of 12" in words
     assert "Marked: extent 40°, cage angle 0°, where 9 balls carry load" in words
-    shallow = StiffnessMaps(Wire()).sentence(Results(FAN_RIG.replace(depth=0.0)))
+    shallow = StiffnessMaps(PackedSource()).sentence(Results(FAN_RIG.replace(depth=0.0)))
     assert "Whatever the extent" in shallow
-    nothing = StiffnessMaps(Wire()).sentence(Results(FAN_RIG.replace(fy=0.0)))
+    nothing = StiffnessMaps(PackedSource()).sentence(Results(FAN_RIG.replace(fy=0.0)))
     assert nothing.startswith("There is nothing to map: nothing touches")
 
 
 def test_the_table_holds_every_point_in_si() -> None:
     results = Results(LIEW_LIM)
-    table = StiffnessMaps(Wire()).table(results)
+    table = StiffnessMaps(PackedSource()).table(results)
     assert set(table) >= {"extent_deg", "cage_angle_deg", "k_yy_n_per_m", "k_rxry_n_m_per_rad"}
     assert {np.size(column) for column in table.values()} == {91 * 121}
     at = (np.ravel(table["extent_deg"]) == 40.0) & (np.ravel(table["cage_angle_deg"]) == 0.0)
@@ -189,4 +189,4 @@ def test_colours_are_told_apart_by_lightness_alone() -> None:
     assert np.abs(blue - orange).max() < 0.03, "no sign looks greater than the other"
     assert np.all(DIVERGING[:100, 2] > DIVERGING[:100, 0]), "blue below zero"
     assert np.all(DIVERGING[156:, 0] > DIVERGING[156:, 2]), "orange above zero"
-    assert packed(np.array([[1, 2, 3]])) == [0xFF030201]
+    assert packed_colors(np.array([[1, 2, 3]])) == [0xFF030201]

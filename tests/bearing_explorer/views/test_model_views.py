@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.dof_comparison import other_dofs, spectrum_differences
 from bearing_explorer.compute.results import Results, Settings
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import BearingEditor, facts_of, shape_of
 from bearing_explorer.views.dof_comparison import DofDifferences, share
 from bearing_explorer.views.dof_comparison import facts_of as differences_of
@@ -43,7 +43,7 @@ def test_the_picture_is_drawn_from_the_bearing() -> None:
     assert shape["n_balls"] == 9
     assert shape["inner_groove_radius"] == presets["6205"].bearing.inner_groove_radius
     assert shape_of(presets["fan-rig"].bearing)["inner_groove_radius"] is None
-    view = BearingEditor(Wire())
+    view = BearingEditor(PackedSource())
     view.say(Results(presets["6205"]), "")
     assert view.rows.shown["shape"] == shape
     view.say(None, "Not shown.")
@@ -51,7 +51,7 @@ def test_the_picture_is_drawn_from_the_bearing() -> None:
 
 
 def test_the_automatic_damping_is_shown_and_a_given_one_said() -> None:
-    view = ModelEditor(Wire())
+    view = ModelEditor(PackedSource())
     results = Results(presets["fan-rig"])
     view.say(results, "")
     assert float(view.rows.automatic) == pytest.approx(results.contact_damping, rel=1e-3)
@@ -66,7 +66,7 @@ def test_an_exact_reduction_changes_nothing() -> None:
     assert (found.chosen, found.other) == (("x", "y"), DOF_NAMES)
     assert max(found.static.values()) < 1e-9
     assert max(found.motion.values()) < 0.05
-    assert "as the scene needs" in DofDifferences(Wire()).sentence(results)
+    assert "as the scene needs" in DofDifferences(PackedSource()).sentence(results)
 
 
 def test_a_forced_set_shows_its_error() -> None:
@@ -78,7 +78,7 @@ def test_a_forced_set_shows_its_error() -> None:
     expected = np.abs(forced.term("k_yy") - free.term("k_yy")).max() / free.term("k_yy").max()
     assert found.static["k_yy"] == pytest.approx(expected)
     assert expected > 0.01
-    words = DofDifferences(Wire()).sentence(results)
+    words = DofDifferences(PackedSource()).sentence(results)
     assert "forced on the scene" in words
     assert "%" in words
 
@@ -88,7 +88,7 @@ def test_all_directions_leave_nothing_out() -> None:
     assert other_dofs(full) == full.needed_dofs == DOF_NAMES
     results = Results(full)
     assert differences_of(results.dof_comparison) == []
-    assert "nothing left out" in DofDifferences(Wire()).sentence(results)
+    assert "nothing left out" in DofDifferences(PackedSource()).sentence(results)
 
 
 def test_a_motion_that_cannot_be_simulated_is_said() -> None:

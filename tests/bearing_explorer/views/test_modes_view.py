@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.modes import NaturalFrequencies, band_rows, spread
 from hypothesis import given
 from hypothesis import strategies as st
@@ -19,7 +19,7 @@ FAN_RIG = presets["fan-rig"]
 @pytest.mark.parametrize("name", list(presets))
 def test_each_band_is_least_and_greatest_of_a_curve_that_is_drawn(name: str) -> None:
     results = Results(presets[name])
-    sources, ranges = NaturalFrequencies(Wire()).data(results)
+    sources, ranges = NaturalFrequencies(PackedSource()).data(results)
     bands = sources["modes_bands"]
     drawn = []
     for direction in style.DIRECTIONS:
@@ -51,7 +51,7 @@ def test_bands_are_those_of_the_paper() -> None:
 def test_the_mark_is_at_the_cage_angle_within_a_ball_spacing() -> None:
     spacing = FAN_RIG.bearing.ball_spacing
     results = Results(FAN_RIG, 3.0 * spacing + 0.1)
-    sources, ranges = NaturalFrequencies(Wire()).data(results)
+    sources, ranges = NaturalFrequencies(PackedSource()).data(results)
     assert sources["modes_now"]["now"] == pytest.approx([math.degrees(0.1)])
     assert ranges["modes_angle"] == pytest.approx((0.0, math.degrees(spacing)))
 
@@ -70,14 +70,14 @@ def test_labels_with_room_stay_where_they_belong() -> None:
     np.testing.assert_array_equal(spread(places, 80.0, 0.0, 2000.0), places)
 
 
-def test_the_sentence_tells_the_bands_and_the_sound_one() -> None:
-    words = NaturalFrequencies(Wire()).sentence(Results(FAN_RIG))
+def test_the_sentence_tells_the_bands_and_the_healthy_one() -> None:
+    words = NaturalFrequencies(PackedSource()).sentence(Results(FAN_RIG))
     assert "x1 within 365 to 480 Hz" in words
     assert "without the defect x1 within 365 to 436 Hz" in words
 
 
 def test_without_a_static_state_there_is_nothing_to_draw_and_it_is_said() -> None:
-    view, results = NaturalFrequencies(Wire()), Results(FAN_RIG.replace(fy=0.0))
+    view, results = NaturalFrequencies(PackedSource()), Results(FAN_RIG.replace(fy=0.0))
     sources, ranges = view.data(results)
     assert sources["modes_bands"]["low"].size == 0
     assert all(math.isfinite(x) for x in ranges["modes_frequency"])
@@ -85,5 +85,5 @@ def test_without_a_static_state_there_is_nothing_to_draw_and_it_is_said() -> Non
 
 
 def test_the_table_has_a_column_for_each_mode() -> None:
-    table = NaturalFrequencies(Wire()).table(Results(FAN_RIG))
-    assert {"cage_angle_deg", "x1_hz", "y1_hz", "x2_hz", "y2_hz", "sound_x1_hz"} <= set(table)
+    table = NaturalFrequencies(PackedSource()).table(Results(FAN_RIG))
+    assert {"cage_angle_deg", "x1_hz", "y1_hz", "x2_hz", "y2_hz", "healthy_x1_hz"} <= set(table)

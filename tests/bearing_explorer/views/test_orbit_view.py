@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.orbit import (
     SteadyOrbit,
     level_gap,
@@ -26,7 +26,7 @@ INNER = RIG.replace(race="inner")
 
 
 def test_multipliers_stand_inside_or_outside_the_circle() -> None:
-    view = SteadyOrbit(Wire())
+    view = SteadyOrbit(PackedSource())
     stable = view.data(Results(RIG))[0]
     assert stable["orbit_inside"]["x"].size == 8
     assert stable["orbit_outside"]["x"].size == 0
@@ -46,7 +46,7 @@ def test_a_stable_orbit_is_what_the_marched_motion_settles_to() -> None:
         assert path[dof][0] == pytest.approx(path[dof][-1], abs=1e-9)
         assert np.ptp(path[dof]) == pytest.approx(np.ptp(marched[dof]), rel=0.01)
     assert level_gap(results) < 0.1
-    assert "dB of the marched one" in SteadyOrbit(Wire()).sentence(results)
+    assert "dB of the marched one" in SteadyOrbit(PackedSource()).sentence(results)
 
 
 def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
@@ -54,7 +54,7 @@ def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
     (scene,) = itertools.islice(random_scenes(102), 101, None)
     results = Results(scene, moving=True)
     assert level_gap(results) > 5.0
-    assert "has not come to it" in SteadyOrbit(Wire()).sentence(results)
+    assert "has not come to it" in SteadyOrbit(PackedSource()).sentence(results)
 
 
 def test_the_status_says_what_kind_it_is() -> None:
@@ -62,11 +62,11 @@ def test_the_status_says_what_kind_it_is() -> None:
     assert (good["mood"], good["words"]) == ("good", "Stable orbit")
     assert any("24.8 ms: 1 ball pass" in detail for detail in good["details"])
     assert (bad["mood"], bad["words"]) == ("bad", "Unstable: the period doubles")
-    assert "half the ball-pass frequency" in SteadyOrbit(Wire()).sentence(Results(DOUBLED))
+    assert "half the ball-pass frequency" in SteadyOrbit(PackedSource()).sentence(Results(DOUBLED))
 
 
 def test_an_inner_race_defect_is_marched_and_it_is_said() -> None:
-    view = SteadyOrbit(Wire())
+    view = SteadyOrbit(PackedSource())
     results = Results(INNER)
     assert results.orbit is None
     sources, _ = view.data(results)
@@ -82,4 +82,4 @@ def test_a_race_that_never_comes_round_has_no_orbit() -> None:
     results = Results(presets["liew-lim"].replace(race="inner"))
     assert results.ball_passes is None
     assert orbit_status(results)["words"] == "No common period"
-    assert "never come round together" in SteadyOrbit(Wire()).sentence(results)
+    assert "never come round together" in SteadyOrbit(PackedSource()).sentence(results)

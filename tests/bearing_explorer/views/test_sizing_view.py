@@ -1,7 +1,8 @@
-"""What the Sizing tab draws: measured beside simulated, lines with their names, candidates."""
+"""What the Diagnosis tab draws besides the part: measured beside simulated, and candidates."""
 
 from __future__ import annotations
 
+import dataclasses
 import io
 import math
 import re
@@ -13,9 +14,10 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.jobs import Jobs, JobState, Work
 from bearing_explorer.compute.results import Results
+from bearing_explorer.measurement.diagnoses import Question, answered
 from bearing_explorer.measurement.session import Sized, read_file
 from bearing_explorer.measurement.signal import Measured, Simulated
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.frequency_lines import (
     FAMILIES,
@@ -29,13 +31,13 @@ from bearing_explorer.views.frequency_view import MOST_LINES, Look, curves
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
-from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, status
+from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, status, told
 from bearing_explorer.widgets.candidates import percent, rows
 from scipy.io import wavfile
 
 from bearingcore import Recording, Spectrum, presets
-from tests.bearing_explorer.measuring import measuring, signal
-from tests.bearingcore.diagnosis.test_sizing import file_from_elsewhere
+from tests.helpers.measuring import measuring, signal
+from tests.helpers.recordings import file_from_elsewhere
 
 mpl.use("agg")
 
@@ -44,7 +46,7 @@ RESULTS = Results(RIG)
 
 
 def view_of(kind, measured: Measured | None = None):
-    made = kind(Wire())
+    made = kind(PackedSource())
     made.measure(measuring(measured))
     return made
 
@@ -343,14 +345,66 @@ def test_where_the_signal_cannot_tell_the_page_says_so():
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
     measured = Measured(Recording(noise, 20_480.0), RIG.shaft_speed)
     work = worked()
-    compute(work, measured, RIG)
+    assert compute(work, measured, RIG) == "There is no size to look for."
     (found,) = work.taken()
-    line = status(found)
-    assert (line["mood"], line["words"]) == ("bad", "The signal cannot tell")
     view = view_of(DefectSize, measured)
     view._draw = lambda: None
     view._take(found)
+    assert "No damage seen" in view.sentence(RESULTS)
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert not view._answer_part.visible  # no empty figures
+    assert view.measurement.sized is None
+    assert view_of(MeasuredSignal, measured).data(RESULTS)[1]
+
+    # a person who knows better is believed, but noise has no size
+    work = worked()
+    compute(work, measured, RIG, "outer race")
+    (found,) = work.taken()
+    line = status(found)
+    assert (line["mood"], line["words"]) == ("bad", "The signal cannot tell")
+    assert not re.search(r"± \d{3,}|± inf|nan", str(line))
+    view._take(found)
     assert "no lines stand out" in view.sentence(RESULTS)
+    assert view.measurement.sized is None  # nothing is drawn into the signal
+
+
+def test_an_answer_at_the_edge_of_the_search_is_a_bound(sized):
+    sizing = dataclasses.replace(
+        sized.sizing, conclusive=False, bound="at most",
+        status="The defect extends over 1.2° at most: shorter ones are not told apart.",
+    )  # fmt: skip
+    line = status(dataclasses.replace(sized, sizing=sizing))
+    assert (line["mood"], line["words"]) == ("good", "The defect extends over 1.2° at most")
+    assert told(sizing)
+    assert not told(dataclasses.replace(sizing, bound=""))
+
+
+def test_the_outer_race_may_be_known_to_be_damaged():
+    view = view_of(DefectSize, signal())
+    editor = SceneEditor("fan-rig")
+    assert view.form(editor) == ({"fault": ""}, {})
+    assert [value for value, _ in view.fields()[0]["options"]] == ["", "outer race"]
+    view.prepare({"fault": "outer race"}, editor)
+    view.prepare({}, editor)
+    with pytest.raises(ValueError, match="outer race"):
+        view.prepare({"fault": "cage"}, editor)
+
+
+@pytest.mark.parametrize(
+    ("fault", "said"),
+    [
+        ("outer race", "has not been looked for yet."),
+        ("inner race", "its size cannot be had this way"),
+        ("none seen", "Step 2 does not say that the outer race is damaged"),
+        ("cannot tell", "If that is known from elsewhere, choose it here."),
+    ],
+)
+def test_before_a_size_is_looked_for_it_is_said_whether_there_can_be_one(fault, said):
+    view = view_of(DefectSize, signal())
+    question = Question.about(signal(), RIG.bearing)
+    found = answered(question)
+    view.measurement.diagnoses.keep(question, dataclasses.replace(found, fault=fault))
+    assert said in view.sentence(RESULTS)
 
 
 def test_a_sizing_can_be_given_up_and_refusals_are_sentences():

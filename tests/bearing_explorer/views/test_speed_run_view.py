@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
@@ -37,7 +37,7 @@ def found() -> Found:
 
 
 def test_rows_are_speeds_and_columns_frequencies(found: Found) -> None:
-    view = SpeedRunSpectra(Wire())
+    view = SpeedRunSpectra(PackedSource())
     view.found = found
     sources, ranges = view.data(Results(RIG))
     packed = sources["speed_run_cells_y"]["packed"]
@@ -72,7 +72,7 @@ def test_bands_are_those_of_the_modes(found: Found) -> None:
 
 
 def test_marched_speeds_are_marked_and_told(found: Found) -> None:
-    view = SpeedRunSpectra(Wire())
+    view = SpeedRunSpectra(PackedSource())
     view.found = found
     assert found.run.from_orbit.tolist() == [True, False, True]
     results = Results(RIG)
@@ -85,9 +85,10 @@ def test_marched_speeds_are_marked_and_told(found: Found) -> None:
 
 
 def test_without_a_run_there_is_nothing_and_it_is_said() -> None:
-    view, wire = SpeedRunSpectra(wire := Wire()), wire
+    packed = PackedSource()
+    view = SpeedRunSpectra(packed)
     sources, ranges = view.data(Results(RIG))
-    wire.pack(sources, ranges)
+    packed.pack(sources, ranges)
     assert view.sentence(Results(RIG)) == "There is no run yet."
 
 
@@ -99,7 +100,7 @@ def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
     words = compute(job, RIG, sweep(SPEED, "30", "60", 49, limits_of(RIG)))
     assert [one.speeds.values.size for one in shown] == [25, 49]
     assert words.startswith("49 speeds after")
-    view, editor = SpeedRunSpectra(Wire()), SceneEditor("fan-rig")
+    view, editor = SpeedRunSpectra(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=f"at most {COUNTS[-1]}"):
         view.prepare({"from": "1", "to": "60", "count": "100000"}, editor)
     assert callable(view.prepare(view.form(editor)[0], editor))

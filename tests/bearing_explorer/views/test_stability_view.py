@@ -10,10 +10,10 @@ import pytest
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures.heat_map import Side, ends
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.quantities import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.state.value_range import SWEEPABLE, sweep
 from bearing_explorer.views.stability_map import (
     GRIDS,
     KINDS,
@@ -26,9 +26,9 @@ from bearing_explorer.views.stability_map import (
 )
 
 from bearingcore import orbit, presets
-from bearingcore.dynamics.stability_map import OUTCOMES, stability_map
+from bearingcore.dynamics.stability_map import OUTCOMES
+from tests.helpers.stability import RIG, found_map
 
-RIG = presets["fan-rig"].replace(contact_damping=130.0)
 FORM = {
     "x": "shaft_speed_hz",
     "x_from": "4",
@@ -38,12 +38,6 @@ FORM = {
     "y_to": "62",
     "grid": "13",
 }
-
-
-def found_map() -> Found:
-    x = Sweep(SWEEPABLE["shaft_speed_hz"], np.array([10.0, 20.0, 30.0]))
-    y = Sweep(SWEEPABLE["extent_deg"], np.array([12.9, 38.6]))
-    return Found(stability_map(RIG, x.in_si, y.in_si), x, y)
 
 
 def test_each_point_has_the_kind_of_its_orbit() -> None:
@@ -83,25 +77,25 @@ def test_the_border_runs_around_what_is_not_stable() -> None:
 
 def test_the_picture_carries_values_and_place() -> None:
     found = found_map()
-    wire = Wire()
-    view = OrbitStability(wire)
+    packed = PackedSource()
+    view = OrbitStability(packed)
     assert view.data(Results(RIG))[0]["stability_cells"]["packed"].size == 0
     view.found = found
     sources, ranges = view.data(Results(RIG))
-    packed = sources["stability_cells"]["packed"]
-    assert packed[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
-    np.testing.assert_array_equal(packed[9 : 9 + 6].reshape(2, 3), found.map.multiplier)
-    np.testing.assert_array_equal(packed[15:].reshape(2, 3), codes_of(found.map))
-    assert packed[6] == 1.0
+    sent = sources["stability_cells"]["packed"]
+    assert sent[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
+    np.testing.assert_array_equal(sent[9 : 9 + 6].reshape(2, 3), found.map.multiplier)
+    np.testing.assert_array_equal(sent[15:].reshape(2, 3), codes_of(found.map))
+    assert sent[6] == 1.0
     assert sources["stability_mark"]["x"] == pytest.approx([7.0])
     assert sources["stability_mark"]["y"] == pytest.approx([12.9])
     assert ranges["stability_x"] == (5.0, 35.0)
-    assert wire.pack(sources, ranges).size > 3
+    assert packed.pack(sources, ranges).size > 3
     assert len(view.table(Results(RIG))["outcome"].ravel()) == 6
 
 
 def test_a_map_of_another_scene_is_faint_and_says_so() -> None:
-    view = OrbitStability(Wire())
+    view = OrbitStability(PackedSource())
     view.found = found_map()
     along = Results(RIG.replace(shaft_speed=100.0, extent=0.3))
     assert view.data(along)[0]["stability_cells"]["packed"][6] == 1.0
@@ -156,7 +150,7 @@ def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
     ],
 )
 def test_what_is_too_large_or_senseless_is_refused_with_a_sentence(change, words) -> None:
-    view, editor = OrbitStability(Wire()), SceneEditor("fan-rig")
+    view, editor = OrbitStability(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=words):
         view.prepare({**FORM, **change}, editor)
     assert callable(view.prepare(FORM, editor))
@@ -164,7 +158,7 @@ def test_what_is_too_large_or_senseless_is_refused_with_a_sentence(change, words
 
 @pytest.mark.parametrize("preset", list(presets))
 def test_the_form_as_it_comes_up_can_be_sent(preset: str) -> None:
-    view, editor = OrbitStability(Wire()), SceneEditor(preset)
+    view, editor = OrbitStability(PackedSource()), SceneEditor(preset)
     values, fills = view.form(editor)
     assert callable(view.prepare(values, editor))
     assert set(fills["x"]) == set(SWEEPABLE)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.excerpt import Event
 from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import Wire
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra, decibels, pass_frequencies
 from bearing_explorer.views.vibration_time import (
     EVENT_ROWS,
@@ -40,7 +40,7 @@ def test_labels_of_events_never_overlap_and_stay_inside(times: list[float]) -> N
 
 
 def test_the_picture_holds_the_signal_and_leaves_room_for_the_labels(results: Results) -> None:
-    view = VibrationInTime(Wire())
+    view = VibrationInTime(PackedSource())
     sources, ranges = view.data(results)
     top = np.nanmax(np.abs(results.excerpt.acceleration["y"]))
     drawn = sources["vibration_motion"]["y"]
@@ -54,13 +54,13 @@ def test_the_picture_holds_the_signal_and_leaves_room_for_the_labels(results: Re
 
 
 def test_a_packet_of_the_time_view_is_small(results: Results) -> None:
-    wire = Wire()
-    sources, ranges = VibrationInTime(wire).data(results)
-    assert wire.send(sources, ranges) < 64_000
+    packed = PackedSource()
+    sources, ranges = VibrationInTime(packed).data(results)
+    assert packed.send(sources, ranges) < 64_000
 
 
 def test_each_ball_has_its_own_line_and_name(results: Results) -> None:
-    sources, _ = VibrationInTime(Wire()).data(results)
+    sources, _ = VibrationInTime(PackedSource()).data(results)
     names, loads = sources["vibration_ball_names"], sources["vibration_loads"]
     assert names["ball"].tolist() == [ball + 1 for ball in results.excerpt.balls]
     for slot in names["slot"].astype(int):
@@ -70,12 +70,12 @@ def test_each_ball_has_its_own_line_and_name(results: Results) -> None:
 
 
 def test_the_sentence_says_how_long_the_defect_is_in_time(results: Results) -> None:
-    words = VibrationInTime(Wire()).sentence(results)
+    words = VibrationInTime(PackedSource()).sentence(results)
     assert "12.5 ms later it leaves it" in words or "12.4 ms later it leaves it" in words
 
 
 def test_levels_and_shifts_are_the_published_ones(results: Results) -> None:
-    view = VibrationSpectra(Wire())
+    view = VibrationSpectra(PackedSource())
     small, _ = view.data(results)
     large, _ = view.data(Results(FAN_RIG.replace(extent=math.radians(38.6))))
     lines = small["spectrum_lines"]
@@ -91,7 +91,7 @@ def test_levels_and_shifts_are_the_published_ones(results: Results) -> None:
 
 
 def test_bands_of_a_direction_stand_in_its_figure(results: Results) -> None:
-    sources, _ = VibrationSpectra(Wire()).data(results)
+    sources, _ = VibrationSpectra(PackedSource()).data(results)
     bands = results.modes.bands()
     assert sources["spectrum_bands_x"]["low"] == pytest.approx([bands["x1"][0], bands["x2"][0]])
     assert sources["spectrum_bands_y"]["high"] == pytest.approx([bands["y1"][1], bands["y2"][1]])
@@ -112,11 +112,11 @@ def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> Non
 def test_defects_of_both_races_are_both_marked_and_named() -> None:
     both = FAN_RIG.replace(defect=(FAN_RIG.defect, Defect(0.1, 50e-6, 1.0, "inner")))
     results = Results(both)
-    sources, _ = VibrationSpectra(Wire()).data(results)
+    sources, _ = VibrationSpectra(PackedSource()).data(results)
     first = sources["spectrum_first_pass"]
     assert first["inner"].tolist() == [0.0, 1.0]
     assert first["frequency"] == pytest.approx([40.289, 57.711], abs=1e-3)
-    words = VibrationSpectra(Wire()).sentence(results)
+    words = VibrationSpectra(PackedSource()).sentence(results)
     assert "outer race at 40.29 Hz and of the inner race at 57.71 Hz" in words
 
 
@@ -133,14 +133,14 @@ def test_silence_has_a_level() -> None:
 
 
 def test_tables_say_their_units(results: Results) -> None:
-    time = VibrationInTime(Wire()).table(results)
+    time = VibrationInTime(PackedSource()).table(results)
     assert {"time_s", "acceleration_x_m_per_s2", "acceleration_y_m_per_s2"} <= set(time)
-    spectra = VibrationSpectra(Wire()).table(results)
+    spectra = VibrationSpectra(PackedSource()).table(results)
     assert {"frequency_hz", "density_y_m2_per_s4_per_hz"} <= set(spectra)
 
 
 def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> None:
     up = Results(FAN_RIG.replace(fy=100.0))
     assert up.excerpt.static_load.max() == 0.0
-    _, ranges = VibrationInTime(Wire()).data(up)
+    _, ranges = VibrationInTime(PackedSource()).data(up)
     assert ranges["vibration_load"][1] > 35.0

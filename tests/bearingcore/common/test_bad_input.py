@@ -26,7 +26,7 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from tests.independent import Balls, verdict
+from tests.helpers.independent import Balls, verdict
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 NAN, INF = math.nan, math.inf
@@ -193,7 +193,7 @@ def test_a_stiffness_term_that_does_not_exist() -> None:
         ("duration", -1.0, "-1", "above 0"),
         ("duration", NAN, "nan", "above 0"),
         ("duration", INF, "inf", "finite"),
-        ("duration", 1e6, "1e+06", "steps a second"),
+        ("duration", 1e6, "1e+06", "sample_rate"),
         ("sample_rate", 0.0, "0", "above 0"),
         ("sample_rate", NAN, "nan", "above 0"),
         ("sample_rate", 1000.0, "1000", "twice the highest natural frequency"),
@@ -288,7 +288,7 @@ def test_without_a_load_nothing_touches(scene: Scene) -> None:
 
 def balls_scene(n_balls: int, fx: float, fy: float) -> Scene:
     """The fan rig with few balls and a load, in x and y."""
-    return FAN_RIG.sound().replace(n_balls=n_balls, fx=fx, fy=fy)
+    return FAN_RIG.healthy().replace(n_balls=n_balls, fx=fx, fy=fy)
 
 
 @pytest.mark.parametrize(
@@ -340,7 +340,7 @@ def test_a_load_that_is_carried_at_some_angles_only() -> None:
 
 def test_a_ball_right_under_the_load_leaves_the_ring_free_to_roll() -> None:
     """With clearance its neighbours hang loose: y is told, x has no answer and is named."""
-    scene = FAN_RIG.sound().replace(radial_clearance=100e-6, fy=-1.0)
+    scene = FAN_RIG.healthy().replace(radial_clearance=100e-6, fy=-1.0)
     answer = equilibrium(scene, [1.5 * math.pi])
     assert answer.status[0] == kernels.FREE_DIRECTION
     assert answer.reason(0) == "the ring can move without resistance along x"
@@ -357,7 +357,7 @@ def test_a_ball_right_under_the_load_leaves_the_ring_free_to_roll() -> None:
 
 def test_free_directions_are_named_all_and_only() -> None:
     """Two loaded balls in five directions leave one motion free, of z and a tilt together."""
-    scene = FAN_RIG.sound().replace(radial_clearance=100e-6, fy=-1.0, dofs=DOF_NAMES)
+    scene = FAN_RIG.healthy().replace(radial_clearance=100e-6, fy=-1.0, dofs=DOF_NAMES)
     answer = equilibrium(scene, [1.5 * math.pi + 0.5 * scene.bearing.ball_spacing])
     assert answer.loaded_balls[0] == 2
     assert answer.reason(0) == "the ring can move without resistance along z, rx"

@@ -1,115 +1,22 @@
 """Sizing defects: of signals made here by another code path, and of scenes drawn by seed."""
 
 import dataclasses
-import functools
 import math
+import re
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
-from scipy.signal import resample_poly
 
-from bearingcore import Defect, Scene, contact_damping, presets, simulate
-from bearingcore.diagnosis.fitting import Search
-from bearingcore.diagnosis.sizing import Sizing, _status, size_defect
+from bearingcore import Defect, Scene, simulate
+from bearingcore.diagnosis.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
+from bearingcore.diagnosis.sizing import Sizing, judged, size_defect
 from bearingcore.diagnosis.synthesis import Target, comparison_band, synthesise
 from bearingcore.diagnosis.variants import Tolerances, variant
 from bearingcore.signals.averaging import average_passes
-from bearingcore.signals.recording import Recording, read_table
+from bearingcore.signals.read import read_table
+from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing_proof import SCORED, size_all
-
-RIG = presets["fan-rig"]
-RATE = 20_480.0
-
-
-def signal_of(scene: Scene, duration: float = 1.0, start: float = 0.23) -> np.ndarray:
-    motion = simulate(scene, duration + start, RATE)
-    return motion.outer_acceleration[round(start * RATE) :]
-
-
-def noisy(signal: np.ndarray, decibels: float, seed: int = 0) -> np.ndarray:
-    level = math.sqrt(np.mean(signal**2)) * 10.0 ** (-decibels / 20.0)
-    return signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
-
-
-def marched_elsewhere(scene: Scene, duration: float, rate: float) -> np.ndarray:
-    """Housing acceleration (n, 2), by scipy's DOP853 and a right-hand side written for this test.
-
-    Eqs. 18-23 with Eq. 19, radial, no code of the package but the numbers of the scene.
-    """
-    b, d, s = scene.bearing, scene.defect, scene.support
-    assert isinstance(d, Defect)
-    r_b, R_o = 0.5 * b.ball_diameter, b.outer_raceway_radius
-    cage = 0.5 * scene.shaft_speed * (1.0 - b.ball_diameter / b.pitch_diameter)
-    c = contact_damping(scene)
-    force = np.array([scene.load.fx, scene.load.fy])
-    k_o, c_o = np.array([s.stiffness_x, s.stiffness_y]), np.array([s.damping_x, s.damping_y])
-    start = 2.0 * np.pi * np.arange(b.n_balls) / b.n_balls
-
-    def drop(angle):
-        """Eq. 6 as published, r_b read for r_b²."""
-        from_middle = (angle - d.center + np.pi) % (2.0 * np.pi) - np.pi
-        inside = 0.5 * d.extent - np.abs(from_middle)
-        root = np.maximum(r_b**2 - 0.25 * (R_o * inside) ** 2, 0.0)
-        fallen = np.where(root > 0.0, r_b - np.sqrt(root), np.inf)
-        return np.where(inside > 0.0, np.minimum(fallen, d.depth), 0.0)
-
-    def rates(t, y):
-        inner, outer, v_inner, v_outer = y.reshape(4, 2)
-        angle = start + cage * t
-        along = np.array([np.cos(angle), np.sin(angle)])
-        across = np.array([-along[1], along[0]])
-        apart, v_apart = inner - outer, v_inner - v_outer
-        delta = apart @ along - b.radial_clearance - drop(angle)
-        step = 1e-6
-        slope = (drop(angle + step) - drop(angle - step)) / (2.0 * step)
-        closing = v_apart @ along + cage * (apart @ across) - cage * slope
-        touching = delta > 0.0
-        load = np.where(
-            touching, b.load_deflection_factor * np.maximum(delta, 0.0) ** 1.5 + c * closing, 0.0
-        )
-        contact = along @ load
-        return np.concatenate(
-            [
-                v_inner,
-                v_outer,
-                (force - contact) / s.inner_mass,
-                (contact - k_o * outer - c_o * v_outer) / s.outer_mass,
-            ]
-        )
-
-    settling = 0.15
-    times = settling + np.arange(round(duration * rate)) / rate
-    rest = force / k_o
-    state = np.concatenate([rest, rest, np.zeros(4)])
-    state[1] -= 8e-6  # in touch with the balls, about
-    marched = solve_ivp(
-        rates,
-        (0.0, times[-1] + 1e-6),
-        state,
-        "DOP853",
-        t_eval=times,
-        rtol=1e-6,
-        atol=1e-11,
-        max_step=2e-4,
-    )
-    assert marched.success
-    return np.array([rates(t, y)[6:] for t, y in zip(marched.t, marched.y.T, strict=True)])
-
-
-@functools.cache
-def file_from_elsewhere() -> tuple[Scene, bytes]:
-    """A CSV file in g, with a clock 0.1 % off, offset, drift and hum, resampled; and its scene."""
-    truth = RIG.replace(extent=math.radians(47.3), fy=-300.0, shaft_speed=2.0 * math.pi * 12.0)
-    signal = marched_elsewhere(truth, 0.45, 16_000.0)
-    signal = noisy(signal, 20.0)
-    signal = resample_poly(signal, 6, 5, axis=0)
-    rate = 16_000.0 * 6 / 5 * 1.001
-    time = np.arange(len(signal)) / rate
-    signal = signal / 9.80665 + 0.4 + 0.3 * time[:, None]
-    signal += 0.05 * np.sin(2.0 * math.pi * 5.0 * time)[:, None]
-    rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
-    return truth, ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode()
+from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
 
 
 @pytest.fixture(scope="module")
@@ -167,15 +74,60 @@ def test_the_paper_s_two_defects_are_told_apart(paper, extent, turns):
     assert len(extents) >= 4
 
 
-def test_an_answer_that_leaves_much_unexplained_says_so(paper):
-    """Seen where the load is a fifth off: the answer stands, and so does the doubt."""
+def test_an_answer_that_leaves_much_unexplained_is_refused(paper):
     sized = paper[12.9]
     poor = dataclasses.replace(sized.best, waveform_misfit=np.array([0.4, 0.6]))
     others = [c for c in sized.candidates if c is not sized.best]
-    conclusive, words = _status((poor, *others), sized.extent_uncertainty, sized.passes)
-    assert conclusive
-    assert words.startswith("The defect extends over 12.9°")
+    conclusive, bound, words = judged(dataclasses.replace(sized, candidates=(poor, *others)))
+    assert not conclusive
+    assert not bound
+    assert words.startswith("The signal cannot tell")
     assert "leaves 50 % of the mean ball pass unexplained" in words
+
+
+def test_a_pass_that_lives_on_one_tone_or_is_explained_by_chance_is_refused(paper):
+    sized = paper[12.9]
+    tone = dataclasses.replace(sized.quality, strongest=0.8, harmonics=1.5)
+    conclusive, _, words = judged(dataclasses.replace(sized, quality=tone))
+    assert not conclusive
+    assert "one harmonic carries 80 %" in words
+    conclusive, _, words = judged(dataclasses.replace(sized, chance=0.2))
+    assert not conclusive
+    assert "by chance" in words
+
+
+def test_an_extent_at_an_end_of_the_search_is_a_bound(paper):
+    sized = paper[12.9]
+    others = [c for c in sized.candidates if c is not sized.best]
+    for extent, bound, words in (
+        (LEAST_EXTENT, "at most", "at most: shorter ones than 1°"),
+        (GREATEST_EXTENT, "at least", "at least"),
+    ):
+        edge = dataclasses.replace(sized.best, extent=extent)
+        answer = judged(dataclasses.replace(sized, candidates=(edge, *others)))
+        assert not answer[0]
+        assert answer[1] == bound
+        assert words in answer[2]
+
+
+def test_no_size_is_looked_for_where_another_part_is_accused_or_none():
+    """Noise, and a signal of an inner race: knocks at 8.28 times the shaft, louder in its turn."""
+    rng = np.random.default_rng(5)
+    noise = Recording(rng.standard_normal((round(2.0 * RATE), 1)), RATE, ("y",))
+    sized = size_defect(noise, RIG.replace(shaft_speed=2.0 * math.pi * 20.0))
+    assert sized.candidates == ()
+    assert not sized.conclusive
+    assert sized.diagnosis is not None
+    assert sized.status == sized.diagnosis.status
+    with pytest.raises(ValueError, match=re.escape(sized.status[:20])):
+        _ = sized.best
+    assert len(sized.table()["extent"]) == 0
+
+
+def test_only_outer_races_can_be_told_by_hand():
+    noise = Recording(np.random.default_rng(5).standard_normal((40_000, 1)), RATE, ("y",))
+    with pytest.raises(ValueError, match="fault is 'inner race'; allowed: outer race"):
+        size_defect(noise, RIG, fault="inner race")
 
 
 @pytest.mark.parametrize("extent", [12.9, 38.6])
@@ -235,8 +187,8 @@ def test_what_is_no_defect_s_signal_is_not_sized():
     sized = size_defect(Recording(noise, RATE), RIG)
     assert not sized.conclusive
     assert "no lines stand out" in sized.status
-    sound = size_defect(Recording(noisy(signal_of(RIG.sound()), 20.0), RATE), RIG)
-    assert not sound.conclusive
+    healthy = size_defect(Recording(noisy(signal_of(RIG.healthy()), 20.0), RATE), RIG)
+    assert not healthy.conclusive
     elsewhere = RIG.replace(shaft_speed=1.07 * RIG.shaft_speed)
     wrong = size_defect(Recording(signal_of(RIG), RATE), elsewhere)
     assert not wrong.conclusive
@@ -351,6 +303,7 @@ def _edges(band):
     return band.lowest, band.highest, band.highest
 
 
+@pytest.mark.proof
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     """A small part of `python -m tests.benchmarks.sizing_proof`, with room for bad luck."""
     answers = size_all(SCORED, 16, noises=(20.0,))

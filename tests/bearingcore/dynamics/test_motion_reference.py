@@ -33,7 +33,7 @@ def scene_of(case: str) -> Scene:
     extent, depth, damping, _ = STORED[f"{case}/scene"]
     scene = presets["fan-rig"].replace(contact_damping=damping)
     if extent == 0.0:
-        return scene.sound()
+        return scene.healthy()
     return scene.replace(extent=extent, depth=depth)
 
 
@@ -41,7 +41,7 @@ def decibels_off(case: str, acceleration: np.ndarray) -> float:
     """Greatest error of the spectra in x and y over 0.3 to 2.1 kHz [dB].
 
     Frequencies at which a direction is 40 dB below its greatest level carry nothing and are left
-    out; that concerns a few of the sound bearing's, at −115 dB, and none of the defective one's.
+    out; that concerns a few of the healthy bearing's, at −115 dB, and none of the defective one's.
     """
     frequency, density = spectrum(acceleration, RATE)
     assert frequency == pytest.approx(STORED["frequency"])
@@ -80,7 +80,7 @@ def test_the_two_families_agree() -> None:
 def test_spectra(case: str, step_rate: float | None) -> None:
     """To 0.05 dB at the step that is taken by default, to 0.01 dB at 65,536 steps a second.
 
-    The sound bearing moves a hundred times less, and the jump at touch counts for more.
+    The healthy bearing moves a hundred times less, and the jump at touch counts for more.
     """
     within = 0.1 if case == "sound" else 0.05 if step_rate is None else 0.01
     assert decibels_off(case, motion_of(case, step_rate).outer_acceleration) < within

@@ -74,7 +74,7 @@ def touching(contacts: kernels.Contacts, q: Array, cage_angle: float, drop: Arra
     R = np.stack([c, s, zero, -contacts.arm * s, contacts.arm * c], axis=1)
     Z = np.stack([zero, zero, zero + 1.0, contacts.reach * s, -contacts.reach * c], axis=1)
     u = np.stack([contacts.line_r, contacts.line_z], axis=1)
-    vector = np.stack([R @ q - contacts.clearance, Z @ q], axis=1)
+    vector = np.stack([R @ q - contacts.clearance, Z @ q + contacts.offset], axis=1)
     vector += (contacts.distance - drop)[:, None] * u
     beyond = (vector * u).sum(axis=1)
     crossed = beyond <= 0.0

@@ -164,7 +164,7 @@ def test_tangents_of_what_no_scene_has_yet(name: str) -> None:
 
 def test_two_rows_tilt_as_an_independent_program_says() -> None:
     """Two Liew-Lim rows at ± 8 mm, each preloaded by r_L = −5 µm."""
-    healthy = LIEW_LIM.sound().bearing
+    healthy = LIEW_LIM.healthy().bearing
     single = packing.contacts(healthy)
     r_d = healthy.groove_center_radius
     arm = 8e-3 / r_d
@@ -199,7 +199,7 @@ def test_one_row_split_in_two_is_the_same_bearing() -> None:
 
 def test_a_roller_bearing_is_other_numbers() -> None:
     """Radial load on one line contact at the load line: F = K δ^(10/9)."""
-    bearing = FAN_RIG.sound().replace(radial_clearance=20e-6).bearing
+    bearing = FAN_RIG.healthy().replace(radial_clearance=20e-6).bearing
     contacts = rollers(packing.contacts(bearing))
     path = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
     load = kernels.StaticLoad(np.array([10.0, 0.0, 0.0, 0.0, 0.0]), np.arange(2))

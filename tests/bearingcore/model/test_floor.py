@@ -126,8 +126,17 @@ def test_a_longer_defect_continues_the_same_surface() -> None:
     assert not np.array_equal(other.surface(ANGLES, BEARING), short.surface(ANGLES, BEARING))
 
 
-def test_a_floor_is_read_from_two_columns() -> None:
-    text = "angle, depth\n# a comment\n260;0\n265,40\n270\t50\n280 0\n"
+@pytest.mark.parametrize(
+    "text",
+    [
+        "angle, depth\n# a comment\n260,0\n265,40\n270,50\n280,0\n",
+        "Winkel;Tiefe\n260,0;0,0\n265;40\n270;50,0\n280,0;0\n",
+        "angle [deg]\tdepth [µm]\r\n260\t0\r\n265\t40\r\n270\t50\r\n280\t0\r\n",
+        "260 0\n\n265 40\n270   50\n280 0",
+        "260,0 0,0\n265,0 40,0\n270,0 50,0\n280,0 0,0",
+    ],
+)
+def test_a_floor_is_read_from_two_columns(text: str) -> None:
     floor, extent, depth, center = read_floor(text)
     assert math.degrees(extent) == pytest.approx(20.0)
     assert math.degrees(center) == pytest.approx(270.0)
@@ -140,10 +149,10 @@ def test_a_floor_is_read_from_two_columns() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "0 angles"),
+        ("", "lines of numbers"),
         ("1 2\n", "1 angles"),
         ("1 2\n3 x\n", "line 2"),
-        ("1 2 3\n4 5 6\n", "line 2"),
+        ("1 2 3\n4 5 6\n", "number of columns in the floor is 3"),
         ("1 2\n1 3\n", "different angles"),
         ("1 -2\n2 3\n", "at least 0"),
         ("1 0\n2 0\n", "not 0 everywhere"),
@@ -167,27 +176,27 @@ def test_a_race_worn_all_round_only_shifts_the_ring() -> None:
     scene = presets["fan-rig"]
     angles = np.linspace(0.0, scene.bearing.ball_spacing, 7)
     worn = scene.replace(extent=2.0 * math.pi, depth=20e-6)
-    loose = scene.sound().replace(radial_clearance=23e-6)
+    loose = scene.healthy().replace(radial_clearance=23e-6)
     np.testing.assert_allclose(
         equilibrium(worn, angles).ball_load, equilibrium(loose, angles).ball_load, rtol=1e-9
     )
 
 
 def test_several_defects_load_the_ring_at_once() -> None:
-    """Two defects far apart: where balls stand in neither, the sound bearing's loads."""
+    """Two defects far apart: where balls stand in neither, the healthy bearing's loads."""
     scene = presets["fan-rig"]
     pair = (Defect(0.1, 50e-6, 1.5 * math.pi - 0.3), Defect(0.1, 50e-6, 1.5 * math.pi + 0.3))
     several = scene.replace(defect=pair)
-    state, sound = equilibrium(several), equilibrium(scene.sound())
+    state, healthy = equilibrium(several), equilibrium(scene.healthy())
     free = np.all(drop_into(pair, scene.bearing, state.ball_angle) == 0.0, axis=1)
     assert 0 < free.sum() < free.size
-    np.testing.assert_allclose(state.ball_load[free], sound.ball_load[free], rtol=1e-9, atol=1e-9)
-    assert np.all(np.abs(state.ball_load[~free] - sound.ball_load[~free]).max(axis=1) > 1e-3)
+    np.testing.assert_allclose(state.ball_load[free], healthy.ball_load[free], rtol=1e-9, atol=1e-9)
+    assert np.all(np.abs(state.ball_load[~free] - healthy.ball_load[~free]).max(axis=1) > 1e-3)
 
 
 @pytest.mark.parametrize("extent", [1e-6, 1e-9, 1e-320])
 def test_a_defect_may_be_tiny_and_rough(extent: float) -> None:
     """The circle of the ball is rolled no farther than the floor is long, or memory would end."""
     scene = presets["fan-rig"].replace(extent=extent, floor=RoughFloor(2e-6, 200e-6))
-    sound = equilibrium(scene.sound()).ball_load
-    np.testing.assert_allclose(equilibrium(scene).ball_load, sound, rtol=1e-3, atol=1e-3)
+    healthy = equilibrium(scene.healthy()).ball_load
+    np.testing.assert_allclose(equilibrium(scene).ball_load, healthy, rtol=1e-3, atol=1e-3)

@@ -89,16 +89,16 @@ def test_each_preset_moves(name: str) -> None:
     assert np.isfinite(motion.outer_acceleration).all()
     late = motion.time > 0.15
     vertical = motion.outer_acceleration[late, 1]
-    quiet = simulate(presets[name].sound(), duration=0.25).outer_acceleration[late, 1]
+    quiet = simulate(presets[name].healthy(), duration=0.25).outer_acceleration[late, 1]
     assert vertical.std() > 2.0 * quiet.std()
     assert np.abs(vertical).max() < 2000.0  # m/s²
 
 
 @every_preset
 def test_each_preset_meets_its_defect(name: str) -> None:
-    """At some cage angle a ball that carries in the sound bearing is relieved."""
+    """At some cage angle a ball that carries in the healthy bearing is relieved."""
     scene = presets[name]
-    relief = equilibrium(scene.sound(), TURN).ball_load - equilibrium(scene, TURN).ball_load
+    relief = equilibrium(scene.healthy(), TURN).ball_load - equilibrium(scene, TURN).ball_load
     assert relief.max() > 0.05 * equilibrium(scene, TURN).ball_load.max()
 
 
@@ -142,7 +142,7 @@ def test_7208_has_its_contact_angle(name: str, angle_deg: float) -> None:
 def test_the_steeper_the_contact_the_stiffer_along_the_shaft() -> None:
     """At the same load, 7208 at 15°, 25°, 40°: k_zz rises, k_yy falls."""
     state = [
-        equilibrium(presets[f"7208-{angle}deg"].sound().replace(fy=-500.0, fz=2000.0))
+        equilibrium(presets[f"7208-{angle}deg"].healthy().replace(fy=-500.0, fz=2000.0))
         for angle in (15, 25, 40)
     ]
     axial = [each.term("k_zz").mean() for each in state]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
+from bearingcore.model.floor import MOST_ROWS
 from bearingcore.model.scene_file import LARGEST_TEXT
 
 
@@ -31,10 +33,10 @@ def test_floors_several_defects_and_options_come_back() -> None:
     assert Scene.from_toml(scene.to_toml()) == scene
 
 
-def test_a_sound_scene_has_no_defect_table() -> None:
-    sound = presets["fan-rig"].sound()
-    assert sound.to_data()["defect"] == []
-    assert Scene.from_toml(sound.to_toml()).defects == ()
+def test_a_healthy_scene_has_no_defect_table() -> None:
+    healthy = presets["fan-rig"].healthy()
+    assert healthy.to_data()["defect"] == []
+    assert Scene.from_toml(healthy.to_toml()).defects == ()
 
 
 @settings(max_examples=60, derandomize=True)
@@ -106,3 +108,41 @@ _JUNK = st.recursive(
 def test_nothing_but_a_clear_refusal_comes_of_junk(junk: object) -> None:
     with pytest.raises(ValueError, match=r"."):
         Scene.from_data(junk)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a=[" + "1," * 900_000 + "]",  # 5.6 s to read
+        "a" + ".a" * 30_000 + "=1",  # a minute
+        "\n".join("a." * 40 + f"k{k}=1" for k in range(9000)),
+        "\n" * 1_900_000,
+        "\n".join(f"[a{k}]" for k in range(200_000)),
+        "a=" + "[" * 900_000,
+        "a=" + "{b=" * 20_000,
+    ],
+    ids=range(7),
+)
+def test_what_would_take_long_to_read_is_counted_and_not_read(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def begun(_: str) -> None:
+        raise AssertionError("it was read")
+
+    monkeypatch.setattr("bearingcore.model.scene_file.tomllib.loads", begun)
+    with pytest.raises(ValueError, match="in the text is"):
+        Scene.from_toml(text)
+
+
+def test_a_long_measured_floor_is_read() -> None:
+    # as few characters as there can be: 2,000,000 are read
+    places = np.linspace(-0.999, 0.999, 40_000).round(6)
+    floor = MeasuredFloor(tuple(places.tolist()), (0.5,) * len(places))
+    assert len(places) <= MOST_ROWS
+    (defect,) = presets["fan-rig"].defects
+    scene = presets["fan-rig"].replace(
+        defect=Defect(defect.extent, defect.depth, defect.center, floor=floor)
+    )
+    text = scene.to_toml()
+    assert len(text) <= LARGEST_TEXT
+    assert Scene.from_toml(text) == scene

@@ -121,7 +121,7 @@ def test_force_balance_of_harris_and_mindel() -> None:
         bearing = Bearing.from_drawing(
             21, 22.225e-3, 205e-3, 0.52 * 22.225e-3, 0.52 * 22.225e-3, contact_angle=contact_angle
         )
-        scene = Scene(bearing, presets["fan-rig"].sound().defect, Load(fz=3000.0 * POUND), 1e3,
+        scene = Scene(bearing, presets["fan-rig"].healthy().defect, Load(fz=3000.0 * POUND), 1e3,
                       presets["fan-rig"].support)  # fmt: skip
         return ball_positions(scene, [0.0], centrifugal_load=303.45 * POUND)
 

@@ -21,7 +21,7 @@ from bearingcore import (
     presets,
     simulate,
 )
-from tests.independent import Balls
+from tests.helpers.independent import Balls
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 TILTED = LIEW_LIM.replace(fx=300.0, mx=4.0, my=-3.0, extent=math.radians(50.0))
@@ -30,7 +30,7 @@ TILTED = LIEW_LIM.replace(fx=300.0, mx=4.0, my=-3.0, extent=math.radians(50.0))
 SCENES = {
     "five loads": TILTED,
     "as printed": LIEW_LIM,
-    "sound": TILTED.sound(),
+    "healthy": TILTED.healthy(),
     "chord edges": TILTED.replace(edge="chord", depth=200e-6),
     "exact edges": TILTED.replace(edge="exact", depth=20e-6),
     "inner race": TILTED.replace(race="inner", edge="exact"),
@@ -309,7 +309,7 @@ def test_a_bearing_of_another_size_scales(scene: Scene) -> None:
 
 def test_compression_grows_with_the_load_to_the_power_two_thirds() -> None:
     """Radial, zero contact angle, no clearance: the law is exact, and stiffness goes as F^(1/3)."""
-    scene = FAN_RIG.sound().replace(radial_clearance=0.0)
+    scene = FAN_RIG.healthy().replace(radial_clearance=0.0)
     light, heavy = (equilibrium(scene.replace(fy=fy), ANGLES) for fy in (-10.0, -80.0))
     assert heavy.displacement[:, :2] == pytest.approx(4.0 * light.displacement[:, :2], rel=1e-9)
     assert heavy.term("k_yy") == pytest.approx(2.0 * light.term("k_yy"), rel=1e-9)
@@ -355,8 +355,8 @@ def test_motion_in_two_directions_is_that_in_five(contact_law: str) -> None:
     assert full.ball_load == pytest.approx(few.ball_load, rel=1e-6, abs=1e-6)
 
 
-def test_an_axial_load_alone_needs_z_alone_in_a_sound_bearing() -> None:
-    scene = LIEW_LIM.sound().replace(fy=0.0, fz=500.0)
+def test_an_axial_load_alone_needs_z_alone_in_a_healthy_bearing() -> None:
+    scene = LIEW_LIM.healthy().replace(fy=0.0, fz=500.0)
     alone, all_five = equilibrium(scene, ANGLES, ("z",)), solve(scene)
     assert all_five.displacement[:, 2] == pytest.approx(alone.displacement[:, 2], rel=1e-10)
     others = (all_five.displacement * lengths(scene))[:, [0, 1, 3, 4]]
@@ -394,10 +394,10 @@ def undamped(scene: Scene) -> Scene:
     "scene",
     [
         FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0),
-        FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0).sound(),
+        FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0).healthy(),
         LIEW_LIM.replace(shaft_speed=2.0 * math.pi * 30.0),
     ],
-    ids=["fan rig", "fan rig, sound", "liew-lim"],
+    ids=["fan rig", "fan rig, healthy", "liew-lim"],
 )
 def test_undamped_motion_gains_just_the_work_of_the_turning_cage(scene: Scene) -> None:
     """Kinetic, contact and support energy less the work of the load change only as balls turn
@@ -451,8 +451,8 @@ def contact_energy(scene: Scene, q: np.ndarray, cage_angle: np.ndarray) -> np.nd
 
 @pytest.mark.parametrize("law", ["published", "no tension"])
 def test_damping_takes_energy_from_a_motion(law: str) -> None:
-    """A sound bearing that hardly turns swings less and less about its static state."""
-    scene = FAN_RIG.sound().replace(contact_law=law, shaft_speed=2.0 * math.pi * 7.0)
+    """A healthy bearing that hardly turns swings less and less about its static state."""
+    scene = FAN_RIG.healthy().replace(contact_law=law, shaft_speed=2.0 * math.pi * 7.0)
     damped = simulate(scene, 0.3)
     free = simulate(undamped(scene), 0.3)
     late = slice(-len(damped.time) // 3, None)

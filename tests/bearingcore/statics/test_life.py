@@ -241,7 +241,7 @@ def test_a_defect_of_the_outer_race_by_equal_steps(name: str) -> None:
 def test_a_defect_that_no_ball_feels_changes_nothing() -> None:
     """1 nm deep, in the turning race: the other sum gives the healthy bearing's loads."""
     scene = damaged("inner", depth=1e-9)
-    found, healthy = race_loads(scene, P, E), race_loads(scene.sound(), P, E)
+    found, healthy = race_loads(scene, P, E), race_loads(scene.healthy(), P, E)
     assert found.inner == pytest.approx(healthy.inner, rel=1e-4)
     assert found.outer == pytest.approx(healthy.outer, rel=1e-4)
 
@@ -277,7 +277,7 @@ def test_a_wider_defect_in_the_load_zone_costs_more() -> None:
 
 
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
-    scene = presets["6205"].sound()
+    scene = presets["6205"].healthy()
     inner, outer = life(scene, 14e3), life(scene, 14e3, turning_race="outer")
     Q = equilibrium(scene, [1.5 * math.pi % scene.bearing.ball_spacing]).ball_load
     cubic, tenthirds = float(np.mean(Q**3) ** (1 / 3)), float(np.mean(Q ** (10 / 3)) ** 0.3)
@@ -302,7 +302,7 @@ def test_a_damaged_race_is_no_promise() -> None:
     assert found.share_of_healthy < 1.0
     for words in ("upper bound", "not a promise", "edges"):
         assert words in found.sentence
-    assert "promise" not in life(presets["6206"].sound(), 19_500.0).sentence
+    assert "promise" not in life(presets["6206"].healthy(), 19_500.0).sentence
 
 
 def test_a_heavy_load_is_beyond_the_standard() -> None:
@@ -314,7 +314,7 @@ def test_a_heavy_load_is_beyond_the_standard() -> None:
 def test_no_equilibrium_no_life(race: str) -> None:
     """Two balls let a ring go sideways: no cage angle but those under the load carries it."""
     scene = presets["6205"].replace(n_balls=2, race=race)
-    for looked_at in (scene, scene.sound()):
+    for looked_at in (scene, scene.healthy()):
         found = life(looked_at, 14e3)
         assert not found.known
         assert math.isnan(found.hours)

@@ -40,7 +40,7 @@ SCENES = {
     "inner": LIEW_LIM.replace(race="inner", edge="exact"),
     "deep": FAN_RIG.replace(depth=400e-6),
     "shallow": LIEW_LIM.replace(depth=3e-6),
-    "sound": LIEW_LIM.replace(defect=Defect.none()),
+    "healthy": LIEW_LIM.replace(defect=Defect.none()),
     "held": LIEW_LIM.replace(dofs=("x", "y", "z")),
     "two that run together": two(LIEW_LIM, depth=30e-6),
     "two on two races": two(FAN_RIG, race="inner"),

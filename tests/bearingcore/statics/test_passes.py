@@ -43,8 +43,8 @@ def test_an_inner_race_defect_meets_a_ball_at_the_inner_ball_pass_frequency() ->
     np.testing.assert_allclose(1.0 / one_pass, scene.bearing.bpfi(scene.shaft_speed))
 
 
-def test_a_sound_bearing_and_a_worn_race_have_no_edges_to_pass() -> None:
-    assert crossings(FAN_RIG.sound(), 0.0, TURN) == []
+def test_a_healthy_bearing_and_a_worn_race_have_no_edges_to_pass() -> None:
+    assert crossings(FAN_RIG.healthy(), 0.0, TURN) == []
     assert crossings(FAN_RIG.replace(extent=TURN), 0.0, TURN) == []
 
 

@@ -229,7 +229,7 @@ def test_entry_to_exit_time_of_the_two_extents() -> None:
 
 
 def test_contact_damping_of_the_fan_rig() -> None:
-    """β · mean(k_xx + k_yy)/mean(loaded balls) of the sound bearing, with β = 1e-5 s."""
+    """β · mean(k_xx + k_yy)/mean(loaded balls) of the healthy bearing, with β = 1e-5 s."""
     scene = presets["fan-rig"]
     assert contact_damping(scene) == pytest.approx(122.0, abs=0.1)
     assert contact_damping(scene.replace(contact_damping=80.0)) == 80.0

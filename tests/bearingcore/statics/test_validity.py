@@ -11,7 +11,7 @@ import pytest
 from bearingcore import Bearing, Limit, Scene, equilibrium, limits, presets, simulate
 from bearingcore.statics.validity import STATIC_PRESSURE, centrifugal_force, usual_shoulder_height
 
-SOUND_6205 = presets["6205"].sound()
+HEALTHY_6205 = presets["6205"].healthy()
 TURN = np.linspace(0.0, 2.0 * math.pi, 181)
 
 
@@ -30,13 +30,13 @@ STATIC_RATING_6205 = 7.8e3
 
 def test_static_rating_of_the_catalogue_is_where_the_pressure_reaches_4200_mpa() -> None:
     ball = 5.0 * STATIC_RATING_6205 / 9.0
-    p = SOUND_6205.bearing.race_contact("inner").greatest_pressure(ball)
+    p = HEALTHY_6205.bearing.race_contact("inner").greatest_pressure(ball)
     assert float(p) == pytest.approx(STATIC_PRESSURE, rel=0.01)
 
 
 def test_overload_begins_near_the_static_rating() -> None:
     """Without clearance the most loaded ball carries 4.37 F/Z (Stribeck), so a little later."""
-    tight = SOUND_6205.replace(radial_clearance=0.0)
+    tight = HEALTHY_6205.replace(radial_clearance=0.0)
     begins = STATIC_RATING_6205 * 5.0 / 4.37
     assert not found(tight.replace(fy=-0.95 * begins), INNER).crossed
     limit = found(tight.replace(fy=-1.05 * begins), INNER)
@@ -49,10 +49,10 @@ def test_pressure_grows_as_the_cube_root_of_the_load() -> None:
     bearing = presets["6205"].bearing.replace(n_balls=1)
     scene = Scene(
         bearing,
-        SOUND_6205.defect,
-        SOUND_6205.load,
+        HEALTHY_6205.defect,
+        HEALTHY_6205.load,
         1.0,
-        SOUND_6205.support,
+        HEALTHY_6205.support,
         dofs=("y",),
     )
     state = equilibrium(scene, [math.radians(270.0)])
@@ -74,8 +74,8 @@ def test_without_groove_radii_pressure_is_not_known_and_not_invented(name: str) 
 
 
 def test_a_thrust_climbs_the_shoulder_of_a_deep_groove() -> None:
-    gentle = SOUND_6205.replace(fy=-300.0, fz=500.0)
-    harsh = SOUND_6205.replace(fy=-300.0, fz=40e3)
+    gentle = HEALTHY_6205.replace(fy=-300.0, fz=500.0)
+    harsh = HEALTHY_6205.replace(fy=-300.0, fz=40e3)
     name = "contact angle at the shoulder"
     assert not found(gentle, name).crossed
     limit = found(harsh, name)
@@ -88,7 +88,7 @@ def test_a_thrust_climbs_the_shoulder_of_a_deep_groove() -> None:
 
 def test_the_contact_reaches_as_far_as_its_angle_and_half_its_ellipse() -> None:
     """Pure thrust: all balls alike, the angle from the balance N_b Q sin α = F_z."""
-    scene = presets["7208-25deg"].sound().replace(fy=0.0, fz=3000.0, dofs=("z",))
+    scene = presets["7208-25deg"].healthy().replace(fy=0.0, fz=3000.0, dofs=("z",))
     state = equilibrium(scene)
     load, angle = state.ball_load[0, 0], state.contact_angle[0, 0]
     assert 14 * load * math.sin(angle) == pytest.approx(3000.0, rel=1e-9)
@@ -100,8 +100,8 @@ def test_the_contact_reaches_as_far_as_its_angle_and_half_its_ellipse() -> None:
 def test_shoulders_stand_where_their_height_puts_them() -> None:
     """As high as the ball's centre: 90°. As usual in deep grooves: 53.1°."""
     name = "contact angle at the shoulder"
-    assert found(SOUND_6205, name, shoulder_height=0.5).limit == pytest.approx(math.pi / 2)
-    assert found(SOUND_6205, name).limit == pytest.approx(math.acos(0.6))
+    assert found(HEALTHY_6205, name, shoulder_height=0.5).limit == pytest.approx(math.pi / 2)
+    assert found(HEALTHY_6205, name).limit == pytest.approx(math.acos(0.6))
     assert usual_shoulder_height(math.radians(40.0)) == pytest.approx(0.3)
 
 
@@ -113,22 +113,22 @@ def test_centrifugal_force_of_one_ball() -> None:
     mass = 7800.0 * 4.0 / 3.0 * math.pi * 3.97e-3**3
     cage = 0.39831 * 2.0 * math.pi * 1797.0 / 60.0
     assert mass == pytest.approx(2.044e-3, rel=2e-3)
-    assert centrifugal_force(SOUND_6205) == pytest.approx(mass * cage**2 * 19.52e-3, rel=1e-4)
+    assert centrifugal_force(HEALTHY_6205) == pytest.approx(mass * cage**2 * 19.52e-3, rel=1e-4)
 
 
 def test_centrifugal_force_matters_at_speed_and_not_at_rest() -> None:
-    at_rest = SOUND_6205.replace(shaft_speed=0.0)
-    fast = SOUND_6205.replace(shaft_speed=40e3 * 2.0 * math.pi / 60.0)
+    at_rest = HEALTHY_6205.replace(shaft_speed=0.0)
+    fast = HEALTHY_6205.replace(shaft_speed=40e3 * 2.0 * math.pi / 60.0)
     for name in (MOST, LEAST):
         assert found(at_rest, name).value == 0.0
-        assert not found(SOUND_6205, name).crossed
+        assert not found(HEALTHY_6205, name).crossed
         assert found(fast, name).crossed
-    ratio = found(fast, MOST).value / found(SOUND_6205, MOST).value
+    ratio = found(fast, MOST).value / found(HEALTHY_6205, MOST).value
     assert ratio == pytest.approx((40e3 / 1797.0) ** 2, rel=1e-9)
 
 
 def test_the_least_loaded_ball_feels_it_before_the_most_loaded() -> None:
-    assert found(SOUND_6205, LEAST).value > found(SOUND_6205, MOST).value
+    assert found(HEALTHY_6205, LEAST).value > found(HEALTHY_6205, MOST).value
 
 
 @pytest.mark.parametrize("conformity", [0.505, 0.52, 0.54, 0.58])
@@ -145,7 +145,7 @@ def test_compression_stands_for_the_width_of_the_contact(conformity: float) -> N
 
 
 def test_overload_is_told_in_pressure_and_in_compression() -> None:
-    heavy = SOUND_6205.replace(fy=-40e3)
+    heavy = HEALTHY_6205.replace(fy=-40e3)
     crossed = {limit.name for limit in limits(heavy) if limit.crossed}
     assert {INNER, OUTER, "compression against groove centre distance"} <= crossed
 
@@ -159,15 +159,15 @@ def test_tight_grooves_of_the_published_bearing_are_told() -> None:
 
 def test_a_stiffness_that_does_not_go_with_the_drawing_is_told() -> None:
     name = "load-deflection factor against the drawing"
-    drawn = found(SOUND_6205, name)
+    drawn = found(HEALTHY_6205, name)
     assert drawn.value == 0.0
     assert not drawn.crossed
-    K = SOUND_6205.bearing.load_deflection_factor
-    softer = found(SOUND_6205.replace(load_deflection_factor=0.9 * K), name)
+    K = HEALTHY_6205.bearing.load_deflection_factor
+    softer = found(HEALTHY_6205.replace(load_deflection_factor=0.9 * K), name)
     assert softer.value == pytest.approx(0.1)
     assert softer.crossed
-    assert not found(SOUND_6205.replace(contact_angle=0.6), name).crossed  # drawn anew
-    seated = SOUND_6205.replace(bearing=SOUND_6205.bearing.seated())
+    assert not found(HEALTHY_6205.replace(contact_angle=0.6), name).crossed  # drawn anew
+    seated = HEALTHY_6205.replace(bearing=HEALTHY_6205.bearing.seated())
     assert not found(seated, name).crossed
     assert name not in {limit.name for limit in limits(presets["fan-rig"])}
 
@@ -196,16 +196,16 @@ def test_an_inner_race_defect_is_passed_at_the_relative_speed() -> None:
 
 
 def test_no_defect_or_a_shaft_at_rest_passes_nothing() -> None:
-    for scene in (SOUND_6205, presets["6205"].replace(shaft_speed=0.0)):
+    for scene in (HEALTHY_6205, presets["6205"].replace(shaft_speed=0.0)):
         names = {limit.name for limit in limits(scene, step_rate=65536.0)}
         assert "time steps in a defect" not in names
 
 
 def test_an_unloaded_bearing_has_no_numbers_and_crosses_nothing() -> None:
     for scene in (
-        SOUND_6205.replace(fy=0.0),
-        SOUND_6205.replace(fy=0.0, fz=-1.0, dofs=("x", "y")),
-        presets["7208-25deg"].sound().replace(fy=0.0, fz=0.0),
+        HEALTHY_6205.replace(fy=0.0),
+        HEALTHY_6205.replace(fy=0.0, fz=-1.0, dofs=("x", "y")),
+        presets["7208-25deg"].healthy().replace(fy=0.0, fz=0.0),
     ):
         for limit in limits(scene):
             assert not limit.crossed
@@ -232,7 +232,7 @@ def test_a_state_at_hand_gives_the_same() -> None:
     scene = presets["6206"]
     assert limits(scene, equilibrium(scene)) == limits(scene)
     with pytest.raises(ValueError, match="equilibrium of another scene"):
-        limits(scene, equilibrium(scene.sound()))
+        limits(scene, equilibrium(scene.healthy()))
 
 
 @pytest.mark.parametrize(
@@ -246,4 +246,4 @@ def test_a_state_at_hand_gives_the_same() -> None:
 )
 def test_impossible_choices_are_refused(choices: dict[str, float], said: str) -> None:
     with pytest.raises(ValueError, match=said):
-        limits(SOUND_6205, **choices)  # type: ignore[arg-type]
+        limits(HEALTHY_6205, **choices)  # type: ignore[arg-type]

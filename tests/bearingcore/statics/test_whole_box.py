@@ -2,8 +2,8 @@
 
 Every cage angle is either converged, with a relative residual of 1e-9 and a symmetric, positive
 semidefinite stiffness that holds the ring, or has a reason that is true: nothing touches, a
-direction is free, the load cannot be carried. `tests.independent` judges, in extended precision and
-without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
+direction is free, the load cannot be carried. `helpers.independent` judges, in extended precision
+and without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from bearingcore import DOF_NAMES, EDGES, RACES, equilibrium, kernels
 from bearingcore.statics.load_capacity import way_out
-from tests.box import (
+from tests.helpers.box import (
     DOF_SETS,
     FACTORS,
     FORCES,
@@ -32,7 +32,7 @@ from tests.box import (
     draw,
     scene_at,
 )
-from tests.independent import Balls, verdict
+from tests.helpers.independent import Balls, verdict
 
 TURN = 2.0 * math.pi
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import errno
 import os
 import re
 import shutil
@@ -324,7 +325,7 @@ def marks_of(store: Path) -> list[Path]:
     return [file for file in folder.glob("*/*") if file.is_file() and "." not in file.name]
 
 
-def until(is_so: Callable[[], bool], seconds: float = 90.0) -> None:
+def until(is_so: Callable[[], bool], seconds: float = 300.0) -> None:
     end = time.monotonic() + seconds
     while not is_so():
         assert time.monotonic() < end, "it took too long"
@@ -572,7 +573,7 @@ def test_killed_workers_and_schedulers_lose_nothing(
     from distributed import Client
 
     with Client(address, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=60)
+        client.wait_for_workers(2, timeout=300)
 
     # a worker dies: the sweep comes to its end all the same
     first = tmp_path / "worker.zarr"
@@ -581,7 +582,7 @@ def test_killed_workers_and_schedulers_lose_nothing(
     workers[0].kill()
     done = files_of(first)
     assert 5 * 5 <= len(done) < 60 * 5
-    running.join(60)
+    running.join(300)
     assert running.error is None
     after = files_of(first)
     assert {file: after[file] for file in done} == done
@@ -592,7 +593,7 @@ def test_killed_workers_and_schedulers_lose_nothing(
     running = InBackground(second, address)
     until(lambda: len(marks_of(second)) >= 5)
     scheduler.kill()
-    running.join(60)
+    running.join(300)
     assert isinstance(running.error, ConnectionError)
     assert "is lost" in str(running.error)
     workers[1].kill()
@@ -635,7 +636,7 @@ def test_a_killed_program_goes_on_where_it_was(reference: xarray.Dataset, tmp_pa
     assert 5 * 5 <= len(done) < 60 * 5
     partial = xarray.open_zarr(out)["status"]
     assert (partial == code("not_computed")).any()
-    second = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    second = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert second.returncode == 0, second.stderr
     assert "1,200 scenes (20 extent × 60 fy), 4 numbers of each" in second.stdout
     assert "1,200 complete" in second.stdout
@@ -809,3 +810,31 @@ def test_importing_the_core_does_not_import_what_sweeps_need() -> None:
     )
     told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert told.stdout.strip() == "[]"
+
+
+def test_a_full_disk_is_said_in_one_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def full(region: object) -> bool:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(stores, "finish", full)
+    with pytest.raises(OSError, match=r"the disk is full\. What is finished is kept") as found:
+        sweep(presets["fan-rig"], {"fy": [-50.0, -100.0]}, ["k_xx_mean"], store=tmp_path / "r")
+    assert found.value.filename == str(tmp_path / "r")
+    said = capfd.readouterr()
+    assert "Traceback" not in said.err + said.out
+    assert "Compute Failed" not in said.err + said.out
+
+
+def test_a_worker_that_dies_while_it_starts_is_told_of_in_words(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    import distributed
+
+    def dying(*_: object, **__: object) -> object:
+        raise RuntimeError("Nanny failed to start.")
+
+    monkeypatch.setattr(distributed, "LocalCluster", dying)
+    with pytest.raises(RuntimeError, match="a worker ended while it was starting"):
+        sweep(presets["fan-rig"], {"fy": [-50.0]}, ["k_xx_mean"], processes=True, workers=2)

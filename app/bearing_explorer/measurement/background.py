@@ -1,0 +1,59 @@
+"""How loud the noise of a simulated measurement is.
+
+A machine hums as loud with a healthy bearing as with a damaged one. So where the scene has no
+defect, noise is told against what a short one would give: against the bearing's own faint
+vibration it would leave a quiet that no sensor on a machine has ever met, in which even the balls
+of a healthy bearing show as they pass under the load.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.compute.results import Results, Settings
+from bearingcore import Defect, Scene
+
+REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
+"""[rad], [m] of the defect below the load whose vibration stands for that of damage."""
+
+
+def true_part(scene: Scene) -> str:
+    """The part that is damaged; "none" where none is, "" where several are."""
+    races = {defect.race for defect in scene.defects}
+    if not races:
+        return "none"
+    return f"{races.pop()} race" if len(races) == 1 else ""
+
+
+def noise_level(
+    scene: Scene, signal: NDArray[np.float64], columns: list[int], noise_db: float,
+    settings: Settings,
+) -> NDArray[np.float64]:  # fmt: skip
+    """Root mean square of the noise in each direction (d,) [m/s²].
+
+    Parameters
+    ----------
+    scene
+        that is measured.
+    signal : (n, d) [m/s²]
+        what its housing does.
+    columns
+        of a motion of the scene, that are measured.
+    noise_db
+        signal over noise [dB].
+    settings
+        of its motion.
+    """
+    share = 10.0 ** (-noise_db / 20.0)
+    if share == 0.0:
+        return np.zeros(len(columns))
+    if true_part(scene) == "none":
+        loaded = math.atan2(scene.load.fy, scene.load.fx)
+        damaged = scene.replace(defect=Defect(REFERENCE_EXTENT, REFERENCE_DEPTH, loaded))
+        motion = Results(damaged, 0.0, settings).motion
+        strongest = motion.outer_acceleration[len(motion.time) // 4 :, columns]
+        return np.full(len(columns), float(np.std(strongest, axis=0).max()) * share)
+    return np.asarray(np.sqrt(np.mean(signal**2, axis=0)) * share)

@@ -1,0 +1,147 @@
+"""Which part is damaged, found in the background: once for each recording and bearing.
+
+Holds no Panel. A diagnosis takes from tenths of a second to seconds; pictures do not wait for it.
+A view asks `of`, which knows the answer or does not yet, and says what it wants; when the answer is
+there, everything is drawn again. Only the newest question is worked on.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+from collections.abc import Awaitable, Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+from bearing_explorer.compute.jobs import Change
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.state.quantities import refusal
+from bearingcore import Bearing, Diagnosis, diagnose
+
+log = logging.getLogger(__name__)
+
+ROUGH = 0.1
+"""By how much a rough shaft speed may be off, as a fraction."""
+
+SPEEDS = {"given": "as given", "rough": "within 10 %", "unknown": "not known"}
+"""How well the shaft speed is known, in words."""
+
+SLIP = 0.02
+"""By how much balls may pass faster or slower than the shaft speed says."""
+
+FAILED = "The signal could not be looked at."
+
+MOST_KNOWN = 12
+"""Answers about one recording that are kept."""
+
+#: half of the machine, so that drawing has the other half
+_THREADS = ThreadPoolExecutor(
+    max_workers=max(1, (os.cpu_count() or 2) // 2), thread_name_prefix="diagnose"
+)
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is to be diagnosed: a recording, taken on a bearing, at a speed known so well.
+
+    Two are the same where a bearing's balls, diameters and contact angle are: nothing else of it
+    counts.
+    """
+
+    measured: Measured
+    bearing: Bearing = field(compare=False)
+    speed: str = "given"
+    geometry: tuple[float, ...] = ()
+
+    @classmethod
+    def about(cls, measured: Measured, bearing: Bearing, speed: str = "given") -> Question:
+        """The question about a recording and a bearing; `speed` is one of SPEEDS."""
+        geometry = (
+            float(bearing.n_balls),
+            bearing.ball_diameter,
+            bearing.pitch_diameter,
+            bearing.contact_angle,
+        )
+        return cls(measured, bearing, speed, geometry)
+
+    @property
+    def shaft_speed(self) -> float | tuple[float, float] | None:
+        """[rad/s] as `diagnose` wants it."""
+        speed = self.measured.shaft_speed
+        if self.speed == "unknown":
+            return None
+        return ((1.0 - ROUGH) * speed, (1.0 + ROUGH) * speed) if self.speed == "rough" else speed
+
+
+def answered(question: Question) -> Diagnosis | str:
+    """The diagnosis, or a sentence where there can be none. For any thread."""
+    try:
+        return diagnose(
+            question.measured.recording, question.bearing, question.shaft_speed, slip=SLIP
+        )
+    except ValueError as error:
+        return refusal(error).replace("_", " ")
+    except Exception:
+        log.exception("a diagnosis failed")
+        return FAILED
+
+
+class Diagnoses:
+    """The diagnoses of one session. `want` and `stop` belong on its event loop.
+
+    Parameters
+    ----------
+    assign
+        runs a change of the page's models and sends it, as `live.one_message` does.
+    draw
+        asks for a drawing.
+    """
+
+    def __init__(
+        self, assign: Callable[[Change], Awaitable[None]], draw: Callable[[], None]
+    ) -> None:
+        self._assign = assign
+        self._draw = draw
+        self._known: dict[Question, Diagnosis | str] = {}
+        self._wanted: Question | None = None
+        self._task: asyncio.Task[None] | None = None
+
+    def of(self, question: Question) -> Diagnosis | str | None:
+        """The answer, a sentence where there can be none, or None: not yet. For any thread."""
+        return self._known.get(question)
+
+    def newest(self, measured: Measured, bearing: Bearing) -> Diagnosis | None:
+        """The diagnosis of a recording on a bearing, at the speed that was asked about last."""
+        speed = self._wanted.speed if self._wanted is not None else "given"
+        answer = self._known.get(Question.about(measured, bearing, speed))
+        return answer if isinstance(answer, Diagnosis) else None
+
+    def keep(self, question: Question, answer: Diagnosis | str) -> None:
+        """Keep an answer; those about other recordings leave, and the oldest."""
+        kept = {q: a for q, a in self._known.items() if q.measured is question.measured}
+        while len(kept) >= MOST_KNOWN:
+            kept.pop(next(iter(kept)))
+        self._known = kept | {question: answer}
+
+    def want(self, question: Question) -> None:
+        """Have it answered, in place of what was wanted before."""
+        self._wanted = question
+        if question not in self._known and (self._task is None or self._task.done()):
+            self._task = asyncio.get_running_loop().create_task(self._work())
+
+    def stop(self) -> None:
+        """The session is over."""
+        self._wanted = None
+        self._known = {}
+
+    async def _work(self) -> None:
+        loop = asyncio.get_running_loop()
+        while (question := self._wanted) is not None and question not in self._known:
+            answer = await loop.run_in_executor(_THREADS, answered, question)
+            if self._wanted is None:
+                return
+            if self._wanted.measured is question.measured:
+                self.keep(question, answer)
+            if self._wanted == question:
+                await self._assign(self._draw)

@@ -1,0 +1,61 @@
+"""Headers on every answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from tornado.httputil import HTTPHeaders
+from tornado.web import OutputTransform
+
+PERMISSIONS = (
+    "accelerometer=(), autoplay=(), camera=(), display-capture=(), geolocation=(), gyroscope=(), "
+    "magnetometer=(), microphone=(), midi=(), payment=(), usb=(), xr-spatial-tracking=()"
+)
+
+
+class Headers(OutputTransform):
+    """Headers on every answer.
+
+    Bokeh makes functions out of text (CustomJS) and Panel its components, so scripts may use
+    `eval` and inline parts of the page; no script, style, font or picture from another server is
+    ever taken.
+    """
+
+    frame_ancestors: ClassVar[tuple[str, ...]] = ("'self'",)
+
+    def transform_first_chunk(
+        self, status_code: int, headers: HTTPHeaders, chunk: bytes, finishing: bool
+    ) -> tuple[int, HTTPHeaders, bytes]:
+        del finishing
+        headers["Content-Security-Policy"] = policy(self.frame_ancestors)
+        headers["X-Content-Type-Options"] = "nosniff"
+        headers["Referrer-Policy"] = "same-origin"
+        headers["Permissions-Policy"] = PERMISSIONS
+        headers["Cross-Origin-Opener-Policy"] = "same-origin"
+        headers["Cross-Origin-Resource-Policy"] = "same-origin"
+        if len(self.frame_ancestors) == 1:  # it has no way to name others
+            headers["X-Frame-Options"] = "SAMEORIGIN"
+        for told in ("Server", "Access-Control-Allow-Origin"):
+            if told in headers:
+                del headers[told]
+        return status_code, headers, chunk
+
+
+def policy(frame_ancestors: Sequence[str]) -> str:
+    """What the page may load and do, and who may show it in a frame."""
+    return "; ".join(
+        [
+            "default-src 'self'",
+            "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:",
+            "style-src 'self' 'unsafe-inline'",
+            "img-src 'self' data: blob:",
+            "font-src 'self' data:",
+            "connect-src 'self' blob:",
+            "worker-src 'self' blob:",
+            "object-src 'none'",
+            "base-uri 'none'",
+            "form-action 'none'",
+            "frame-ancestors " + " ".join(frame_ancestors),
+        ]
+    )

@@ -1,0 +1,68 @@
+"""Who has a place: those who are connected, and for a while those who were given a page.
+
+Pages that were asked for and never connect take no more than a quarter of the places for each
+address, and no more memory than `Limits.unclaimed` sessions.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from bearing_explorer.server import limits
+from bearing_explorer.server import log as write
+
+_connected: Counter[str] = Counter()
+_unclaimed: dict[str, str] = {}  # addresses by names of sessions, the oldest first
+
+
+def reset() -> None:
+    """A server begins: nobody is there."""
+    _connected.clear()
+    _unclaimed.clear()
+
+
+def came(session: str) -> None:
+    """A browser has connected."""
+    _connected[session] += 1
+    _unclaimed.pop(session, None)
+
+
+def left(session: str) -> None:
+    """A browser is gone."""
+    _connected[session] -= 1
+    if _connected[session] <= 0:
+        del _connected[session]
+
+
+def connected() -> int:
+    """How many sessions have a browser."""
+    return len(_connected)
+
+
+def all_taken() -> bool:
+    """Whether there is no place for somebody who asks for the page."""
+    most = limits.current().sessions
+    quarter = max(1, most // 4)
+    asked = sum(min(n, quarter) for n in Counter(_unclaimed.values()).values())
+    return len(_connected) + asked >= most
+
+
+def may_connect(session: str) -> bool:
+    """Whether the browser of a session may connect: it does already, or there is a place."""
+    return session in _connected or len(_connected) < limits.current().sessions
+
+
+async def give_page(context: Any, session: Any, address: str) -> None:
+    """Note that `address` was given the page of a session; its oldest one may have to go."""
+    alive = {one.id for one in context.sessions}
+    for name in [name for name in _unclaimed if name not in alive]:
+        del _unclaimed[name]
+    _unclaimed[session.id] = address
+    its = [name for name, where in _unclaimed.items() if where == address]
+    for name in its[: max(len(its) - limits.current().unclaimed, 0)]:
+        del _unclaimed[name]
+        write.trouble("given-up", pages=len(its))
+        oldest = context._sessions.get(name)
+        if oldest is not None and oldest.connection_count == 0:
+            await context._discard_session(oldest, lambda one: one.connection_count == 0)

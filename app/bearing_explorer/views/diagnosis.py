@@ -1,0 +1,191 @@
+"""Which part is damaged: the bearing with the part marked, and the lines that say so."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.figures import style
+from bearing_explorer.measurement.diagnoses import SPEEDS, Question
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views import part_words
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.measured_view import NOTHING, LookPanel, MeasuredView
+from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
+from bearing_explorer.widgets.part_panel import EvidenceTable, PartPanel
+from bearingcore import Bearing, Diagnosis
+from bearingcore.diagnosis.combs import HARMONICS
+from bearingcore.diagnosis.parts import PARTS
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+BUSY = "The signal is being looked at."
+
+FIELDS: list[dict[str, Any]] = [
+    {
+        "kind": "one",
+        "name": "speed",
+        "label": "Shaft speed is",
+        "options": [[name, words] for name, words in SPEEDS.items()],
+    },
+    {
+        "kind": "one",
+        "name": "zoom",
+        "label": "Zoom to",
+        "options": [["", "all lines"], *([part, part] for part in PARTS)],
+    },
+]
+"""Choices above the figure."""
+
+
+class PartDiagnosis(MeasuredView):
+    """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
+
+    name = "diagnosis"
+    title = "2  What part"
+    about = (
+        "Each pass over a damaged spot makes the machine ring; the spectrum of the envelope shows "
+        "how often. Strong: the lines of the part that stands out, found within the slip. Faint: "
+        "where geometry has those of the others. Point at a number below to zoom to its line."
+    )
+    needs = frozenset()
+
+    def build(self, packed: PackedSource) -> Any:
+        self.speed, self.zoom = "given", Zoom()
+        self.part = PartPanel()
+        self.lines = PartLines(packed)
+        self.evidence = EvidenceTable(self._asked)
+        self.panel_of_look = LookPanel(self._asked, spec={"name": self.name, "fields": FIELDS})
+        self._show_look()
+        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self._seen = pn.Column(self.lines.plot, self.evidence, visible=False, **wide)
+        self.hidden = pn.Column(self.part, self.panel_of_look, self._seen, visible=False, **wide)
+        return self.hidden
+
+    # What it is about
+
+    def question(self, bearing: Bearing) -> Question | None:
+        """What is to be diagnosed on a bearing; None where nothing is measured."""
+        measured = self.measured
+        return None if measured is None else Question.about(measured, bearing, self.speed)
+
+    def answer(self, bearing: Bearing) -> Diagnosis | str | None:
+        """The diagnosis, a sentence why there is none, or None: not yet."""
+        question = self.question(bearing)
+        if question is None or self.measurement is None:
+            return None
+        return self.measurement.diagnoses.of(question)
+
+    def diagnosis(self, bearing: Bearing) -> Diagnosis | None:
+        """The diagnosis, where there is one already."""
+        answer = self.answer(bearing)
+        return answer if isinstance(answer, Diagnosis) else None
+
+    def _asked(self, message: Any) -> None:
+        if not isinstance(message, dict):
+            return
+        look, line = message.get("look"), message.get("zoom")
+        if isinstance(look, dict):
+            speed, part = look.get("speed"), look.get("zoom")
+            if isinstance(speed, str) and speed in SPEEDS:
+                self.speed = speed
+            if isinstance(part, str) and part in ("", *PARTS):
+                self.zoom = Zoom(part)
+        elif isinstance(line, list) and len(line) == 2:
+            part, harmonic = line
+            whole = isinstance(harmonic, int) and not isinstance(harmonic, bool)
+            if not (isinstance(part, str) and part in PARTS and whole):
+                return
+            chosen = Zoom(part, min(max(harmonic, 1), HARMONICS))
+            self.zoom = Zoom() if chosen == self.zoom else chosen
+        else:
+            return
+        if self.measurement is not None:
+            self.measurement.redraw()
+
+    def _show_look(self) -> None:
+        self.panel_of_look.values = {"speed": self.speed, "zoom": self.zoom.part}
+        zoom = self.zoom
+        self.evidence.looked = f"{zoom.part} {zoom.harmonic}" if zoom.part else ""
+
+    # The picture
+
+    @property
+    def drawn(self) -> bool:
+        return self._seen.visible
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        found = self.diagnosis(results.scene.bearing)
+        if found is None or found.spectrum is None:
+            return self.lines.nothing(), {}
+        return self.lines.data(found, self.zoom)
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        shown = results or self._results
+        if shown is not None:
+            self._show(shown.scene.bearing)
+        super().say(results, sentence)
+
+    def _show(self, bearing: Bearing) -> None:
+        """Bring the panels up to date, and have the question answered if it is not."""
+        question, answer = self.question(bearing), self.answer(bearing)
+        self._show_look()
+        if question is None or self.measurement is None:
+            self._seen.visible = False
+            return
+        self.measurement.diagnoses.want(question)
+        found = answer if isinstance(answer, Diagnosis) else None
+        self._seen.visible = found is not None and found.spectrum is not None
+        self.part.state = panel_state(question, answer)
+        if found is not None:
+            self.lines.show_orders(found.shaft_speed is not None)
+            self.evidence.rows = part_words.evidence_rows(found)
+
+    def sentence(self, results: Results) -> str:
+        question = self.question(results.scene.bearing)
+        if question is None:
+            return NOTHING
+        answer = self.answer(results.scene.bearing)
+        if answer is None:
+            return BUSY
+        if isinstance(answer, str):
+            return answer
+        return answer.status + part_words.truth(question)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        found = self.diagnosis(results.scene.bearing)
+        return {} if found is None else found.table().in_units().named()
+
+
+def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str, Any]:
+    """What the panel shows of an answer."""
+    bearing = question.bearing
+    drawn = {
+        "n_balls": bearing.n_balls,
+        "pitch": bearing.pitch_diameter,
+        "ball": bearing.ball_diameter,
+        "outer": bearing.outer_raceway_radius,
+        "inner": bearing.inner_raceway_radius,
+    }
+    if answer is None:
+        return {"mood": "busy", "headline": "Listening …", "plain": BUSY, "bearing": drawn}
+    if isinstance(answer, str):
+        return {
+            "mood": "unknown", "headline": "It cannot be told", "plain": answer, "bearing": drawn,
+        }  # fmt: skip
+    named = answer.names_a_part
+    probability = f"Probability {part_words.percent(answer.probability)}"
+    return {
+        "mood": part_words.mood(answer),
+        "part": answer.fault if named else "",
+        "color": style.css_color(COLORS[answer.fault]) if named else "",
+        "headline": part_words.headline(answer),
+        "probability": probability if answer.conclusive else "",
+        "plain": part_words.plain(answer),
+        "pass_on": part_words.pass_on(answer, question),
+        "facts": part_words.facts(answer, question),
+        "bearing": drawn,
+    }

@@ -1,0 +1,259 @@
+"""The spectrum of an envelope with the lines of each part of the bearing in it.
+
+The lines of the part that stands out most are drawn strong where they were found, with its
+sidebands and a mark on each harmonic; those of the other parts are drawn faint, where geometry has
+them. Below are frequencies, above the same in turns of the shaft (orders).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from bokeh.models import LinearAxis
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.frequency_lines import NAME_WIDTH, ORDER_WIDTH, ROW_PIXELS
+from bearing_explorer.views.measured_view import write_over
+from bearingcore import Diagnosis
+from bearingcore.diagnosis.evidence import NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.parts import PARTS
+
+FREQUENCY = style.AxisQuantity("Frequency of knocks", "f", "Hz")
+ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")
+LEVEL = style.AxisQuantity("Over the surroundings", "", "dB")
+FRAME, HEIGHT = 236.0, 330  # [px]
+MOST_LINES = 3000
+"""Of a spectrum that are drawn."""
+LOWEST = -6.0  # [dB] drawn
+
+STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
+"""How clearly lines are drawn: of the part that leads, of the others, of all where none does."""
+
+NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
+COLORS = {"outer race": "#E69F00", "inner race": "#CC79A7", "ball": "#009E73"}
+INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
+"""Colours of the parts: those that their lines have on all figures."""
+
+_ROW = ROW_PIXELS / FRAME
+_WORDS = """
+if (row.order == 1) return `%s ${rounded(row.frequency, 4)} Hz`
+return `${row.order}×`
+"""
+
+
+@dataclass(frozen=True)
+class Zoom:
+    """A line to look at closely: a harmonic of a part; all of them where there is no part."""
+
+    part: str = ""
+    harmonic: int = 1
+
+
+def leading(diagnosis: Diagnosis) -> PartEvidence | None:
+    """The part that stands out, be it enough to be named or not; None where none is seen."""
+    if not diagnosis.evidence or diagnosis.fault == NONE_SEEN:
+        return None
+    if diagnosis.names_a_part:
+        return diagnosis.of(diagnosis.fault)
+    return max(diagnosis.evidence, key=lambda one: one.level)
+
+
+def shaft_frequency(diagnosis: Diagnosis) -> float:
+    """Turns of the shaft a second [Hz] on which the lines rest."""
+    one = diagnosis.evidence[0]
+    return one.nominal_frequency / one.nominal_order
+
+
+def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
+    """Where the first line of a part is drawn [Hz]."""
+    return one.frequency if one is leading(diagnosis) else one.nominal_frequency
+
+
+def window(diagnosis: Diagnosis, zoom: Zoom) -> tuple[float, float]:
+    """Frequencies [Hz] that are shown: all lines, or the surroundings of one."""
+    if zoom.part not in PARTS:
+        greatest = max(fundamental(diagnosis, one) * len(one.harmonics)
+                       for one in diagnosis.evidence)  # fmt: skip
+        assert diagnosis.spectrum is not None
+        return 0.0, min(1.04 * greatest, float(diagnosis.spectrum.frequency[-1]))
+    one = diagnosis.of(zoom.part)
+    middle = fundamental(diagnosis, one) * zoom.harmonic
+    sideways = 3.4 if one.sideband_source == "cage" else 1.7
+    return max(middle - sideways * one.sideband_spacing, 0.0), middle + (
+        sideways * one.sideband_spacing
+    )
+
+
+def named(multiples: NDArray[np.float64], first: float, low: float, high: float) -> (
+    NDArray[np.float64]
+):  # fmt: skip
+    """Those of the multiples of `first` [Hz] in a window whose names stand clear of each other."""
+    width = high - low
+    kept: list[float] = []
+    clear = -math.inf
+    for multiple in multiples[(multiples * first >= low) & (multiples * first <= high)]:
+        at = multiple * first
+        wide = NAME_WIDTH if multiple == 1.0 else ORDER_WIDTH
+        if at >= clear and at + wide * width <= high + 0.5 * wide * width:
+            kept.append(float(multiple))
+            clear = at + wide * width
+    return np.array(kept)
+
+
+class PartLines:
+    """The figure, and what it shows."""
+
+    def __init__(self, packed: PackedSource) -> None:
+        self._levels = StickyRange(LOWEST, 30.0, least_span=12.0)
+        shown = packed.range("diagnosis_frequency", 0.0, 1000.0)
+        orders = packed.range("diagnosis_order", 0.0, 40.0)
+        level = packed.range("diagnosis_level", LOWEST, 30.0)
+        self.plot = style.house_figure(FREQUENCY, LEVEL, shown, level, height=HEIGHT)
+        self._add_orders(self.plot, orders)
+        for part in PARTS:
+            self._add_lines(packed, part)
+        self.plot.line(
+            "frequency", "level", source=packed.source("diagnosis_spectrum", "frequency", "level"),
+            line_color=style.INK, line_width=1.2, line_alpha=0.9,
+        )  # fmt: skip
+        for part in PARTS:
+            self.plot.scatter(
+                "frequency", "level", source=packed.source(_points(part), "frequency", "level"),
+                size=8, fill_color=COLORS[part], line_color=style.INK, line_width=1.0,
+            )  # fmt: skip
+
+    def _add_orders(self, plot: figure, orders: object) -> None:
+        plot.extra_x_ranges["order"] = orders
+        axis = LinearAxis(x_range_name="order")
+        style.style_axis(axis)
+        style.write_units(axis, ORDER, orders)  # type: ignore[arg-type]
+        plot.add_layout(axis, "above")
+        self._order_axis = axis
+
+    def _add_lines(self, packed: PackedSource, part: str) -> None:
+        color = COLORS[part]
+        lines = packed.source(_lines(part), "frequency", "alpha", "width")
+        self.plot.vspan(
+            "frequency", source=lines, line_color=color, line_alpha="alpha", line_width="width",
+            level="underlay",
+        )  # fmt: skip
+        sidebands = packed.source(_sidebands(part), "frequency")
+        self.plot.vspan(
+            "frequency", source=sidebands, line_color=color, line_alpha=0.7, line_width=1.0,
+            line_dash="dotted", level="underlay",
+        )  # fmt: skip
+        names = packed.source(f"{_lines(part)}_names", "frequency", "order", "row", "alpha")
+        words = style.words_of(names, _WORDS % NAMES[part])
+        write_over(
+            self.plot, names, words, "frequency", "row", INKS[part], x_offset=3, text_alpha="alpha"
+        )
+
+    def show_orders(self, known: bool) -> None:
+        """The axis of orders, where the shaft's speed is known."""
+        self._order_axis.visible = known
+
+    def nothing(self) -> Sources:
+        """What to send where there is no spectrum."""
+        none = np.zeros(0)
+        sources: Sources = {"diagnosis_spectrum": dict.fromkeys(("frequency", "level"), none)}
+        for part in PARTS:
+            sources[_lines(part)] = dict.fromkeys(("frequency", "alpha", "width"), none)
+            sources[f"{_lines(part)}_names"] = dict.fromkeys(
+                ("frequency", "order", "row", "alpha"), none
+            )
+            sources[_sidebands(part)] = {"frequency": none}
+            sources[_points(part)] = dict.fromkeys(("frequency", "level"), none)
+        return sources
+
+    def data(self, diagnosis: Diagnosis, zoom: Zoom) -> tuple[Sources, Ranges]:
+        """What to send of a diagnosis that has a spectrum."""
+        spectrum = diagnosis.spectrum
+        assert spectrum is not None
+        low, high = window(diagnosis, zoom)
+        shaft = shaft_frequency(diagnosis)
+        sources = self.nothing()
+        drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
+        sources["diagnosis_spectrum"] = drawn
+        lead = leading(diagnosis)
+        for row, one in enumerate(diagnosis.evidence):
+            first = fundamental(diagnosis, one)
+            alpha = EVEN if lead is None else STRONG if one is lead else FAINT
+            multiples = np.arange(1.0, len(one.harmonics) + 1.0)
+            size = multiples.size
+            labels = named(multiples, first, low, high)
+            sources[_lines(one.part)] = {
+                "frequency": multiples * first,
+                "alpha": np.full(size, alpha),
+                "width": np.full(size, 2.2 if one is lead else 1.2),
+            }
+            sources[f"{_lines(one.part)}_names"] = {
+                "frequency": labels * first,
+                "order": labels,
+                "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
+                "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
+            }
+        if lead is not None:
+            sources |= self._of_lead(lead)
+        swells = drawn["frequency"] > 0.5 * shaft  # what drifts slowly is not what the scale is for
+        loudest = float(np.max(drawn["level"][swells], initial=10.0))
+        room = _ROW * (len(PARTS) + 0.8)
+        head = (loudest - LOWEST) * room / (1.0 - room)
+        return sources, {
+            "diagnosis_frequency": (low, high),
+            "diagnosis_order": (low / shaft, high / shaft),
+            "diagnosis_level": (LOWEST, self._levels.fit(np.array([LOWEST, loudest + head]))[1]),
+        }
+
+    def _of_lead(self, lead: PartEvidence) -> Sources:
+        """The marks on the harmonics of the part that leads, and its sidebands."""
+        multiples = np.arange(1.0, len(lead.harmonics) + 1.0)
+        sources: Sources = {
+            _points(lead.part): {
+                "frequency": multiples * lead.frequency,
+                "level": np.maximum(lead.harmonics, LOWEST),
+            }
+        }
+        if lead.part != "outer race":  # which stands still in the load and makes none
+            beside = np.array([-lead.sideband_spacing, lead.sideband_spacing])
+            both = multiples[:, None] * lead.frequency + beside
+            sources[_sidebands(lead.part)] = {"frequency": both.ravel()}
+        return sources
+
+
+def excerpt(
+    frequency: NDArray[np.float64], level: NDArray[np.float64], low: float, high: float
+) -> dict[str, NDArray[np.float64]]:
+    """A spectrum between two frequencies [Hz] with no more lines than can be seen; peaks stay."""
+    first, last = np.searchsorted(frequency, [low, high])
+    first, last = max(int(first) - 1, 0), min(int(last) + 1, frequency.size)
+    frequency, level = frequency[first:last], level[first:last]
+    size = math.ceil(frequency.size / MOST_LINES)
+    if size > 1:
+        n = frequency.size // size * size
+        frequency = frequency[:n].reshape(-1, size)[:, size // 2]
+        level = level[:n].reshape(-1, size).max(axis=1)
+    # between lines a level may be endlessly low: what is below the frame is at its foot
+    return {"frequency": frequency, "level": np.maximum(level, LOWEST)}
+
+
+def _key(part: str) -> str:
+    return part.replace(" ", "_")
+
+
+def _lines(part: str) -> str:
+    return f"diagnosis_{_key(part)}_lines"
+
+
+def _sidebands(part: str) -> str:
+    return f"diagnosis_{_key(part)}_sidebands"
+
+
+def _points(part: str) -> str:
+    return f"diagnosis_{_key(part)}_points"

@@ -1,0 +1,209 @@
+"""What a diagnosis says on the page: in a headline, in a sentence to pass on, in rows."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from bearing_explorer.figures import style
+from bearing_explorer.measurement.diagnoses import SLIP, Question
+from bearing_explorer.views.part_lines import COLORS, NAMES, leading
+from bearingcore import Diagnosis
+from bearingcore.diagnosis.evidence import NONE_SEEN, PartEvidence
+
+LIKELY = 0.9
+"""Probability from which a part is called damaged without a "probably"."""
+
+_OFTEN = {
+    "outer race": "as often as balls pass a point of the outer race",
+    "inner race": "as often as balls pass a point of the inner race",
+    "ball": "as often as a spot on a ball meets the two races",
+}
+_SWELLS = {
+    "shaft": ", louder and fainter with each turn of the shaft",
+    "cage": ", louder and fainter with each turn of the cage",
+}
+
+
+def the(part: str) -> str:
+    """A part in a sentence."""
+    return "a ball" if part == "ball" else f"the {part}"
+
+
+def mood(found: Diagnosis) -> str:
+    """Damage ("fault"), none ("healthy") or no answer ("unknown")."""
+    if found.names_a_part:
+        return "fault"
+    return "healthy" if found.fault == NONE_SEEN else "unknown"
+
+
+def headline(found: Diagnosis) -> str:
+    """The answer in a few words."""
+    if found.names_a_part:
+        words = the(found.fault)
+        probably = "" if found.probability >= LIKELY else "probably "
+        return f"{words[0].upper()}{words[1:]} is {probably}damaged"
+    return "No damage seen" if found.fault == NONE_SEEN else "It cannot be told"
+
+
+def percent(share: float) -> str:
+    """A probability in words: nothing is quite certain."""
+    if share > 0.985:
+        return "above 98 %"
+    return f"{100.0 * share:.0f} %" if share >= 0.005 else "below 1 %"
+
+
+def plain(found: Diagnosis) -> str:
+    """What was heard, in words that need no signal processing."""
+    if found.names_a_part:
+        one = found.of(found.fault)
+        swells = "" if one.part == "outer race" else _SWELLS[one.sideband_source]
+        return (
+            f"Something knocks {style.number(one.frequency, 4)} times a second, "
+            f"{_OFTEN[one.part]}{swells}."
+        )
+    if found.fault == NONE_SEEN:
+        return (
+            "Nothing in this signal repeats as a damaged outer race, inner race or ball would "
+            "make it. Damage whose knocks make the vibration swing by "
+            f"{swing(found.detectable_depth)} would have shown."
+        )
+    words = found.status.removeprefix("Cannot tell: ").partition(" Shaft speed ")[0]
+    return words[:1].upper() + words[1:]
+
+
+def swing(depth: float) -> str:
+    """A share of the envelope's mean."""
+    return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
+
+
+def duration(seconds: float) -> str:
+    """A time for a sentence."""
+    return f"{style.number(seconds, 2)} s"
+
+
+def turns(found: Diagnosis) -> str:
+    """The shaft's speed for a sentence; empty where none is known."""
+    if found.shaft_speed is None:
+        return ""
+    return f"{30.0 / math.pi * found.shaft_speed:.0f} turns a minute"
+
+
+def pass_on(found: Diagnosis, question: Question) -> str:
+    """What a technician can hand on."""
+    speed = turns(found)
+    at = f" at {speed}" if speed else ""
+    head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
+    if found.names_a_part:
+        one = found.of(found.fault)
+        return (
+            f"{head}{headline(found).lower()} (probability {percent(found.probability)}); knocks "
+            f"at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have the "
+            "bearing inspected, and measure again to see whether it grows."
+        )
+    if found.fault == NONE_SEEN:
+        return (
+            f"{head}no damage seen on outer race, inner race or balls (probability "
+            f"{percent(found.probability)}). Measure again at the usual time. This says nothing "
+            "about lubrication, balance or other bearings."
+        )
+    return f"{head}it cannot be told from this signal whether a part is damaged."
+
+
+def facts(found: Diagnosis, question: Question) -> list[list[str]]:
+    """On what the answer rests: [what, what it was taken to be]."""
+    bearing = question.bearing
+    angle = style.in_degrees(bearing.contact_angle)
+    speed = turns(found)
+    rows = [
+        ["Shaft", f"{speed}, {found.speed_source}" if speed else found.speed_source],
+        ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster"],
+        [
+            "Bearing",
+            f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 3)} mm on "
+            f"{style.number(1e3 * bearing.pitch_diameter, 4)} mm, contact angle {angle}",
+        ],
+    ]
+    if found.spectrum is not None:
+        low, high = found.spectrum.band
+        rows.append(["Heard in", f"{band(low, high)}, along {found.spectrum.direction}"])
+    return rows
+
+
+def band(low: float, high: float) -> str:
+    """A band [Hz] in kHz."""
+    return f"{style.number(1e-3 * low, 2)} to {style.number(1e-3 * high, 2)} kHz"
+
+
+def truth(question: Question) -> str:
+    """What a simulated signal is a signal of, and whether it is too quiet to be true."""
+    part = question.measured.true_part
+    if not part:
+        return ""
+    if part != "none":
+        return f" The signal is simulated: {the(part)} is damaged."
+    words = " The signal is simulated: the bearing is healthy."
+    if question.measured.noiseless:
+        words += (
+            " Without any noise even a healthy bearing's balls show as they pass under the load; "
+            "no machine is so quiet. Simulate it with noise."
+        )
+    return words
+
+
+def chance(false_alarm: float) -> str:
+    """How often noise alone would do as well."""
+    if false_alarm < 1e-4:
+        return "below 0.01 %"
+    if false_alarm > 0.995:
+        return "nearly always"
+    return f"{style.number(100.0 * false_alarm, 1 if false_alarm < 0.01 else 2)} %"
+
+
+def slip(value: float) -> str:
+    """A slip with its sign."""
+    text = f"{100.0 * value:+.1f} %"
+    return text.replace("-", "−").replace("+0.0", "0.0").replace("−0.0", "0.0")
+
+
+def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:
+    """The evidence of each part as the browser lists it."""
+    lead = leading(found)
+    return [_row(one, one is lead, lead is not None) for one in found.evidence]
+
+
+def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
+    near = one.sidebands[: len(one.sidebands) // 2]
+    own = "none are made" if one.part == "outer race" else decibels(float(near.mean()))
+    return {
+        "part": one.part,
+        "name": NAMES[one.part],
+        "color": style.css_color(COLORS[one.part]),
+        "leads": leads,
+        "order": f"{one.order:.3f}",
+        "nominal": f"{one.nominal_order:.3f}",
+        "frequency": f"{style.number(one.frequency, 4)} Hz",
+        "slip": slip(one.slip),
+        "harmonics": [
+            {
+                "order": k + 1,
+                "level": decibels(float(level)),
+                "clear": seen and bool(level > one.noise),
+            }
+            for k, level in enumerate(one.harmonics)
+        ],
+        "together": decibels(one.level),
+        "noise": decibels(one.noise),
+        "sidebands": own,
+        "spacing": ""
+        if one.part == "outer race"
+        else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
+        "band": band(one.band.low, one.band.high),
+        "direction": one.direction,
+        "chance": chance(one.false_alarm),
+    }
+
+
+def decibels(level: float) -> str:
+    """A level for a table."""
+    return f"{level:.0f}".replace("-0", "0").replace("-", "−")

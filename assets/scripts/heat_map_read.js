@@ -1,0 +1,14 @@
+// What stands under the pointer on a heat map: `wanted` is "x", "y" or "value". `say` is put in
+// front of this file: it makes words of the numbers of all `layers` in a cell.
+const at = place_on(image, stands, count, special_vars.x, special_vars.y)
+if (!at) return ""
+const number = (value) => String(Number(value.toPrecision(4))).replace("-", "\u2212")
+const words_of = (side) => {
+  const {words, unit} = sides[side.which]
+  return digits === null ? `${words}: ${number(side.middle)}${unit}`
+    : `${words} ${Math.max(0, side.value).toFixed(digits)}${unit}`
+}
+if (wanted == "x") return words_of(at.x)
+if (wanted == "y") return words_of(at.y)
+const cell = layers.map((layer) => layer.data.image[at.map][at.row*at.columns + at.column])
+return say(cell, at)

@@ -1,0 +1,62 @@
+"""Results that are kept for when they are asked for again, but no more bytes of them than agreed.
+
+`functools.lru_cache` counts results. Where one may be a hundred bytes and another sixteen
+megabytes, a count is no bound on memory.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar, cast
+
+P = ParamSpec("P")
+Found = TypeVar("Found")
+
+
+def kept(
+    most: int, most_bytes: int, size: Callable[..., int]
+) -> Callable[[Callable[P, Found]], Callable[P, Found]]:
+    """Keep what a function returns, by its arguments, the least recently used going first.
+
+    Parameters
+    ----------
+    most
+        results that are kept.
+    most_bytes
+        of all that is kept. What is larger than half of it is not kept at all.
+    size
+        bytes of a result and what it keeps alive: called with the result, then the arguments.
+    """
+
+    def around(function: Callable[P, Found]) -> Callable[P, Found]:
+        held: OrderedDict[Hashable, tuple[int, Any]] = OrderedDict()
+        lock = threading.Lock()
+        total = 0
+
+        @wraps(function)
+        def asked(*arguments: P.args, **named: P.kwargs) -> Found:
+            nonlocal total
+            key = (arguments, tuple(named.items()))
+            with lock:
+                if key in held:
+                    held.move_to_end(key)
+                    return cast(Found, held[key][1])
+            found = function(*arguments, **named)
+            bytes_ = size(found, *arguments, **named)
+            if 2 * bytes_ > most_bytes:
+                return found
+            with lock:
+                if key not in held:
+                    held[key] = (bytes_, found)
+                    total += bytes_
+                while len(held) > most or total > most_bytes:
+                    _, (gone, _) = held.popitem(last=False)
+                    total -= gone
+            return found
+
+        return asked
+
+    return around

@@ -1,0 +1,90 @@
+"""Combs: a line and its harmonics in the spectrum of an envelope.
+
+A comb's level is the mean of the decibels of its first HARMONICS lines without the loudest one:
+knocks that repeat show in several harmonics, so no single line may carry an answer, be it a tone,
+a shaft line or chance.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.signals.line_levels import LineLevels
+
+HARMONICS = 6
+COUNTED = 5
+"""Of the harmonics: all but the loudest."""
+
+FAINTEST, LOUDEST = -3.0, 40.0
+"""[dB] to which a line's level is cut."""
+
+_DRAWS = 40_000
+_TAIL = 0.005
+
+
+def harmonics(values: NDArray[np.float64], step: float, frequency: NDArray[np.float64],
+              count: int = HARMONICS) -> NDArray[np.float64]:  # fmt: skip
+    """The greatest value within one step of each harmonic: (count, len(frequency)).
+
+    Zero where a harmonic lies above the values' last frequency.
+    """
+    peak = values.copy()
+    np.maximum(peak[1:], values[:-1], out=peak[1:])
+    np.maximum(peak[:-1], values[1:], out=peak[:-1])
+    index = np.rint(np.outer(np.arange(1, count + 1), frequency / step)).astype(np.int64)
+    beyond = index >= len(peak)
+    found = peak[np.minimum(index, len(peak) - 1)]
+    found[beyond] = 0.0
+    return np.asarray(found)
+
+
+def without(levels: LineLevels, spacing: float, width: float) -> NDArray[np.float64]:
+    """Levels (m,) [dB], cut, with every multiple of `spacing` [Hz] put at 0 within `width` [Hz]."""
+    level = np.clip(levels.level, FAINTEST, LOUDEST)
+    if spacing > 0.0:
+        frequency = levels.step * np.arange(len(level))
+        away = np.abs(frequency - spacing * np.rint(frequency / spacing))
+        level[away <= width] = np.minimum(level[away <= width], 0.0)
+    return level
+
+
+def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Level [dB] of combs, the mean without the loudest line, from their lines (HARMONICS, n)."""
+    return np.asarray((lines.sum(axis=0) - lines.max(axis=0)) / (len(lines) - 1))
+
+
+def noise_chance(level: float, averages: float) -> float:
+    """How often the comb at one frequency reaches a level [dB] where there is only noise."""
+    sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)))
+    if level >= edge:
+        return float(_TAIL * np.exp(-(level - edge) / scale))
+    return float(1.0 - np.searchsorted(sorted_levels, level) / len(sorted_levels))
+
+
+def noise_level(chance: float, averages: float) -> float:
+    """The level [dB] that noise reaches with a small chance in the comb at one frequency."""
+    sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)))
+    if chance <= _TAIL:
+        return float(edge + scale * np.log(_TAIL / chance))
+    return float(np.quantile(sorted_levels, 1.0 - min(chance, 1.0)))
+
+
+@lru_cache(maxsize=256)
+def _noise(quarters: int) -> tuple[NDArray[np.float64], float, float]:
+    """Sorted comb levels of noise, and the tail: its edge and the decibels in which it falls by e.
+
+    A line's power is a mean of so many quarters of independent spectra, the greatest of three
+    neighbours at half the resolution, which is that of 1.8 independent ones.
+    """
+    averages = 0.25 * quarters
+    rng = np.random.default_rng(quarters)
+    draws = rng.gamma(averages, 1.0 / averages, (2, HARMONICS, _DRAWS))
+    greater = np.where(rng.random((HARMONICS, _DRAWS)) < 0.8, draws.max(axis=0), draws[0])
+    lines = np.clip(10.0 * np.log10(np.maximum(greater, 1e-12)), FAINTEST, LOUDEST)
+    levels = np.sort(comb_level(lines))
+    count = round(_TAIL * _DRAWS)
+    edge = float(levels[-count])
+    return levels, edge, float((levels[-count:] - edge).mean())

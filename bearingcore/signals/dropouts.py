@@ -1,0 +1,54 @@
+"""What is wrong with a signal itself: dropouts, clipping, single blows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+LEAST_RUN = 16
+"""Equal samples in a row from which a sensor is taken to have dropped out."""
+
+LEAST_RUN_AT_RAIL = 256
+"""The same at the greatest or least value, where a clipped swing stays for a while too."""
+
+RAIL = 1e-6
+"""Of the greatest swing: samples this close to an extreme are at it."""
+
+
+@dataclass(frozen=True)
+class SignalFaults:
+    """What is wrong with one direction of a recording.
+
+    Attributes
+    ----------
+    dropped : (n,) bool
+        samples inside a run of equal numbers.
+    dropped_share
+        of the samples, 0 to 1.
+    clipped_share
+        of the samples that lie at the greatest or least value, where several in a row do.
+    """
+
+    dropped: NDArray[np.bool_] = field(repr=False)
+    dropped_share: float
+    clipped_share: float
+
+
+def signal_faults(samples: NDArray[np.float64]) -> SignalFaults:
+    """Dropouts and clipping of a signal (n,)."""
+    same = np.diff(samples) == 0.0
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], same.view(np.int8), [0]))))
+    begins, ends = edges[::2], edges[1::2]  # runs of equal neighbours: samples begin .. end
+    dropped = np.zeros(len(samples), dtype=bool)
+    low, high = float(samples.min()), float(samples.max())
+    near = RAIL * (high - low)
+    clipped = 0
+    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
+        at_rail = samples[begin] <= low + near or samples[begin] >= high - near
+        if end - begin + 1 >= (LEAST_RUN_AT_RAIL if at_rail else LEAST_RUN):
+            dropped[begin : end + 1] = True
+        elif at_rail:
+            clipped += end - begin + 1
+    return SignalFaults(dropped, float(dropped.mean()), clipped / len(samples))

@@ -1,0 +1,225 @@
+"""How often a column of times says that was sampled, and what is wrong with it.
+
+Printed times are rounded, clocks jump, loggers leave rows out. A rate that is still known is
+proposed; rows after a jump are not joined to those before it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.signals.recording import FEWEST_SAMPLES
+
+UNEVEN = 0.5
+"""How far times may stray from even steps, in steps: printed ones are rounded, but they do not
+wander."""
+
+JUMP = 1.5
+"""Steps longer than this many usual ones leave samples out."""
+
+SHARED = 0.2
+"""Share of rows with the time of the row before, from which on times are rounded to over a step."""
+
+_CUSTOMARY = (
+    *(base * 10.0**power for base in (1.0, 2.0, 2.5, 4.0, 5.0, 8.0) for power in range(1, 6)),
+    *(base * 2.0**power for base in (1e2, 1e3, 1.024e3, 6e2) for power in range(0, 11)),
+    *(11_025.0 * factor for factor in (1, 2, 4, 8)),
+    12e3, 24e3, 48e3, 96e3, 192e3, 384e3, 97_656.25, 48_828.125, 50e3, 65_536.0,
+)  # fmt: skip
+"""[Hz] rates that recorders have."""
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """What a column of times says.
+
+    Attributes
+    ----------
+    sample_rate
+        [Hz], None where there is none.
+    told
+        whether the times say so themselves; else it is a proposal.
+    first, last
+        the rows (last excluded) of the longest part without a jump.
+    trouble
+        a sentence on what is wrong with the times; empty where nothing is.
+    reason
+        how the rate was found, in a few words.
+    """
+
+    sample_rate: float | None
+    told: bool
+    first: int
+    last: int
+    trouble: str = ""
+    reason: str = "the time column"
+
+
+def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
+    """What a column of times says, in `unit` [s]."""
+    n = len(time)
+    if not np.isfinite(time).all():
+        return Sampling(None, False, 0, n, "There are gaps in the time column.")
+    with np.errstate(over="ignore"):
+        steps = np.diff(time)
+    if not np.isfinite(steps).all():
+        return Sampling(None, False, 0, n, "The time column is out of all bounds.")
+    if n < 3 or not (steps > 0.0).any():
+        return Sampling(None, False, 0, n, "The time column does not rise.")
+    even = _even(time)
+    if even is not None:
+        return Sampling(_customary(*even, unit, n), True, 0, n)
+    rounded = _rounded(time, steps)
+    if rounded is not None:
+        return _told_rounded(rounded, time, unit)
+    return _with_jumps(time, steps, unit)
+
+
+def _even(time: NDArray[np.float64]) -> tuple[float, float] | None:
+    """Rate and its error, in the column's unit, of times in even steps, or None."""
+    n = len(time)
+    step = float(time[-1] - time[0]) / (n - 1)
+    if n < 3 or step <= 0.0:
+        return None
+    stray = np.abs(time - (time[0] + step * np.arange(n)))
+    if stray.max() > UNEVEN * step:
+        return None
+    # the ends are rounded by no more than what strays in between
+    return 1.0 / step, 2.0 * float(stray.max()) / (step * step * (n - 1))
+
+
+def _customary(rate: float, error: float, unit: float, n: int) -> float:
+    """The customary rate [Hz] inside the error that rounding makes, else the rate itself.
+
+    Times that are printed exactly stay as they are: clocks may well be off.
+    """
+    rate, error = rate / unit, error / unit
+    if error * n <= 0.02 * rate:
+        return rate  # rounding moves no time by as much as a fiftieth of a step
+    near = min(_CUSTOMARY, key=lambda known: abs(known - rate))
+    return near if abs(near - rate) <= 1.2 * error else rate
+
+
+def _rounded(time: NDArray[np.float64], steps: NDArray[np.float64]) -> float | None:
+    """What times were rounded to where this is more than a step, else None."""
+    if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
+        return None
+    grain = float(steps[steps > 0.0].min())
+    step = float(time[-1] - time[0]) / (len(time) - 1)
+    stray = np.abs(time - (time[0] + step * np.arange(len(time))))
+    return grain if stray.max() <= 1.01 * grain else None
+
+
+def _told_rounded(grain: float, time: NDArray[np.float64], unit: float) -> Sampling:
+    n = len(time)
+    rate = (n - 1) / float(time[-1] - time[0])
+    error = 2.0 * rate * grain / float(time[-1] - time[0])
+    near = min(_CUSTOMARY, key=lambda known: abs(known - rate / unit))
+    if abs(near - rate / unit) <= error / unit:
+        rate = near * unit
+    shared = round(grain * rate)
+    told = f"about {shared} rows share one" if shared > 1 else "some rows share one"
+    trouble = (
+        f"The times are rounded to {grain * unit:.2g} s, so that {told}: over all rows it is "
+        f"{rate / unit:.6g} Hz, give or take {error / unit:.2g} Hz, and shorter gaps than that "
+        "would not show."
+    )
+    return Sampling(rate / unit, False, 0, n, trouble, "the rounded time column")
+
+
+def _with_jumps(time: NDArray[np.float64], steps: NDArray[np.float64], unit: float) -> Sampling:
+    """Times that jump: the longest part between two jumps."""
+    n = len(time)
+    usual = float(np.median(steps[steps > 0.0]))
+    shared = np.mean(steps == 0.0) >= SHARED
+    jumps = np.flatnonzero((steps > JUMP * usual) | (steps < 0.0 if shared else steps <= 0.0))
+    if jumps.size:
+        edges = np.concatenate([[0], jumps + 1, [n]])
+        longest = int(np.diff(edges).argmax())
+        first, last = int(edges[longest]), int(edges[longest + 1])
+        part = time[first:last]
+        if last - first >= FEWEST_SAMPLES:
+            said = _jumps(steps, jumps, usual, first, last, shared)
+            even = _even(part)
+            if even is not None:
+                rate = _customary(*even, unit, last - first)
+                return Sampling(rate, True, first, last, said)
+            grain = _rounded(part, np.diff(part))
+            if grain is not None:
+                told = _told_rounded(grain, part, unit)
+                trouble = f"{said} {told.trouble}"
+                return Sampling(told.sample_rate, False, first, last, trouble, told.reason)
+    low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
+    mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
+    trouble = (
+        f"The times do not rise evenly (steps of {low * unit:.3g} to {high * unit:.3g} s), so "
+        f"frequencies cannot be told from them; in the mean it would be {mean / unit:.6g} Hz."
+    )
+    return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
+
+
+def _jumps(
+    steps: NDArray[np.float64],
+    jumps: NDArray[np.intp],
+    usual: float,
+    first: int,
+    last: int,
+    shared: bool,
+) -> str:
+    """What is said of jumps; where rows share times nobody knows how many samples are missing."""
+    back = int((steps[jumps] <= 0.0).sum())
+    with np.errstate(over="ignore"):
+        missing = float(np.maximum(np.round(steps[jumps] / usual) - 1.0, 0.0).sum())
+    times = "once" if jumps.size == 1 else f"{jumps.size} times"
+    told = f"The times jump {times}, first after row {jumps[0] + 1}"
+    remarks = []
+    if missing > 0.0 and not shared:
+        remarks.append(f"{missing:.0f} sample{'s are' if missing > 1.0 else ' is'} missing")
+    if back:
+        remarks.append("back" if back == jumps.size else f"{back} times back")
+    told += f" ({', '.join(remarks)})" if remarks else ""
+    return (
+        f"{told}. Only the longest part without a jump is used: rows {first + 1} to {last} of "
+        f"{len(steps) + 1}."
+    )
+
+
+def clock_columns(columns: NDArray[np.float64]) -> int:
+    """How many columns, from the first on, are hours, minutes, seconds (and parts of a second).
+
+    4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
+    0 where the first columns are something else.
+    """
+    if columns.shape[1] < 4:
+        return 0
+    hour, minute, second = columns[:, :3].T
+    if not np.isfinite(columns[:, :3]).all():
+        return 0
+    whole = all(np.array_equal(part, np.floor(part)) for part in (hour, minute))
+    inside = min(hour.min(), minute.min(), second.min()) >= 0.0
+    if not whole or not inside or hour.max() > 23 or minute.max() > 59 or second.max() >= 60.0:
+        return 0
+    if np.array_equal(second, np.floor(second)):
+        part = columns[:, 3]
+        if columns.shape[1] < 5 or not np.isfinite(part).all() or part.min() < 0.0:
+            return 0
+        many = 0.0 <= part.max() < 1e6 and part.max() > 60.0
+        return 4 if many and np.mean(np.diff(part) > 0.0) > 0.9 else 0
+    return 3 if np.mean(np.diff(second) > 0.0) > 0.9 else 0
+
+
+def clock_time(columns: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Seconds since the first row of `count` columns that `clock_columns` found."""
+    hour, minute, second = columns[:, :3].T
+    whole = 3600.0 * hour + 60.0 * minute + second
+    whole = whole + 86_400.0 * np.concatenate(
+        [[0.0], np.cumsum(np.diff(whole) < -43_200.0)]
+    )  # midnight
+    time = whole - whole[0]
+    if count == 4:
+        part = columns[:, 3]
+        time = time + (1e-3 if part.max() < 1e3 else 1e-6) * (part - part[0])
+    return np.asarray(time)

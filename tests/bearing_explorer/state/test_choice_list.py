@@ -1,0 +1,70 @@
+"""The table of choices: it says what the core knows, and what a scene has."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from bearing_explorer.state.address import place_of, read, write
+from bearing_explorer.state.choice_list import (
+    CHOICE_LIST,
+    CHOICES,
+    OF_DEFECT,
+    OF_SCENE,
+    Choice,
+    chosen_of,
+)
+from bearing_explorer.state.quantity_list import QUANTITY_LIST
+from bearing_explorer.state.scene_editor import SceneEditor
+
+from bearingcore import CONTACT_LAWS, EDGES, RACES, Defect, RoughFloor, presets
+
+FAN_RIG = presets["fan-rig"]
+
+
+def test_every_option_of_the_core_can_be_chosen() -> None:
+    assert CHOICES["race"].names == RACES
+    assert CHOICES["edge"].names == EDGES
+    assert CHOICES["law"].names == CONTACT_LAWS
+    assert CHOICES["preset"].names == tuple(presets)
+
+
+def test_names_are_not_those_of_numbers_and_options_have_sentences() -> None:
+    names = [choice.name for choice in CHOICE_LIST]
+    assert len(set(names)) == len(names)
+    assert not set(names) & {quantity.name for quantity in QUANTITY_LIST}
+    for choice in CHOICE_LIST:
+        assert len(set(choice.names)) == len(choice.names) > 1
+        assert all(option.label and option.about.endswith(".") for option in choice.options)
+
+
+@pytest.mark.parametrize("choice", [*OF_SCENE, *OF_DEFECT], ids=lambda choice: choice.name)
+def test_what_is_chosen_is_in_the_scene_the_link_and_back(choice: Choice) -> None:
+    for option in choice.options:
+        editor = SceneEditor("fan-rig")
+        assert editor.choose({choice.name: option.name}) == {}
+        assert chosen_of(editor.scene)[choice.name] == option.name
+        assert editor.state()["choices"][choice.name] == option.name
+        place = read(write(place_of(editor)))
+        assert place is not None
+        assert place.scene == editor.scene
+
+
+def test_a_scene_has_what_it_was_made_with() -> None:
+    rough = Defect(
+        math.radians(10.0),
+        5e-5,
+        0.5 * math.pi,
+        race="inner",
+        edge="exact",
+        floor=RoughFloor(1e-6, 1e-4),
+    )
+    scene = FAN_RIG.replace(defect=(FAN_RIG.defects[0], rough), contact_law="no tension")
+    assert chosen_of(scene, 1) == {
+        "race": "inner",
+        "edge": "exact",
+        "floor": "rough",
+        "law": "no tension",
+        "numbers": "direct",
+    }
+    assert chosen_of(scene)["race"] == "outer"

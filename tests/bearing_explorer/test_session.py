@@ -1,0 +1,217 @@
+"""A session without a browser: what its messages do, and that strangers' messages do nothing."""
+
+import asyncio
+import math
+from collections.abc import Callable
+
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.session import Explorer
+
+from bearingcore import presets
+from tests.helpers.loops import run
+from tests.helpers.sections import SECTIONS
+
+
+@pytest.fixture
+def news(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
+    """What the controls were shown."""
+    news: list[dict] = []
+    monkeypatch.setattr(
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
+    )
+    return news
+
+
+def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
+    """A session in which `acts` happened and all was drawn, also for the hand's `rest`."""
+
+    async def live() -> Explorer:
+        explorer = Explorer(SECTIONS)
+        explorer.draw()
+        await idle(explorer)
+        for act in acts:
+            act(explorer)
+            await idle(explorer)
+        while rest and not explorer._idle_task.idle:
+            await asyncio.sleep(0.002)
+        await idle(explorer)
+        return explorer
+
+    async def idle(explorer: Explorer) -> None:
+        while not explorer._worker.idle:
+            await asyncio.sleep(0.002)
+
+    return run(live())
+
+
+def drawn(explorer: Explorer, section: str) -> list[float]:
+    return explorer._views[section][0].drawn  # type: ignore[attr-defined]
+
+
+def test_a_slider_reaches_the_view(news: list[dict]) -> None:
+    explorer = session(lambda e: e._asked({"mark": 4, "set": {"depth_um": 80}}))
+    assert explorer.scene.defect.depth == pytest.approx(80e-6)
+    assert drawn(explorer, "one")[-1] == explorer.scene.defect.depth
+    assert explorer._drawn_mark == 4
+    assert news == [], "a control that moved itself is not moved again"
+    assert explorer._views["one"][0].csv() == "depth_m\n8e-05\n"
+    assert explorer.status.line["mood"] == "good"
+
+
+def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
+    explorer = session(lambda e: e._asked({"mark": 1, "set": {"depth_um": 80}}))
+    assert "two" not in explorer._views
+    shown = session(lambda e: e._tab_asked({"show": "two"}))
+    assert drawn(shown, "two") == [pytest.approx(50e-6)], "a view that appears is up to date"
+    assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
+
+
+def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:
+    explorer = session(lambda e: e._asked({"mark": 1, "typed": {"extent_deg": "33,5"}}))
+    assert explorer.values["extent_deg"] == 33.5
+    assert len(news) == 1
+    assert news[0]["state"]["values"] == {"extent_deg": 33.5}
+    news.clear()
+    before = presets["fan-rig"]
+    explorer = session(lambda e: e._asked({"mark": 9, "typed": {"extent_deg": "500"}}))
+    assert explorer.scene.defect.extent == pytest.approx(before.defect.extent)
+    assert list(news[0]["refused"]) == ["extent_deg"]
+    assert explorer._drawn_mark == 9, "a refusal is answered too, or the browser would wait"
+
+
+def test_what_the_scene_refuses_stays_as_it_was(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise ValueError("extent is 3; allowed: less")
+
+    def act(explorer: Explorer) -> None:
+        monkeypatch.setattr("bearing_explorer.state.scene_editor.scene_with_fields", refuse)
+        explorer._asked({"mark": 1, "set": {"extent_deg": 40}})
+
+    explorer = session(act)
+    assert explorer.values["extent_deg"] == pytest.approx(12.9)
+    assert "allowed: less" in news[0]["refused"]["extent_deg"]
+
+
+def test_choosing_a_preset_brings_its_values_and_ranges(news: list[dict]) -> None:
+    explorer = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "liew-lim"}}))
+    assert explorer.scene.bearing == presets["liew-lim"].bearing
+    assert news[0]["state"]["values"]["fy_n"] == -2000
+    assert news[0]["state"]["limits"]["fy_n"]["most"] >= 2000
+    explorer = session(lambda e: e._asked({"mark": 1, "choose": {"edge": "exact"}}))
+    assert explorer.scene.defect.edge == "exact"
+
+
+def test_reset_brings_the_preset_back(news: list[dict]) -> None:
+    def act(explorer: Explorer) -> None:
+        explorer._asked({"mark": 1, "set": {"extent_deg": 90}})
+        explorer._asked({"mark": 2, "reset": True})
+
+    explorer = session(act)
+    assert explorer.values["extent_deg"] == pytest.approx(12.9)
+    assert news[-1]["state"]["values"]["extent_deg"] == pytest.approx(12.9)
+
+
+@pytest.mark.parametrize(
+    ("depth_um", "words"), [(400, "more than this view can show"), (5, "could not be computed")]
+)
+def test_a_view_that_fails_says_so_and_keeps_its_picture(
+    news: list[dict], depth_um: float, words: str
+) -> None:
+    explorer = session(lambda e: e._asked({"mark": 3, "set": {"depth_um": depth_um}}))
+    view = explorer._views["one"][0]
+    assert words in view._sentence.text
+    assert "Traceback" not in view._sentence.text
+    assert "a bug" not in view._sentence.text
+    assert view.csv() == "depth_m\n5e-05\n", "the table is that of the picture"
+    assert explorer._drawn_mark == 3
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        "set",
+        [1],
+        {},
+        {"mark": "x", "set": {"extent_deg": {}}},
+        {"mark": -1, "set": {"nothing": 1}},
+        {"mark": 1e99, "set": {1: 2, None: 3}},
+        {"set": {f"extent_{i}": i for i in range(1000)}},
+        {"choose": {"preset": ["fan-rig"], "edge": {"exact": 1}}},
+        {"choose": {"preset": "../../etc/passwd"}},
+        {"typed": {"extent_deg": "9" * 100000}},
+        {"reset": "yes"},
+        {"floor": "1 2"},
+        {"floor": {"name": 5, "text": "1 2\n3 4"}},
+        {"floor": {"name": "x", "text": ["1 2"]}},
+        {"floor": {}},
+        {"choose": {"defect": ["add"], "dofs": {"x": 1}, "race": 7, "numbers": "none"}},
+        {"set": {"n_balls": -5, "ball_diameter_mm": {}, "stiffness_x": "", "seed": "1e99"}},
+    ],
+)
+def test_strangers_messages_change_nothing(news: list[dict], message: object) -> None:
+    explorer = session(lambda e: e._asked(message))
+    untouched = session(lambda e: None)
+    assert explorer.scene == untouched.scene
+    assert explorer.inputs.mark == 0
+
+
+@pytest.mark.parametrize("message", [None, {}, {"show": "nowhere"}, {"show": ["one"]}, 5])
+def test_strangers_tabs_do_not_exist(news: list[dict], message: object) -> None:
+    assert session(lambda e: e._tab_asked(message))._shown == "one"
+
+
+def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> None:
+    text = "250 0\n265 60\n280 0\n"
+
+    async def live(text: str) -> Explorer:
+        explorer = Explorer(SECTIONS)
+        explorer._asked({"mark": 2, "floor": {"name": "wear.txt", "text": text}})
+        while explorer._tasks or not explorer._worker.idle:
+            await asyncio.sleep(0.002)
+        return explorer
+
+    explorer = run(live(text))
+    assert explorer.scene.defect.floor is not None
+    assert explorer.values["extent_deg"] == pytest.approx(30.0)
+    assert news[-1]["state"]["floor"]["words"] == "wear.txt: 3 points"
+    assert drawn(explorer, "one")[-1] == pytest.approx(60e-6)
+    explorer = run(live("nothing"))
+    assert explorer.scene == presets["fan-rig"]
+    assert news[-1]["state"]["floor"]["bad"]
+
+
+def test_what_is_shown_names_the_change_it_answers(news: list[dict]) -> None:
+    """The browser passes over it where a hand has moved on meanwhile."""
+    session(lambda e: e._asked({"mark": 7, "typed": {"extent_deg": "20"}}))
+    assert news[-1]["state"]["mark"] == 7
+
+
+def test_limits_are_looked_at_when_the_hand_rests(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looked: list[float] = []
+    real = Results.limits.func
+
+    def looking(results: Results) -> object:
+        looked.append(results.scene.load.fy)
+        return real(results)
+
+    monkeypatch.setattr(Results.limits, "func", looking)
+    monkeypatch.setattr("bearing_explorer.session._LIMITS_EVERY", math.inf)
+    calm = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}}), rest=True)
+    assert {row["state"] for row in calm.limits.rows} == {"kept"}
+    looked.clear()
+    heavy = session(
+        *(
+            lambda e, fy=fy: e._asked({"mark": 1, "typed": {"fy_n": f"{fy}"}})
+            for fy in (-120, -130, -140, -20000)
+        ),
+        rest=True,
+    )
+    assert heavy.limits.rows[0]["state"] == "crossed"
+    assert looked[-1] == -20000.0
+    assert not {-130.0, -140.0} & set(looked), "not while it moves"

@@ -1,0 +1,501 @@
+"""The Diagnosis tab: the part marked, its lines, the evidence, and what is said about it."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import io
+import math
+import re
+import time
+from functools import cache
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from bearing_explorer.compute.results import Results
+from bearing_explorer.measurement import diagnoses
+from bearing_explorer.measurement.background import true_part
+from bearing_explorer.measurement.diagnoses import SLIP, Diagnoses, Question, answered
+from bearing_explorer.measurement.session import read_file, simulated
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.session import Explorer
+from bearing_explorer.state.address import read
+from bearing_explorer.views import part_words
+from bearing_explorer.views.diagnosis import BUSY, PartDiagnosis, panel_state
+from bearing_explorer.views.part_lines import (
+    FAINT,
+    LOWEST,
+    MOST_LINES,
+    STRONG,
+    Zoom,
+    excerpt,
+    named,
+    window,
+)
+from scipy.io import wavfile
+
+from bearingcore import Diagnosis, Recording, Scene, presets
+from tests.bearing_explorer.measuring import measuring
+
+mpl.use("agg")
+
+MOTOR = presets["6205"]
+RESULTS = Results(MOTOR)
+SCENES = {
+    "outer race": MOTOR,
+    "inner race": MOTOR.replace(race="inner"),
+    "none": MOTOR.replace(extent=0.0),
+}
+TURN = 2.0 * math.pi
+
+
+@cache
+def heard(truth: str, noise_db: float = 20.0) -> Measured:
+    return simulated(SCENES[truth], noise_db, False, 1)
+
+
+@cache
+def diagnosed(truth: str, noise_db: float = 20.0) -> Diagnosis:
+    found = answered(Question.about(heard(truth, noise_db), MOTOR.bearing))
+    assert isinstance(found, Diagnosis)
+    return found
+
+
+def asked(truth: str) -> Question:
+    return Question.about(heard(truth), MOTOR.bearing)
+
+
+def view_of(measured: Measured | None = None, answer: Diagnosis | str | None = None):
+    view = PartDiagnosis(PackedSource())
+    view.measure(measuring(measured))
+    if measured is not None and answer is not None:
+        view.measurement.diagnoses.keep(Question.about(measured, MOTOR.bearing), answer)
+    return view
+
+
+def shown(truth: str):
+    """A view that knows its answer and has said it."""
+    view = view_of(heard(truth), diagnosed(truth))
+    view.data(RESULTS)
+    view.say(RESULTS, view.sentence(RESULTS))
+    return view
+
+
+# -- the answer ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("truth", "mood", "headline"),
+    [
+        ("outer race", "fault", "The outer race is damaged"),
+        ("inner race", "fault", "The inner race is damaged"),
+        ("none", "healthy", "No damage seen"),
+    ],
+)
+def test_the_part_is_named_and_marked(truth, mood, headline):
+    view = shown(truth)
+    state = view.part.state
+    assert (state["mood"], state["headline"]) == (mood, headline)
+    assert state["part"] == ("" if truth == "none" else truth)
+    assert state["bearing"]["n_balls"] == 9
+    assert view._seen.visible
+    assert view._caption.figures
+    rests = dict(state["facts"])
+    assert rests["Slip"] == "balls up to 2 % slower or faster"
+    assert rests["Bearing"].startswith("9 balls of 7.94 mm on 39.04 mm")
+    assert "turns a minute" in rests["Shaft"]
+    sentence = view.sentence(RESULTS)
+    assert diagnosed(truth).status in sentence
+    truthful = "the bearing is healthy" if truth == "none" else f"the {truth} is damaged"
+    assert f"The signal is simulated: {truthful}." in sentence
+
+
+@pytest.mark.parametrize("truth", list(SCENES))
+def test_words_have_sensible_digits_and_nothing_is_certain(truth):
+    state = panel_state(asked(truth), diagnosed(truth))
+    words = " ".join(
+        [
+            *(str(state[key]) for key in ("headline", "probability", "plain", "pass_on")),
+            *(" ".join(row) for row in state["facts"]),
+            str(part_words.evidence_rows(diagnosed(truth))),
+        ]
+    )
+    assert not re.search(r"100 %|nan|inf\b|no value|None|e-\d|\d\.\d{4}", words), words
+    assert "±" not in state["pass_on"]
+
+
+def test_a_healthy_machine_is_told_so_in_words_to_pass_on():
+    words = panel_state(asked("none"), diagnosed("none"))["pass_on"]
+    assert "no damage seen on outer race, inner race or balls" in words
+    assert "1797 turns a minute" in words
+    assert "Measure again at the usual time." in words
+
+
+def test_a_part_that_is_hardly_told_is_only_probably_damaged():
+    found = dataclasses.replace(diagnosed("inner race"), probability=0.8)
+    assert part_words.headline(found) == "The inner race is probably damaged"
+    ball = dataclasses.replace(diagnosed("inner race"), fault="ball")
+    assert part_words.headline(ball) == "A ball is damaged"
+    assert "spot on a ball" in part_words.plain(ball)
+    assert panel_state(asked("inner race"), ball)["part"] == "ball"
+
+
+def test_nothing_is_marked_where_it_cannot_be_told():
+    short = Measured(Recording(heard("none").recording.acceleration[:1200], 25_600.0), TURN * 29.95)
+    found = answered(Question.about(short, MOTOR.bearing))
+    assert isinstance(found, Diagnosis)
+    view = view_of(short, found)
+    sources, ranges = view.data(RESULTS)
+    assert not ranges
+    assert all(not column.size for columns in sources.values() for column in columns.values())
+    view.say(RESULTS, view.sentence(RESULTS))
+    state = view.part.state
+    assert (state["mood"], state["part"], state["probability"]) == ("unknown", "", "")
+    assert state["headline"] == "It cannot be told"
+    assert "ball passes" in state["plain"]
+    assert not view._seen.visible  # no empty figures
+    assert not view._caption.figures
+    assert view.evidence.rows == []
+
+
+def test_a_refusal_is_a_sentence():
+    still = Measured(heard("none").recording, 0.0)
+    answer = answered(Question.about(still, MOTOR.bearing))
+    assert isinstance(answer, str)
+    assert "shaft speed" in answer
+    view = view_of(still, answer)
+    assert view.sentence(RESULTS) == answer
+    view.say(RESULTS, answer)
+    assert view.part.state["plain"] == answer
+
+
+def test_too_quiet_a_simulation_is_called_so():
+    question = Question.about(heard("none", math.inf), MOTOR.bearing)
+    assert "no machine is so quiet" in part_words.truth(question)
+    assert "quiet" not in part_words.truth(asked("none"))
+    measured = Measured(heard("none").recording, 1.0)
+    assert part_words.truth(Question.about(measured, MOTOR.bearing)) == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "value", "said"),
+    [
+        (part_words.percent, 0.99, "above 98 %"),
+        (part_words.percent, 0.93, "93 %"),
+        (part_words.percent, 0.001, "below 1 %"),
+        (part_words.chance, 1e-9, "below 0.01 %"),
+        (part_words.chance, 0.004, "0.4 %"),
+        (part_words.chance, 0.43, "43 %"),
+        (part_words.chance, 0.999, "nearly always"),
+        (part_words.slip, 0.0123, "+1.2 %"),
+        (part_words.slip, -0.0049, "−0.5 %"),
+        (part_words.slip, -0.0001, "0.0 %"),
+        (part_words.decibels, -0.4, "0"),
+        (part_words.decibels, -3.4, "−3"),
+    ],
+)
+def test_numbers_in_words(words, value, said):
+    assert words(value) == said
+
+
+# -- the lines -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("truth", ["outer race", "inner race"])
+def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry_has_them(truth):
+    found = diagnosed(truth)
+    sources, ranges = view_of(heard(truth), found).data(RESULTS)
+    for one in found.evidence:
+        key = one.part.replace(" ", "_")
+        lines = sources[f"diagnosis_{key}_lines"]
+        own = one.part == truth
+        first = one.frequency if own else one.nominal_frequency
+        np.testing.assert_allclose(lines["frequency"], first * np.arange(1, 7))
+        assert (lines["alpha"] == (STRONG if own else FAINT)).all()
+        assert bool(sources[f"diagnosis_{key}_points"]["frequency"].size) == own
+        beside = sources[f"diagnosis_{key}_sidebands"]["frequency"]
+        assert bool(beside.size) == (own and truth == "inner race")
+    own = found.of(truth)
+    points = sources[f"diagnosis_{truth.replace(' ', '_')}_points"]
+    np.testing.assert_allclose(points["level"], own.harmonics)
+    spectrum = sources["diagnosis_spectrum"]
+    at = np.abs(spectrum["frequency"] - own.frequency).argmin()
+    assert spectrum["level"][at - 2 : at + 3].max() > own.noise + 5.0
+    low, high = ranges["diagnosis_frequency"]
+    assert (low, high > 6.0 * found.of("inner race").nominal_frequency) == (0.0, True)
+    orders = ranges["diagnosis_order"]
+    assert orders[1] == pytest.approx(high / 29.95, rel=0.01)
+    assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
+
+
+def test_without_damage_no_part_leads():
+    sources, _ = view_of(heard("none"), diagnosed("none")).data(RESULTS)
+    for key in ("outer_race", "inner_race", "ball"):
+        assert not sources[f"diagnosis_{key}_points"]["frequency"].size
+        assert not sources[f"diagnosis_{key}_sidebands"]["frequency"].size
+        assert len(set(sources[f"diagnosis_{key}_lines"]["alpha"])) == 1
+    assert not any(row["leads"] for row in part_words.evidence_rows(diagnosed("none")))
+
+
+def test_a_zoom_shows_a_line_with_what_stands_beside_it():
+    found = diagnosed("inner race")
+    one = found.of("inner race")
+    low, high = window(found, Zoom("inner race", 2))
+    assert low < 2.0 * one.frequency - one.sideband_spacing
+    assert high > 2.0 * one.frequency + one.sideband_spacing
+    assert high - low < one.frequency
+    view = view_of(heard("inner race"), found)
+    view._asked({"zoom": ["inner race", 2]})
+    assert view.data(RESULTS)[1]["diagnosis_frequency"] == (low, high)
+    view.say(RESULTS, "")
+    assert view.evidence.looked == "inner race 2"
+    assert view.panel_of_look.values["zoom"] == "inner race"
+    view._asked({"zoom": ["inner race", 2]})  # once more: back to all
+    assert view.zoom == Zoom()
+    view._asked({"look": {"zoom": "ball"}})
+    assert view.zoom == Zoom("ball")
+    view._asked({"look": {"zoom": ""}})
+    assert view.data(RESULTS)[1]["diagnosis_frequency"][0] == 0.0
+
+
+def test_what_the_browser_asks_for_is_judged():
+    view = shown("outer race")
+    for junk in (
+        None, 3, {}, {"look": 3}, {"look": {"speed": "fast", "zoom": 3}}, {"look": {"speed": []}},
+        {"zoom": "ball"}, {"zoom": ["cage", 1]}, {"zoom": ["ball", True]}, {"zoom": [[], 1]},
+        {"zoom": ["ball", "1"]},
+    ):  # fmt: skip
+        view._asked(junk)
+        assert (view.speed, view.zoom) == ("given", Zoom())
+    view._asked({"zoom": ["ball", 10**9]})
+    assert view.zoom == Zoom("ball", 6)
+    view._asked({"look": {"speed": "unknown"}})
+    assert view.question(MOTOR.bearing).shaft_speed is None
+    view._asked({"look": {"speed": "rough"}})
+    low, high = view.question(MOTOR.bearing).shaft_speed
+    assert low < heard("outer race").shaft_speed < high
+
+
+@pytest.mark.parametrize("first", [3.0, 40.3, 107.4, 162.2, 900.0])
+@pytest.mark.parametrize("low", [0.0, 100.0])
+@pytest.mark.parametrize("high", [150.0, 1000.0])
+def test_names_of_lines_stand_clear_of_each_other(first, low, high):
+    multiples = np.arange(1.0, 7.0)
+    places = named(multiples, first, low, high) * first
+    assert ((places >= low) & (places <= high)).all()
+    assert np.diff(places).min(initial=math.inf) >= 0.04 * (high - low)
+
+
+def test_a_peak_of_a_fine_spectrum_is_not_lost():
+    frequency = 0.01 * np.arange(20 * MOST_LINES)
+    level = np.full(frequency.size, -math.inf)
+    level[12_345] = 30.0
+    drawn = excerpt(frequency, level, 0.0, 1e9)
+    assert drawn["frequency"].size <= MOST_LINES
+    assert drawn["level"].max() == 30.0
+    assert drawn["level"].min() == LOWEST
+    near = excerpt(frequency, level, 123.0, 124.0)
+    assert near["frequency"].size < 110
+
+
+# -- the evidence ----------------------------------------------------------------------------------
+
+
+def test_the_evidence_is_listed_for_each_part():
+    rows = shown("inner race").evidence.rows
+    assert [row["part"] for row in rows] == ["outer race", "inner race", "ball"]
+    (lead,) = [row for row in rows if row["leads"]]
+    own = diagnosed("inner race").of("inner race")
+    assert lead["part"] == "inner race"
+    assert lead["order"] == f"{own.order:.3f}"
+    assert lead["nominal"] == "5.415"
+    assert len(lead["harmonics"]) == 6
+    assert all(one["clear"] for one in lead["harmonics"])
+    assert lead["spacing"].endswith("Hz, shaft")
+    assert lead["chance"] == "below 0.01 %"
+    assert rows[0]["sidebands"] == "none are made"
+
+
+def test_the_table_has_the_evidence_and_the_spectrum():
+    view = shown("outer race")
+    table = view.table(RESULTS)
+    assert list(table["part"]) == ["outer race", "inner race", "ball"]
+    found = diagnosed("outer race")
+    assert table["nominal_frequency_hz"][0] == pytest.approx(MOTOR.bearing.bpfo(MOTOR.shaft_speed))
+    assert table["harmonic_1_db"][0] == found.of("outer race").harmonics[0]
+    assert len(table["envelope_level_db"]) == len(found.spectrum.level)
+    assert view.csv().startswith("part,frequency_hz,nominal_frequency_hz,order,")
+
+
+@pytest.mark.parametrize("speed", ["given", "rough", "unknown"])
+def test_the_lines_of_python_make_the_same_diagnosis(speed, tmp_path, monkeypatch):
+    file = io.BytesIO()
+    signal = heard("inner race").recording.acceleration
+    wavfile.write(file, 25_600, signal.astype(np.float32))
+    (tmp_path / "motor.wav").write_bytes(file.getvalue())
+    read_back = read_file("motor.wav", file.getvalue(), 29.95).asked
+    measured = Measured(read_back.recording, read_back.shaft_speed, origin=read_back.origin)
+    view = view_of(measured)
+    view.speed = speed
+    question = view.question(MOTOR.bearing)
+    found = answered(question)
+    view.measurement.diagnoses.keep(question, found)
+    view.say(RESULTS, "")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    namespace: dict = {}
+    exec(compile(view.python(), "<lines>", "exec"), namespace)
+    plt.close("all")
+    assert namespace["found"].status == found.status
+    np.testing.assert_allclose(namespace["columns"]["frequency_hz"],
+                               view.table(RESULTS)["frequency_hz"])  # fmt: skip
+
+
+# -- in the background -----------------------------------------------------------------------------
+
+
+def test_a_question_depends_on_what_the_diagnosis_depends_on():
+    measured, bearing = heard("none"), MOTOR.bearing
+    same = Question.about(measured, MOTOR.replace(radial_clearance=5e-6).bearing)
+    assert Question.about(measured, bearing) == same
+    for other in (
+        Question.about(measured, MOTOR.replace(ball_diameter=8e-3).bearing),
+        Question.about(measured, bearing, "rough"),
+        Question.about(heard("outer race"), bearing),
+    ):
+        assert other != same
+    assert SLIP == 0.02
+
+
+def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once(monkeypatch):
+    calls: list[Question] = []
+
+    def slow(question: Question) -> Diagnosis | str:
+        calls.append(question)
+        time.sleep(0.3)
+        return diagnosed("outer race")
+
+    monkeypatch.setattr(diagnoses, "answered", slow)
+    drawn: list[int] = []
+
+    async def go():
+        async def assign(change):
+            change()
+
+        view = view_of(heard("outer race"))
+        view.measurement.diagnoses = Diagnoses(assign, lambda: drawn.append(1))
+        assert view.sentence(RESULTS) == BUSY
+        view.say(RESULTS, BUSY)
+        assert view.part.state["mood"] == "busy"
+        assert not view._seen.visible
+        ticks = 0
+        while not drawn:
+            await asyncio.sleep(0.01)
+            ticks += 1
+        view.say(RESULTS, view.sentence(RESULTS))
+        view.say(RESULTS, view.sentence(RESULTS))
+        await asyncio.sleep(0.05)
+        return view, ticks
+
+    view, ticks = asyncio.run(go())
+    assert ticks > 10
+    assert len(calls) == len(drawn) == 1
+    assert view.part.state["part"] == "outer race"
+
+
+def test_only_the_newest_question_is_drawn_and_none_after_the_end(monkeypatch):
+    calls: list[float] = []
+
+    def slow(question: Question) -> str:
+        calls.append(question.bearing.ball_diameter)
+        time.sleep(0.1)
+        return f"{question.bearing.ball_diameter}"
+
+    monkeypatch.setattr(diagnoses, "answered", slow)
+    drawn: list[int] = []
+
+    async def go():
+        async def assign(change):
+            change()
+
+        made = Diagnoses(assign, lambda: drawn.append(1))
+        questions = [
+            Question.about(heard("none"), MOTOR.replace(ball_diameter=d * 1e-3).bearing)
+            for d in (7.5, 7.6, 7.7, 7.8)
+        ]
+        for question in questions:
+            made.want(question)
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(0.5)
+        newest = made.of(questions[-1])
+        made.want(questions[1])
+        made.stop()
+        await asyncio.sleep(0.3)
+        return newest, made.of(questions[1])
+
+    newest, after = asyncio.run(go())
+    assert newest == "0.0078"
+    assert calls[:2] == [0.0075, 0.0078]  # those between are overtaken
+    assert len(drawn) == 1
+    assert after is None
+
+
+# -- simulated measurements ------------------------------------------------------------------------
+
+
+def test_the_noise_of_a_healthy_machine_is_that_of_a_machine():
+    """Not a share of the faint vibration that a healthy bearing makes by itself."""
+    quiet, noisy = heard("none", math.inf).recording, heard("none").recording
+    noise = np.std(noisy.acceleration - quiet.acceleration, axis=0)
+    assert noise[0] == pytest.approx(noise[1], rel=0.05)
+    damaged = heard("outer race", math.inf).recording.acceleration.std(axis=0).max()
+    assert 0.02 * damaged < noise[0] < 0.5 * damaged
+    assert (noise > 2.0 * quiet.acceleration.std(axis=0)).all()
+
+
+@pytest.mark.parametrize("preset", ["fan-rig", "6205"])
+@pytest.mark.parametrize("noise_db", [40.0, 20.0, 10.0])
+def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
+    scene = presets[preset].replace(extent=0.0)
+    measured = simulated(scene, noise_db, True, 3)
+    found = answered(Question.about(measured, scene.bearing))
+    assert found.fault == "none seen"
+
+
+def test_what_is_damaged_is_known_of_a_simulated_signal():
+    assert {truth: true_part(scene) for truth, scene in SCENES.items()} == {
+        truth: truth for truth in SCENES
+    }
+    several: Scene = MOTOR.replace(
+        defect=(MOTOR.defects[0], SCENES["inner race"].defects[0])
+    )  # fmt: skip
+    assert true_part(several) == ""
+
+
+# -- the tab ---------------------------------------------------------------------------------------
+
+
+def test_old_links_open_the_tab():
+    place = read("v=1&preset=6205&tab=sizing")
+    assert place is not None
+    assert place.tab == "diagnosis"
+    explorer = Explorer(SECTIONS, address="v=1&preset=6205&tab=sizing")
+    assert explorer._shown == "diagnosis"
+
+
+def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
+    explorer = Explorer(SECTIONS)
+    explorer.draw = lambda: None  # type: ignore[method-assign]
+    wishes = []
+    explorer.measurement.asked = lambda message: wishes.append(  # type: ignore[method-assign]
+        (message, explorer.scene.defects[0].race)
+    )
+    wish = {"noise": "20", "machine": "same"}
+    for junk in ("now", None, 3):
+        explorer._lesson_asked({"mark": 1, "simulate": junk})
+    explorer._lesson_asked({"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
+    assert wishes == [({"simulate": wish}, "inner")]

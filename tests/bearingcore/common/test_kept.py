@@ -1,0 +1,66 @@
+"""What is kept is bounded in bytes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from bearingcore import Defect, RoughFloor, presets
+from bearingcore.common.kept import kept
+from bearingcore.model.defect import path_tables
+
+
+def test_results_are_kept_up_to_a_number_of_bytes() -> None:
+    asked: list[int] = []
+
+    @kept(100, 1000, lambda found, n: n)
+    def made(n: int) -> np.ndarray:
+        asked.append(n)
+        return np.zeros(n)
+
+    assert made(400) is made(400)
+    assert asked == [400]
+    made(401), made(402)  # together more than a thousand: the oldest goes
+    made(400)
+    assert asked == [400, 401, 402, 400]
+    made(600), made(600)
+    assert asked[-2:] == [600, 600], "what is larger than half of all is not kept"
+
+
+def test_results_are_kept_up_to_a_count() -> None:
+    asked: list[int] = []
+
+    @kept(2, 1000, lambda found, n: 1)
+    def made(n: int) -> int:
+        asked.append(n)
+        return n
+
+    for n in (1, 2, 1, 3, 1, 2):
+        assert made(n) == n
+    assert asked == [1, 2, 3, 2]
+
+
+def test_errors_are_not_kept() -> None:
+    @kept(2, 1000, lambda found, n: 1)
+    def refused(n: int) -> int:
+        raise ValueError(n)
+
+    for _ in range(2):
+        with pytest.raises(ValueError, match="7"):
+            refused(7)
+
+
+def test_tables_of_large_rough_floors_do_not_fill_the_memory() -> None:
+    """256 of them were kept, whatever their size: four gigabytes."""
+    import tracemalloc
+
+    bearing = presets["fan-rig"].bearing
+    tracemalloc.start()
+    for seed in range(60):
+        floor = RoughFloor(rms_height=1e-7, correlation_length=2e-6, seed=seed % 2)
+        path_tables(
+            (Defect(extent=1.0 + 1e-3 * seed, depth=20e-6, center=4.7, floor=floor),), bearing
+        )
+    held, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert held < 150e6

@@ -1,0 +1,108 @@
+"""Tables of numbers as people and loggers write them."""
+
+import contextlib
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from bearingcore.common import number_table
+from bearingcore.common.number_table import read_numbers
+
+
+def read(text: str | bytes):
+    content = text.encode() if isinstance(text, str) else text
+    return read_numbers("t", content, most_numbers=10**6, most_columns=20)
+
+
+@pytest.mark.parametrize(
+    ("text", "columns"),
+    [
+        ("1,2\n3,4", [[1, 2], [3, 4]]),
+        ("1;2,5\n3;4", [[1, 2.5], [3, 4]]),
+        ("0;1\n0,1;2", [[0, 1], [0.1, 2]]),
+        ("1\t2\n3\t4\r\n", [[1, 2], [3, 4]]),
+        ("1 2\n 3   4 ", [[1, 2], [3, 4]]),
+        ("1,5 2,5\n3,0 4,0", [[1.5, 2.5], [3, 4]]),
+        ("0,051\n-0,5\n1,25", [[0.051], [-0.5], [1.25]]),
+        ("Weg [mm]\n1,5\n1,7\n1,9", [[1.5], [1.7], [1.9]]),
+        ("1,2,\n3,4,", [[1, 2], [3, 4]]),
+        ('"1","2"\n"3",""', [[1, 2], [3, np.nan]]),
+        ("1,2\n# remark\n\n,4", [[1, 2], [np.nan, 4]]),
+        ("1e3\n1.6558e+005", [[1e3], [165580.0]]),
+    ],
+)
+def test_habits(text, columns) -> None:
+    np.testing.assert_array_equal(read(text).columns, columns)
+
+
+@pytest.mark.parametrize(
+    ("text", "headings"),
+    [
+        ("acc [g]\n1\n2", ("acc [g]",)),
+        ("# time, ax\n1,2", ("time", "ax")),
+        ("time [s] ax [g]\n1 2", ("time [s]", "ax [g]")),
+        ("time [s]  acc x\n1 2", ("time [s]", "acc x")),
+        ("Time,Acc X\ns,m/s^2\n1,2", ("Time [s]", "Acc X [m/s^2]")),
+        ("remarks of many words, you see, here\n1,2", None),
+        ("1,2\n3,4", None),
+        ("x,x\n1,2", None),
+    ],
+)
+def test_headings(text, headings) -> None:
+    assert read(text).headings == headings
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [
+        ("2024-03-01T12:00:00.125Z,1\n2024-03-01T12:00:00.250Z,2", [0.125, 0.25]),
+        ("2024-03-01 12:00:00.5+01:00 1\n2024-03-01 12:00:01.5+01:00 2", [0.5, 1.5]),
+        ("Date;Time;X\n2024-02-29;23:59:59,5;1\n2024-03-01;00:00:00,5;2", [0.5, 1.5]),
+        ("31.12.2024 23:59:59.5\t1\n01.01.2025 0:00:00.5\t2", [0.5, 1.5]),
+        ("12/31/2024 23:59:59\t1\n01/01/2025 00:00:01\t2", [0.0, 2.0]),
+        ("23:59:59.9;1\n00:00:00.1;2", [0.9, 1.1]),
+    ],
+)
+def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
+    found = read(text)
+    assert found.stamps == (0,)
+    np.testing.assert_allclose(found.columns, np.column_stack([seconds, [1, 2]]))
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("1,2\n3,x", "line 2 of t is '3,x'; allowed: numbers"),
+        ("a,b\n1,2\n3", "line 3 of t is '3'; allowed: 2 columns"),
+        ("1_000", "start of t"),
+        ("2024-99-01T12:00:00,1\n", "start of t"),
+        ("", "lines of numbers"),
+        (b"\x00\x01\x02", "text with numbers"),
+        ("," * 30 + "1", "number of columns in t is 31"),
+        ("1 " * 40_000, "longest line"),
+        ("\n" * 5_000_001, "number of lines in t is 5000001"),
+        ("1\n" * 1_000_001, "count of numbers"),
+    ],
+)
+def test_what_cannot_be_read_is_refused(text, told) -> None:
+    with pytest.raises(ValueError, match=told):
+        read(text)
+
+
+def test_blocks_may_end_anywhere(monkeypatch) -> None:
+    whole = "h\n" + "\n".join(str(k) for k in range(500))
+    for size in (1, 2, 3, 7, 100):
+        monkeypatch.setattr(number_table, "BLOCK", size)
+        np.testing.assert_array_equal(read(whole).columns[:, 0], np.arange(500))
+
+
+@pytest.mark.parametrize("line", [b"\n", b"#\n", b" \n", b"0.5,-0.25\n", b"1\n", b",1\n"])
+def test_memory_stays_below_ten_times_the_text(line: bytes) -> None:
+    content = b"1,2\n" * (line.count(b",")) + line * (2_000_000 // len(line))
+    tracemalloc.start()
+    with contextlib.suppress(ValueError):
+        read_numbers("t", content, most_numbers=10**7, most_columns=64)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 10 * len(content)

@@ -1,0 +1,103 @@
+"""Steps are counted before they are taken: nothing answers after a minute what nobody can wait for.
+
+A light ring on a support of 2.6e13 N/m swings at 19 MHz: a ball pass takes 700,000 steps.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import Scene, presets, simulate
+from bearingcore.dynamics.motion import TOO_MANY_STEPS
+from bearingcore.dynamics.orbit import orbit
+from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.dynamics.stability_map import regions, stability_map
+from bearingcore.sweep.grid import Grid
+from bearingcore.sweep.outputs import STATUSES, Settings
+
+STIFF = presets["liew-lim"].replace(
+    inner_mass=1.8e-3,
+    outer_mass=1.8e-3,
+    stiffness_x=2.6e13,
+    stiffness_y=2.6e13,
+    stiffness_z=2.6e13,
+    shaft_speed=2.0 * math.pi * 81.0,
+)
+LESS_STIFF = STIFF.replace(stiffness_x=1e12, stiffness_y=1e12, stiffness_z=1e12)
+
+
+@pytest.fixture
+def _no_marching(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A kernel that is begun has failed: that it would end after minutes is no answer."""
+    from bearingcore import kernels
+
+    def begun(*_: object) -> None:
+        raise AssertionError("it was begun")
+
+    for name in ("march", "march_smooth", "march_with_tangent", "march_smooth_with_tangent"):
+        monkeypatch.setattr(kernels, name, begun)
+
+
+@pytest.mark.usefixtures("_no_marching")
+def test_an_orbit_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -> None:
+    found = orbit(STIFF)
+    assert found.status == TOO_MANY_STEPS
+    assert "7.26e+05 steps a period" in found.cost
+    assert "most_steps = 1000000" in found.cost
+    assert not found.stable
+    assert math.isnan(found.largest_multiplier)
+    assert found.right_hand_side_calls == 0
+
+
+@pytest.mark.usefixtures("_no_marching")
+def test_a_motion_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -> None:
+    motion = simulate(STIFF, 0.02, 4e7, ball_loads=True)
+    assert not motion.completed
+    assert motion.status.startswith("too many steps: 6.4e+06 of 3.12e-09 s each")
+    assert motion.right_hand_side_calls == 0
+    assert motion.outer_acceleration.shape == (len(motion.time), 5)
+    assert np.isnan(motion.outer_acceleration).all()
+    assert motion.ball_load is not None
+    assert np.isnan(motion.ball_load).all()
+
+
+@pytest.mark.usefixtures("_no_marching")
+def test_speeds_and_points_of_too_many_steps_are_told_one_by_one() -> None:
+    with pytest.raises(ValueError, match="too many steps"):
+        speed_run(LESS_STIFF, [500.0, 520.0], sample_rate=1e7, duration=0.1, most_steps=100_000)
+    found = stability_map(STIFF, ("fz", [100.0, 110.0]), ("extent", [0.2, 0.3]))
+    assert found.count(TOO_MANY_STEPS) == 4
+    assert "At 4 the search would take more steps than allowed." in regions(found)
+
+
+@pytest.mark.usefixtures("_no_marching")
+def test_a_sweep_says_so_too() -> None:
+    settings = Settings(duration=0.1, sample_rate=1e7)
+    grid = Grid.of(LESS_STIFF, {"fz": [100.0]}, ["acceleration_rms_x"], settings)
+    status, numbers = grid.compute()
+    assert STATUSES[int(status.ravel()[0])] == "too_many_steps"
+    assert np.isnan(numbers["acceleration_rms_x"]).all()
+
+
+def test_the_bound_is_an_argument() -> None:
+    rig = presets["fan-rig"]
+    steps = orbit(rig).right_hand_side_calls // 4
+    assert orbit(rig, most_steps=steps).stable
+    short = orbit(rig, most_steps=steps - 1)
+    assert short.status == TOO_MANY_STEPS
+    assert f"allowed are most_steps = {steps - 1}" in short.cost
+    assert short.right_hand_side_calls // 4 < steps
+    assert simulate(rig, 0.01, most_steps=10).status.startswith("too many steps")
+    assert simulate(rig, 0.01, most_steps=1000).completed
+    for refused in (0, -3, 2.5):
+        with pytest.raises(ValueError, match="most_steps"):
+            simulate(rig, 0.01, most_steps=refused)  # type: ignore[arg-type]
+
+
+def test_a_motion_has_no_more_samples_than_memory_holds() -> None:
+    scene: Scene = presets["fan-rig"]
+    with pytest.raises(ValueError, match="duration"):
+        simulate(scene, 1e9)

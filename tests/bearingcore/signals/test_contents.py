@@ -1,0 +1,245 @@
+"""What files say about themselves, in the shapes in which real machines are recorded."""
+
+import io
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from bearingcore import read_table
+
+NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
+MEASURED = os.environ.get("MEASURED_RECORDS", "")
+"""A folder with real records in folders `cwru`, `mfpt` and `femto`."""
+
+
+def matlab(**variables: object) -> bytes:
+    file = io.BytesIO()
+    savemat(file, variables)
+    return file.getvalue()
+
+
+def lines(rows: np.ndarray, delimiter: str = ",", heading: str = "") -> bytes:
+    told = [delimiter.join(f"{value:.9g}" for value in row) for row in rows]
+    return "\n".join([heading, *told] if heading else told).encode()
+
+
+def rpm(speed: float) -> float:
+    return speed * 30.0 / math.pi
+
+
+def test_case_western_variables_are_of_several_places() -> None:
+    sides = {f"X130_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE", "BA")}
+    table = read_table("130.mat", matlab(**sides, X130RPM=np.array([[1796]], dtype="u2")))
+    found = table.contents
+    assert [column.place for column in found.columns] == ["drive end", "fan end", "base"]
+    assert not found.choice.columns
+    assert "Which is at this bearing?" in found.choice.question
+    assert found.unit.value == "g"
+    assert not found.unit.told
+    assert found.sample_rate is not None
+    assert (found.sample_rate.value, found.sample_rate.told) == (12_000.0, False)
+    assert found.shaft_speed is not None
+    assert rpm(found.shaft_speed.value) == pytest.approx(1796.0)
+    with pytest.raises(ValueError, match="sensors at two places"):
+        table.recording(["X130_DE_time", "X130_FE_time"], ["x", "y"], "g", 12e3)
+    with pytest.raises(ValueError, match="12000 is likely"):
+        table.recording(["X130_DE_time"], ["y"], "g")
+    got = table.recording(["X130_DE_time"], ["y"], "g", 12e3)
+    assert got.shaft_speed == found.shaft_speed.value
+
+
+def test_without_a_sensor_on_the_base_it_was_sampled_faster() -> None:
+    sides = {f"X097_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE")}
+    found = read_table("a.mat", matlab(**sides)).contents
+    assert found.sample_rate is not None
+    assert found.sample_rate.value == 48_000.0
+    named = read_table("12k_Drive_End_1.mat", matlab(**sides)).contents
+    assert named.sample_rate is not None
+    assert named.sample_rate.value == 12_000.0
+    assert "12k" in named.sample_rate.reason
+    assert named.choice.question
+    assert named.choice.columns == {"y": 0}
+    assert "name says drive end" in named.choice.reason
+
+
+def test_mfpt_structs_tell_rate_speed_and_load() -> None:
+    run = {"gs": NOISE[:, :1], "sr": 48_828, "rate": 25, "load": "150"}
+    table = read_table("run.mat", matlab(bearing=run, BPFO=81.125))
+    found = table.contents
+    assert found.unit.told
+    assert found.unit.value == "g"
+    assert found.load is not None
+    assert found.load.value == pytest.approx(667.23, abs=0.01)
+    assert not found.load.told  # pounds are what the collection says, not the file
+    assert found.said["BPFO"] == "81.125"
+    got = table.recording([0], ["y"])
+    assert got.sample_rate == 48_828.0
+    assert got.shaft_speed == pytest.approx(2.0 * math.pi * 25.0)
+    np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:, 0] * 9.80665)
+
+
+@pytest.mark.parametrize(
+    ("delimiter", "rounding", "begin"), [(",", 0, 65_664.0), (";", -1, 884_410.0)]
+)
+def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin: float) -> None:
+    """Hours, minutes, seconds, microseconds; some printed as 8.8441e+05. The end is midnight."""
+    micro = np.round(begin + np.arange(2560) / 25_600.0 * 1e6, rounding)
+    second = np.where(micro >= 1e6, 0.0, 59.0)
+    clock = [np.where(second > 0.0, 23.0, 0.0), second, second, micro % 1e6]
+    rows = np.column_stack([*clock, NOISE[:2560, :2]])
+    told = [
+        delimiter.join(
+            [*(f"{v:.0f}" for v in row[:3]), f"{row[3]:.5g}", *(f"{v:.4g}" for v in row[4:])]
+        )
+        for row in rows
+    ]
+    table = read_table("acc_00001.csv", "\n".join(told).encode())
+    found = table.contents
+    assert [column.role for column in found.columns] == ["time"] * 4 + ["signal"] * 2
+    assert found.choice.columns == {"x": 4, "y": 5}
+    assert "FEMTO" in found.choice.reason
+    assert found.unit.value == "g"
+    got = table.recording([4, 5], ["x", "y"], "g")
+    assert got.sample_rate == 25_600.0
+    assert got.duration == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(("columns", "places"), [(4, [1, 2, 3, 4]), (8, [1, 1, 2, 2, 3, 3, 4, 4])])
+def test_ims_tables_without_headings_or_extension(columns: int, places: list[int]) -> None:
+    table = read_table("2003.10.22.12.06.24", lines(NOISE[:, :columns], "\t"))
+    found = table.contents
+    assert [column.place for column in found.columns] == [f"bearing {n}" for n in places]
+    assert "several places" in found.choice.question
+    assert found.sample_rate is not None
+    assert (found.sample_rate.value, found.sample_rate.told) == (20_480.0, False)
+
+
+def test_two_columns_without_a_name_are_a_guess_and_three_are_asked_about() -> None:
+    two = read_table("a.csv", lines(NOISE[:600, :2])).contents.choice
+    assert two.columns == {"x": 0, "y": 1}
+    assert "nothing says so" in two.reason
+    three = read_table("a.csv", lines(NOISE[:600, :3])).contents.choice
+    assert not three.columns
+    assert three.question == "The file holds 3 signals. Which was measured at this bearing?"
+
+
+def test_lines_above_the_numbers_are_listened_to() -> None:
+    heading = (
+        "Logger 7\nSample rate: 25.6 kHz\nShaft speed = 1500 rpm\nLoad; 2,5 kN\nUnit: m/s^2\n"
+        "vertical"
+    )
+    table = read_table("a.txt", lines(NOISE[:600, :1], heading=heading))
+    found = table.contents
+    assert table.names == ("vertical",)
+    assert found.sample_rate is not None
+    assert found.sample_rate.value == 25_600.0
+    assert found.load is not None
+    assert found.load.value == 2500.0
+    got = table.recording([0], ["y"])
+    assert got.shaft_speed == pytest.approx(50.0 * math.pi)
+    np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:600, 0], rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("heading", "unit", "factor"),
+    [
+        ("acc [g]", "g", 9.80665),
+        ("acc (mg)", "mg", 9.80665e-3),
+        ("a / mm/s²", "mm/s²", 1e-3),
+        ("Beschleunigung in m/s^2", "m/s²", 1.0),
+        ("in_per_s2 a [in/s2]", "in/s²", 0.0254),
+    ],
+)
+def test_the_heading_of_a_single_column_is_kept_and_its_unit_used(
+    heading: str, unit: str, factor: float
+) -> None:
+    table = read_table("a.csv", lines(NOISE[:600, :1], heading=heading))
+    assert table.names == (heading,)
+    assert table.contents.unit.value == unit
+    assert table.contents.unit.told
+    got = table.recording([0], ["y"], sample_rate=1e3)
+    np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:600, 0] * factor, rtol=1e-7)
+
+
+def test_a_velocity_is_differentiated_with_a_note() -> None:
+    time = np.arange(4000) / 4000.0
+    velocity = 1e3 * np.sin(2.0 * np.pi * 80.0 * time)  # [mm/s]
+    content = lines(np.column_stack([time, velocity]), heading="time [s],v [mm/s]")
+    got = read_table("v.csv", content).recording([1], ["y"])
+    exact = 2.0 * np.pi * 80.0 * np.cos(2.0 * np.pi * 80.0 * time)
+    inside = slice(20, -20)
+    np.testing.assert_allclose(got.acceleration[inside, 0], exact[inside], atol=0.5)
+    assert "differentiated" in got.notes[0]
+
+
+def test_a_displacement_or_a_temperature_is_no_signal() -> None:
+    content = lines(NOISE[:600, :3], heading="gap [µm];temp [°C];acc [g]".replace(";", ","))
+    found = read_table("a.csv", content).contents
+    assert [column.role for column in found.columns] == ["other", "other", "signal"]
+    assert found.choice.columns == {"y": 2}
+
+
+def test_a_column_of_speed_is_the_shafts() -> None:
+    speed = np.full(600, 1480.0)
+    content = lines(np.column_stack([NOISE[:600, 0], speed]), heading="acc [g],speed [rpm]")
+    found = read_table("a.csv", content).contents
+    assert found.shaft_speed is not None
+    assert found.shaft_speed.told
+    assert rpm(found.shaft_speed.value) == pytest.approx(1480.0)
+    content = lines(
+        np.column_stack([NOISE[:600, 0], speed + np.arange(600)]), heading="acc [g],speed [rpm]"
+    )
+    varying = read_table("a.csv", content).contents.shaft_speed
+    assert varying is not None
+    assert not varying.told
+    assert "goes from 1480 to 2079" in varying.reason
+
+
+def test_gravity_in_the_mean_tells_the_unit() -> None:
+    shaken = 0.05 * NOISE[:600, :1]
+    assert read_table("a.csv", lines(shaken + 1.0)).contents.unit.value == "g"
+    assert read_table("a.csv", lines(shaken + 9.81)).contents.unit.value == "m/s²"
+
+
+def test_a_rate_that_the_times_contradict_is_taken_but_said() -> None:
+    content = lines(np.column_stack([np.arange(600) / 1e4, NOISE[:600, 0]]), heading="time,acc [g]")
+    got = read_table("a.csv", content).recording([1], ["y"], sample_rate=12e3)
+    assert got.sample_rate == 12e3
+    assert "typed as 12000 Hz; the time column says 10000 Hz" in got.notes[0]
+
+
+def test_a_level_that_no_bearing_gives_is_doubted() -> None:
+    table = read_table("a.csv", lines(NOISE[:600, :1] * 5e3))
+    assert "more than bearings give" in table.recording([0], ["y"], "g", 1e3).notes[-1]
+    assert not table.recording([0], ["y"], "mm/s²", 1e3).notes
+
+
+def _real() -> list[Path]:
+    return sorted(Path(MEASURED).glob("*/*.*")) if MEASURED else []
+
+
+@pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder of real records")
+def test_real_records_tell_what_they_hold() -> None:
+    for path in _real():
+        table = read_table(path.name, path.read_bytes())
+        found, kind = table.contents, path.parent.name
+        assert found.unit.value == "g"
+        assert found.sample_rate is not None
+        if kind == "femto":
+            assert found.sample_rate.told
+            assert found.sample_rate.value == 25_600.0
+            assert found.choice.columns == {"x": 4, "y": 5}
+        elif kind == "mfpt":
+            assert found.sample_rate.value == 48_828.0
+            assert found.shaft_speed is not None
+            assert rpm(found.shaft_speed.value) == pytest.approx(1500.0)
+        else:
+            slow = "12k" in path.name
+            assert found.sample_rate.value == (12_000.0 if slow else 48_000.0)
+            assert found.columns[0].place == "drive end"
+            if found.shaft_speed is not None:
+                assert 1720 < rpm(found.shaft_speed.value) < 1800

@@ -1,0 +1,88 @@
+"""Squared envelopes in bands, and the levels of their lines."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from bearingcore.signals.filter_bank import LOWEST, Band, split, squared_envelopes
+from bearingcore.signals.line_levels import line_levels
+
+RATE = 16_000.0
+
+
+def ringing(every: float, ring: float, seconds: float = 4.0) -> np.ndarray:
+    time = np.arange(int(seconds * RATE)) / RATE
+    since = time % (1.0 / every)
+    return np.asarray(np.exp(-700.0 * since) * np.sin(2.0 * np.pi * ring * since))
+
+
+def test_bands_cover_the_range_without_gap_and_none_is_too_narrow():
+    bands = split(RATE, 900.0)
+    assert bands[0] == (LOWEST, 8000.0)
+    assert min(band.high - band.low for band in bands) > 900.0
+    for parts in (2, 3, 4, 6, 8):
+        width = 8000.0 / parts
+        level = [
+            b
+            for b in bands
+            if b.high - b.low < width + 1e-6 and b.high - b.low > width - LOWEST - 1
+        ]
+        assert len(level) == parts
+        for one, following in itertools.pairwise(level):
+            assert one.high == pytest.approx(following.low)
+
+
+def test_the_envelope_of_a_swelling_tone_is_its_swell():
+    time = np.arange(int(2.0 * RATE)) / RATE
+    swell = 1.0 + 0.2 * np.cos(2.0 * np.pi * 30.0 * time)
+    signal = swell * np.cos(2.0 * np.pi * 3000.0 * time)
+    (envelope,) = squared_envelopes(signal, RATE, [Band(2000.0, 4000.0)], 200.0)
+    at = np.arange(len(envelope.values)) / envelope.rate
+    expected = (1.0 + 0.2 * np.cos(2.0 * np.pi * 30.0 * at)) ** 2
+    inner = slice(50, -50)
+    np.testing.assert_allclose(
+        envelope.values[inner], (expected / expected.mean())[inner], atol=0.01
+    )
+    assert envelope.rate < RATE / 4.0
+
+
+def test_knocks_are_impulsive_where_they_ring_and_noise_is_not():
+    rng = np.random.default_rng(5)
+    signal = ringing(60.0, 3000.0) + 0.1 * rng.standard_normal(int(4.0 * RATE))
+    loud, quiet = squared_envelopes(
+        signal, RATE, [Band(2500.0, 3500.0), Band(6500.0, 7900.0)], 400.0
+    )
+    assert loud.kurtosis > 5.0
+    assert quiet.kurtosis < 3.0
+    noise = squared_envelopes(rng.standard_normal(64_000), RATE, [Band(1000.0, 5000.0)], 400.0)
+    assert noise[0].kurtosis == pytest.approx(2.0, abs=0.1)
+
+
+def test_dropouts_neither_knock_nor_lower_the_mean():
+    rng = np.random.default_rng(6)
+    signal = rng.standard_normal(64_000) + 5.0
+    dropped = np.zeros(len(signal), dtype=bool)
+    for begin in range(0, len(signal), 3200):  # five a second
+        dropped[begin : begin + 800] = True
+    signal[dropped] = 0.0
+    (envelope,) = squared_envelopes(signal, RATE, [Band(LOWEST, 8000.0)], 300.0, dropped)
+    found = line_levels(envelope.values, envelope.rate, 2.0, 300.0, 60.0)
+    fives = np.rint(5.0 * np.arange(1, 40) / found.step).astype(int)
+    assert found.level[fives].mean() < 3.0
+    (bare,) = squared_envelopes(signal, RATE, [Band(LOWEST, 8000.0)], 300.0)
+    found = line_levels(bare.values, bare.rate, 2.0, 300.0, 60.0)
+    assert found.level[fives[:10]].mean() > 15.0
+
+
+def test_a_line_has_its_depth_and_stands_above_its_surroundings():
+    rng = np.random.default_rng(7)
+    time = np.arange(20_000) / 1000.0
+    values = 1.0 + 0.1 * np.cos(2.0 * np.pi * 40.0 * time) + 0.3 * rng.standard_normal(20_000)
+    found = line_levels(values, 1000.0, 4.0, 200.0, 20.0)
+    index = round(40.0 / found.step)
+    assert found.depth[index] == pytest.approx(0.1, rel=0.05)
+    assert found.level[index] > 17.0
+    away = np.abs(found.step * np.arange(len(found.level)) - 40.0) > 2.0
+    assert np.mean(10.0 ** (0.1 * found.level[away])) == pytest.approx(1.0, abs=0.1)
+    assert found.averages == pytest.approx(9.0 / (1.0 + 2.0 / 36.0 * 8.0 / 9.0), rel=0.02)

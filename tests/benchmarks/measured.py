@@ -1,0 +1,225 @@
+"""Which part is damaged, and how large the defect is, on records of real machines.
+
+    python -m tests.benchmarks.measured DIR [--sizes] [--methods]
+
+DIR holds records and perhaps a table of what is true of them (see `measured_records`). For each
+record and in sum: right, cannot tell, wrong. A conclusive answer that is wrong makes the command
+fail. --sizes runs the sizing too, over several plausible supports and loads. --methods compares
+ways to choose the band.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+from unittest import mock
+
+from bearingcore import Diagnosis, Load, Scene, Support, diagnose, presets, size_defect
+from bearingcore.diagnosis import diagnose as diagnosing
+from bearingcore.diagnosis.evidence import CANNOT_TELL, NONE_SEEN
+from bearingcore.diagnosis.parts import OUTER, PARTS
+from bearingcore.signals.filter_bank import Envelope
+from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
+
+RIGHT, CANNOT, WRONG = "right", "cannot tell", "wrong"
+
+SUPPORTS = tuple(
+    (inner, outer, stiffness, damping)
+    for inner, outer in ((2.0, 5.0), (5.0, 20.0))
+    for stiffness, damping in ((1e8, 5e3), (3e8, 1e4))
+)
+"""Masses [kg], stiffness [N/m] and damping [N·s/m] that a small motor or rig may have."""
+
+LOADS = (100.0, 400.0)
+"""[N]"""
+
+
+def verdict(record: Record, found: Diagnosis) -> str:
+    """Whether a diagnosis is right."""
+    if found.fault == CANNOT_TELL:
+        return CANNOT
+    if record.truth == UNKNOWN:  # damage, but nobody knows of what
+        return WRONG if found.fault == NONE_SEEN else RIGHT
+    truth = NONE_SEEN if record.truth == HEALTHY else record.truth
+    return RIGHT if found.fault == truth else WRONG
+
+
+class Sized(NamedTuple):
+    """One run of the sizing."""
+
+    support: str
+    extent_deg: float
+    uncertainty_deg: float
+    conclusive: bool
+    verdict: str
+
+
+def sizes(record: Record) -> Iterator[Sized]:
+    """The extent of the defect by several supports and loads, held against the truth.
+
+    Whatever is conclusive where no outer-race defect is, or away from its known extent, is wrong.
+    """
+    for inner, outer, stiffness, damping in SUPPORTS:
+        for load in LOADS:
+            support = Support(inner, outer, stiffness, stiffness, damping, damping)
+            scene = Scene(
+                bearing=record.bearing,
+                defect=presets["fan-rig"].replace(depth=100e-6).defect,
+                load=Load(fy=-load),
+                shaft_speed=record.shaft_speed,
+                support=support,
+                dofs=("x", "y"),
+            )
+            told = f"{inner:g}/{outer:g} kg, {stiffness:g} N/m, {load:g} N"
+            found = size_defect(record.recording, scene)
+            extent = math.degrees(found.best.extent)
+            spread = math.degrees(found.extent_uncertainty)
+            truth = record.outer_extent_deg
+            if not found.conclusive:
+                result = CANNOT
+            elif record.truth != OUTER or truth is None:
+                result = WRONG
+            else:
+                result = RIGHT if abs(extent - truth) <= max(1.0, 2.0 * spread) else WRONG
+            yield Sized(told, extent, spread, found.conclusive, result)
+
+
+def _diagnosed(found: list[Record]) -> Counter[tuple[str, str]]:
+    counts: Counter[tuple[str, str]] = Counter()
+    heading = f"{'record':<48} {'truth':<11} {'answer':<12} {'p':>5} {'result':<12}"
+    print(f"{heading} {'level':>6} {'noise':>6} {'swing':>6} {'time':>6}")
+    for record in found:
+        begin = time.perf_counter()
+        answer = diagnose(record.recording, record.bearing, record.shaft_speed)
+        took = time.perf_counter() - begin
+        result = verdict(record, answer)
+        counts[record.truth, result] += 1
+        best = max(answer.evidence, key=lambda one: one.level, default=None)
+        numbers = f"{best.level:6.1f} {best.noise:6.1f} {best.depth:6.1%}" if best else f"{'':20}"
+        print(
+            f"{record.name[-48:]:<48} {record.truth:<11} {answer.fault:<12} "
+            f"{answer.probability:5.2f} {result:<12} {numbers} {took:5.2f}s"
+        )
+        if result != RIGHT:
+            print(f"    {answer.status}")
+    return counts
+
+
+def _sum_up(counts: Counter[tuple[str, str]]) -> int:
+    print(f"\n{'truth':<12}{RIGHT:>12}{CANNOT:>14}{WRONG:>8}")
+    for truth in (*PARTS, HEALTHY, UNKNOWN):
+        row = [counts[truth, result] for result in (RIGHT, CANNOT, WRONG)]
+        if sum(row):
+            print(f"{truth:<12}{row[0]:12d}{row[1]:14d}{row[2]:8d}")
+    damaged = sum(n for (truth, _), n in counts.items() if truth in PARTS)
+    named = sum(n for (truth, result), n in counts.items() if truth in PARTS and result == RIGHT)
+    wrong = sum(n for (_, result), n in counts.items() if result == WRONG)
+    print(f"\nright part named: {named} of {damaged}; conclusive and wrong: {wrong}")
+    return wrong
+
+
+Heard = list[tuple[str, Envelope]]
+
+
+def _every(heard: Heard, rate: float) -> Heard:
+    return heard
+
+
+def _kurtogram(heard: Heard, rate: float) -> Heard:
+    """The one band where the signal is most impulsive."""
+    return [max(heard, key=lambda pair: pair[1].kurtosis)]
+
+
+def _widest(heard: Heard, rate: float) -> Heard:
+    return [max(heard, key=lambda pair: pair[1].band.high - pair[1].band.low)]
+
+
+def _thirds(heard: Heard, rate: float) -> Heard:
+    third = rate / 6.0
+    return [p for p in heard if abs(p[1].band.high - p[1].band.low - third) < 0.02 * third]
+
+
+METHODS: dict[str, Callable[[Heard, float], Heard]] = {
+    "all bands": _every,
+    "kurtogram": _kurtogram,
+    "whole range": _widest,
+    "thirds": _thirds,
+}
+
+
+@contextmanager
+def _listening(choose: Callable[[Heard, float], Heard], whiten: bool) -> Iterator[None]:
+    """Diagnoses on other bands, of the signal whitened or as measured."""
+    listen, filtered = diagnosing._Signal.heard, diagnosing.squared_envelopes
+
+    def heard(self: diagnosing._Signal, shaft: float, highest: float) -> Heard:
+        return choose(listen(self, shaft, highest), self.rate)
+
+    def as_measured(*told: Any) -> list[Envelope]:
+        return filtered(*told[:5], None)
+
+    with mock.patch.object(diagnosing._Signal, "heard", heard):
+        if whiten:
+            yield
+        else:
+            with mock.patch.object(diagnosing, "squared_envelopes", as_measured):
+                yield
+
+
+def _compare_methods(found: list[Record]) -> None:
+    """The same decisions on bands chosen in other ways."""
+    damaged = [record for record in found if record.truth in PARTS]
+    healthy = [record for record in found if record.truth == HEALTHY]
+    print(f"\n{'bands':<26}{RIGHT:>8}{CANNOT:>14}{WRONG:>8}   healthy: not accused")
+    for name, choose in METHODS.items():
+        for whiten in (True, False):
+            with _listening(choose, whiten):
+                results = Counter(_result(record) for record in damaged)
+                calm = sum(_result(record) != WRONG for record in healthy)
+            row = "".join(f"{results[r]:{w}d}" for r, w in ((RIGHT, 8), (CANNOT, 14), (WRONG, 8)))
+            told = f"{name}, {'whitened' if whiten else 'as measured'}"
+            print(f"{told:<26}{row}   {calm} of {len(healthy)}")
+
+
+def _result(record: Record) -> str:
+    return verdict(record, diagnose(record.recording, record.bearing, record.shaft_speed))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("folder", type=Path, metavar="DIR")
+    parser.add_argument("--sizes", action="store_true")
+    parser.add_argument("--methods", action="store_true")
+    chosen = parser.parse_args()
+    found = list(records(chosen.folder))
+    if not found:
+        print(f"no records in {chosen.folder}", file=sys.stderr)
+        return 2
+    wrong = _sum_up(_diagnosed(found))
+    if chosen.methods:
+        _compare_methods(found)
+    if chosen.sizes:
+        counts: Counter[str] = Counter()
+        for record in found:
+            for one in sizes(record):
+                counts[one.verdict] += 1
+                print(
+                    f"{record.name[-40:]:<40} {one.support:<34} {one.extent_deg:6.1f}° "
+                    f"± {one.uncertainty_deg:.1f}° {one.verdict}"
+                )
+        print(f"\nsizes: {dict(counts)}; conclusive and wrong: {counts[WRONG]}")
+        wrong += counts[WRONG]
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,158 @@
+"""Records of real machines: finding them in a folder, and what is true of each.
+
+A table `records.csv` in the folder says it, one record a line under these headings:
+
+    file, truth, n_balls, ball_diameter_mm, pitch_diameter_mm, contact_angle_deg, speed_rpm,
+    variable, sample_rate, unit
+
+`variable` names the vector of a MATLAB file or the columns of a text file counted from 1 (4+5), and
+truth is "outer race", "inner race", "ball", "healthy", or "unknown" for damage of unknown kind.
+Without it, truth follows from the names of three public collections: Case Western Reserve
+University (`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`) and FEMTO-ST
+(`femto`).
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.io import loadmat
+
+from bearingcore import Bearing, Recording
+from bearingcore.signals.units import UNITS
+
+TABLE = "records.csv"
+HEALTHY, UNKNOWN = "healthy", "unknown"
+
+
+@dataclass(frozen=True)
+class Record:
+    """A measured signal and what is true of the machine."""
+
+    name: str
+    truth: str
+    machine: str
+    bearing: Bearing
+    shaft_speed: float
+    """[rad/s]"""
+    recording: Recording
+    outer_extent_deg: float | None = None
+    """Of a pit on the outer race, where it is known."""
+
+
+def ball_bearing(
+    n_balls: int, ball_mm: float, pitch_mm: float, contact_angle_deg: float = 0.0
+) -> Bearing:
+    """A bearing of usual grooves."""
+    ball = 1e-3 * ball_mm
+    return Bearing.from_drawing(
+        n_balls,
+        ball,
+        1e-3 * pitch_mm,
+        0.52 * ball,
+        0.53 * ball,
+        contact_angle=math.radians(contact_angle_deg),
+    )
+
+
+CWRU = (9, 7.94, 39.04)
+CWRU_RPM = {"0": 1797.0, "1": 1772.0, "2": 1750.0, "3": 1730.0}
+CWRU_EXTENT_DEG = {"007": 0.43, "014": 0.87, "021": 1.30}
+MFPT = (8, 0.235 * 25.4, 1.245 * 25.4)
+FEMTO = (13, 3.5, 25.6)
+FEMTO_RPM = {"Bearing1": 1800.0, "Bearing2": 1650.0}
+
+
+def records(folder: Path) -> Iterator[Record]:
+    """The records of a folder and its folders, in the order of their names."""
+    table = folder / TABLE
+    if table.exists():
+        with table.open(newline="", encoding="utf-8") as lines:
+            for row in csv.DictReader(lines, skipinitialspace=True):
+                yield _by_table(folder, {k.strip(): (v or "").strip() for k, v in row.items()})
+        return
+    for path in sorted(folder.rglob("*")):
+        if path.suffix == ".mat":
+            found = _mfpt(path) if "vload" in path.name or "baseline" in path.name else _cwru(path)
+        elif path.suffix == ".csv" and "_acc_" in path.name:
+            found = _femto(path)
+        else:
+            continue
+        yield found
+
+
+def _speed(turns_a_minute: float) -> float:
+    return 2.0 * math.pi * turns_a_minute / 60.0
+
+
+def _by_table(folder: Path, row: dict[str, str]) -> Record:
+    path = folder / row["file"]
+    if path.suffix == ".mat":
+        signal = np.asarray(loadmat(path)[row["variable"]], dtype=float).reshape(-1)
+    else:
+        columns = [int(number) - 1 for number in row["variable"].split("+")]
+        signal = np.loadtxt(path, delimiter=",", usecols=columns)
+    two = signal.ndim == 2 and signal.shape[1] == 2
+    bearing = ball_bearing(
+        int(row["n_balls"]),
+        float(row["ball_diameter_mm"]),
+        float(row["pitch_diameter_mm"]),
+        float(row.get("contact_angle_deg") or 0.0),
+    )
+    recording = Recording(
+        signal * UNITS[row.get("unit") or "m/s²"],
+        float(row["sample_rate"]),
+        ("x", "y") if two else ("y",),
+        path.name,
+    )
+    speed = _speed(float(row["speed_rpm"]))
+    return Record(path.stem, row["truth"], "", bearing, speed, recording)
+
+
+def _cwru(path: Path) -> Record:
+    content = loadmat(path)
+    name = path.stem
+    number = re.search(r"_(\d{2,4})(?:@\d+)?_(?:Normal_)?\d$", name)
+    drive_end = [key for key in content if key.endswith("_DE_time")]
+    # a file may hold another's vectors too: its own carry its number
+    named = [key for key in drive_end if number and key.lstrip("X0").startswith(number.group(1))]
+    variable = (named or drive_end)[0]
+    told = content.get(variable.replace("_DE_time", "RPM"))
+    turns = CWRU_RPM[name[-1]] if told is None else float(np.asarray(told).reshape(-1)[0])
+    kind = re.search(r"_(IR|OR|B)_(\d{3})", name)
+    truth = {"IR": "inner race", "OR": "outer race", "B": "ball"}[kind[1]] if kind else HEALTHY
+    rate = 48_000.0 if name.startswith(("48k", "Normal")) else 12_000.0
+    extent = CWRU_EXTENT_DEG.get(kind[2]) if kind and kind[1] == "OR" else None
+    signal = np.asarray(content[variable], dtype=float).reshape(-1) * UNITS["g"]
+    return Record(
+        name, truth, "CWRU 6205", ball_bearing(*CWRU), _speed(turns),
+        Recording(signal, rate, ("y",), path.name), extent,
+    )  # fmt: skip
+
+
+def _mfpt(path: Path) -> Record:
+    inside = loadmat(path, squeeze_me=True)["bearing"]
+    signal = np.asarray(inside["gs"].item(), dtype=float).reshape(-1) * UNITS["g"]
+    truth = HEALTHY
+    for part in ("inner", "outer"):
+        if part in path.name.lower():
+            truth = f"{part} race"
+    return Record(
+        path.stem, truth, "MFPT", ball_bearing(*MFPT), 2.0 * math.pi * float(inside["rate"].item()),
+        Recording(signal, float(inside["sr"].item()), ("y",), path.name),
+    )  # fmt: skip
+
+
+def _femto(path: Path) -> Record:
+    signal = np.loadtxt(path, delimiter=",", usecols=(4, 5)) * UNITS["g"]
+    truth = HEALTHY if path.stem.endswith("_00001") else UNKNOWN
+    return Record(
+        path.stem, truth, "FEMTO", ball_bearing(*FEMTO), _speed(FEMTO_RPM[path.name[:8]]),
+        Recording(signal, 25_600.0, ("x", "y"), path.name),
+    )  # fmt: skip

@@ -1,0 +1,120 @@
+"""The explorer's page as the browser tests read it: its controls, figures and sentences."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from playwright.sync_api import Locator, Page
+
+from tests.browser.helpers import Server, choose_tab
+
+#: every view, and the tab it stands on
+VIEWS = {
+    "bearing": "load",
+    "load-distribution": "load",
+    "depth-profile": "load",
+    "stiffness": "stiffness",
+    "maps": "maps",
+    "modes": "modes",
+    "vibration-time": "vibration",
+    "vibration-spectrum": "vibration",
+    "orbit": "orbits",
+}
+
+
+def open_page(page: Page, server: Server, tab: str = "load") -> None:
+    page.goto(server.url)
+    page.wait_for_function("window.__frames >= 1")
+    show(page, tab)
+
+
+def show(page: Page, tab: str) -> None:
+    choose_tab(page, tab)
+    page.wait_for_function(f"window.__tab == '{tab}'")  # it is drawn
+    settle(page)
+
+
+def settle(page: Page) -> None:
+    """Wait until the newest change is drawn and the paints that follow are done."""
+    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)")
+    painted(page)
+
+
+def rest(page: Page) -> None:
+    """Wait until what is on screen is drawn by its plan: nothing more will come by itself."""
+    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0) && window.__resting")
+    painted(page)
+
+
+def painted(page: Page) -> None:
+    """Wait until what has arrived is painted.
+
+    A paint waits for at most 16 ms and then for the next frame of the screen, and may lead to
+    another one. A timer that is set later and lasts longer comes after it, however slow all is.
+    """
+    page.evaluate(
+        """async () => {
+          for (let round = 0; round < 3; round++) {
+            await new Promise(done => setTimeout(done, 25))
+            await new Promise(done => requestAnimationFrame(done))
+          }
+        }"""
+    )
+
+
+def slider(page: Page, name: str):
+    return page.locator(f"#control-{name}")
+
+
+def value(page: Page, name: str) -> float:
+    return float(slider(page, name).input_value())
+
+
+def number(page: Page, name: str):
+    return page.locator(f".control-{name} .number")
+
+
+def pixels(page: Page, view: str) -> str:
+    """All that the canvases of a view show."""
+    shown = page.locator(f".view-{view} canvas").evaluate_all(
+        "canvases => canvases.map(canvas => canvas.toDataURL()).join()"
+    )
+    assert len(shown) > 1000, f"the view {view} shows nothing"
+    return str(shown)
+
+
+def source(page: Page, name: str) -> dict[str, list[float]]:
+    """The numbers in the browser behind a figure."""
+    return page.evaluate(
+        """name => Object.fromEntries(Object.entries(
+             Bokeh.documents[0].get_model_by_name(name).data
+           ).map(([column, values]) => [column, Array.from(values)]))""",
+        name,
+    )
+
+
+def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
+    """Where on the screen a place in a figure lies."""
+    found = page.evaluate(
+        """([name, x, y]) => {
+          const [view] = [...Bokeh.index.query(view => view.model.name == name)]
+          view.el.scrollIntoView({block: "center"})
+          const box = view.canvas_view.el.getBoundingClientRect()
+          return [box.left + view.frame.x_scale.compute(x), box.top + view.frame.y_scale.compute(y)]
+        }""",
+        [drawing, x, y],
+    )
+    return float(found[0]), float(found[1])
+
+
+def words(page: Page, view: str) -> Locator:
+    return page.locator(f".view-{view} form .words")
+
+
+def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
+    """Wait until it is so."""
+    end = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < end, "it did not happen"
+        page.wait_for_timeout(60)

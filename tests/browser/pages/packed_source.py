@@ -1,0 +1,67 @@
+"""A page that draws 40 packets as fast as it can, each from a worker thread."""
+
+import numpy as np
+import panel as pn
+from bearing_explorer.compute.executors import in_thread
+from bearing_explorer.compute.latest_wins import LatestWins
+from bearing_explorer.server.live import on_loop, one_message, send_at_once
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import View
+from bokeh.plotting import figure
+
+
+class Line(View):
+    name = "line"
+    title = "A line"
+    about = "Whatever the last packet said."
+    needs = frozenset()
+
+    def build(self, packed):
+        plot = figure(
+            width=400, height=200, y_range=packed.range("y", 0, 1), x_range=(0, 10), name="plot"
+        )
+        plot.line("x", "y", source=packed.source("line", "x", "y"), name="drawn")
+        return plot
+
+    def data(self, results):
+        y = np.array([results, np.nan, results + 0.5, 4])[: 3 + int(results) % 2]
+        return {"line": {"x": np.arange(y.size), "y": y}}, {"y": (-results, 2 * results)}
+
+    def sentence(self, results):
+        return f"The line is at {results:.0f}."
+
+    def table(self, results):
+        return {"height_m": np.array([results, 2.5])}
+
+
+packed = PackedSource()
+view = Line(packed)
+doc = pn.state.curdoc
+nodelay = pn.pane.Str("0", css_classes=["nodelay"])
+
+
+async def draw(value):
+    data, ranges = await in_thread(view.data, float(value))
+
+    def change():
+        packed.send(data, ranges, mark=value)
+        view.say(float(value), view.sentence(float(value)))
+
+    await one_message(doc, change)
+
+
+async def work(last):
+    for value in range(1, last + 1):
+        await draw(value)
+
+
+worker = LatestWins(work)
+
+
+def ready():
+    nodelay.object = str(send_at_once(doc))
+    worker.submit(40)
+
+
+pn.state.onload(lambda: on_loop(doc, ready))
+pn.Column(view.panel, nodelay, pn.pane.Bokeh(packed.anchor)).servable()

@@ -1,0 +1,1 @@
+"""What several tests share: references written independently, clients, loops, signals."""

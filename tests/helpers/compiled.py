@@ -1,0 +1,40 @@
+"""Machine code of the kernels, made once before anybody who needs it at the same time starts."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+
+DONE = "BEARING_EXPLORER_TESTS_COMPILED"
+"""Environment variable that says to this process's children that it is done."""
+
+
+def compile_once() -> None:
+    """Compile what is not on disk yet, in a process of its own; not twice in a test run.
+
+    Otherwise each of the parallel processes, and each server they start, would compile the same.
+    """
+    if DONE not in os.environ:
+        subprocess.run([sys.executable, "-m", "tests.helpers.compiled"], check=True)
+        os.environ[DONE] = "1"
+
+
+def main() -> None:
+    """What a server does at its start and when its first page is asked for."""
+    from bearing_explorer.compute import compiling
+
+    compiling.begin()
+    if compiling.ready():
+        return  # all is there
+    import bearingcore
+
+    print("Compiling the kernels, kept on disk for the next time ...", flush=True)
+    bearingcore.warm(report=lambda _: None)
+    while not compiling.ready():
+        time.sleep(0.1)
+
+
+if __name__ == "__main__":
+    main()

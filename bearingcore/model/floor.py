@@ -193,6 +193,9 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
     ValueError
         that says which line cannot be read, or what `measured_floor` refuses.
     """
+    lines = "2 or more lines of two numbers, angle [degrees] and depth [µm]"
+    if not text.strip() or "\x00" in text:
+        raise checks.refuse("floor", "no text" if text.strip() else "empty", lines)
     table = read_numbers(
         "the floor", text.encode("utf-8", "replace"), most_numbers=2 * MOST_ROWS, most_columns=64
     )

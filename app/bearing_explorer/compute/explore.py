@@ -77,6 +77,7 @@ _REASONS = {
     "orbit_not_converged": "no orbit was found",
     "no_common_period": "the motion never repeats",
     "arithmetic_failed": "the numbers are too extreme",
+    "too_many_steps": "the motion takes too many steps",
     "complete": "this scene has no such mode",
 }
 """Why there is no number, by the status of a sweep."""

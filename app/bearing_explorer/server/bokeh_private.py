@@ -154,6 +154,19 @@ def hear(model: Model, event: DataEvent) -> None:
         heard(event)
 
 
+async def drop_session(context: Any, name: str) -> None:
+    """Let a session of an application go whose page never connected."""
+    session = getattr(context, "_sessions", {}).get(name)
+    discard = getattr(context, "_discard_session", None)
+    if session is not None and session.connection_count == 0 and discard is not None:
+        await discard(session, lambda one: one.connection_count == 0)
+
+
+def http_server_of(server: Any) -> Any:
+    """Tornado's HTTP server in Bokeh's; None where it cannot be found."""
+    return getattr(server, "_http", None)
+
+
 def sockets_of(session: Any) -> list[Any]:
     """The websockets of a session; none where they cannot be found."""
     connections = tuple(getattr(session, "_subscribed_connections", ()))

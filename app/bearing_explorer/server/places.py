@@ -11,6 +11,7 @@ from typing import Any
 
 from bearing_explorer.server import limits
 from bearing_explorer.server import log as write
+from bearing_explorer.server.bokeh_private import drop_session
 
 _connected: Counter[str] = Counter()
 _unclaimed: dict[str, str] = {}  # addresses by names of sessions, the oldest first
@@ -63,6 +64,4 @@ async def give_page(context: Any, session: Any, address: str) -> None:
     for name in its[: max(len(its) - limits.current().unclaimed, 0)]:
         del _unclaimed[name]
         write.trouble("given-up", pages=len(its))
-        oldest = context._sessions.get(name)
-        if oldest is not None and oldest.connection_count == 0:
-            await context._discard_session(oldest, lambda one: one.connection_count == 0)
+        await drop_session(context, name)

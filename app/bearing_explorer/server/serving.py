@@ -25,6 +25,7 @@ from tornado.routing import Rule
 
 from bearing_explorer.server import limits, live, page_handler, places
 from bearing_explorer.server import log as write
+from bearing_explorer.server.bokeh_private import http_server_of
 from bearing_explorer.server.connections import BoundedServer
 from bearing_explorer.server.headers import Headers
 from bearing_explorer.server.limits import Limits
@@ -91,7 +92,7 @@ def make_server(
     server._tornado.add_transform(Headers)
     server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
     PeriodicCallback(_end_idle, min(5000.0, 250.0 * most.idle)).start()
-    _fit(server._http.most)
+    _fit(http_server_of(server).most)
     return server
 
 

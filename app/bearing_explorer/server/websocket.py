@@ -54,17 +54,17 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         name = str(get_session_id(token))
         if not places.may_connect(name):
             write.trouble("full", sessions=limits.current().sessions)
-            self._end(1013, "All places are taken.")
+            self.end_with(1013, "All places are taken.")
             return
         self._heard = time.monotonic()
         try:
             await super()._async_open(token)
         except Exception as error:
             write.trouble("refused", why=type(error).__name__)
-            self._end(1008, "The session is not known.")
+            self.end_with(1008, "The session is not known.")
             return
         for other in [one for one in sockets if one.session_name == name]:
-            other._end(1008, "The session was connected to again.")
+            other.end_with(1008, "The session was connected to again.")
         sockets.add(self)
         places.came(name)
         write.happened("came", self._document, sessions=len(sockets))
@@ -84,7 +84,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             super().open(*arguments, **named)
         except Exception as error:
             write.trouble("refused", why=type(error).__name__)
-            self._end(1008, "The session is not known.")
+            self.end_with(1008, "The session is not known.")
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Take a frame: drop what is not for the page, hold back what comes too fast."""
@@ -97,7 +97,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         self._size += len(fragment)
         self._frames += 1
         if self._size > bounds.message or self._frames > 3 + 2 * bounds.buffers:
-            self._end(1009, "A message is larger than is allowed.")
+            self.end_with(1009, "A message is larger than is allowed.")
             return
         if isinstance(fragment, str):
             why = message_cost.too_much(fragment, bounds.items, bounds.depth)
@@ -172,9 +172,9 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
     def _refuse(self, why: str) -> None:
         write.trouble("refused", self._document, why=repr(why))
-        self._end(1008, "This message was not understood.")
+        self.end_with(1008, "This message was not understood.")
 
-    def _end(self, code: int, words: str) -> None:
+    def end_with(self, code: int, words: str) -> None:
         """Close, and hear nothing more of what is on its way."""
         self._cut = True
         self.close(code, words)

@@ -221,7 +221,7 @@ def test_a_floor_comes_from_a_file(editor: SceneEditor) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "2 to"),
+        ("", "2 or more lines"),
         ("1 2\n3 x\n", "line 2"),
         ("1 2\n1 3\n", "different angles"),
         ("1 -2\n2 3\n", "at least 0"),

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 STEPS_A_CONTACT_CYCLE = 5.0
 """Steps in a period of the contact resonance, by default; stable down to 2.2."""
 
-STABLE_DECAY = 2.4
+STABLE_DECAY = 2.6
 """Decay of a ball's motion in its contacts, times the step, that is taken; 2.785 is the limit of
 Runge-Kutta steps of order 4."""
 

@@ -302,14 +302,18 @@ def simulate(
     n_balls = packing.contacts(scene.bearing).angle.size
     if n_steps > most_steps:
         # NaN everywhere, without the memory of it
-        nothing = np.broadcast_to(np.float64(math.nan), (n_steps + 1, 6, len(dofs)))
+        nothing = np.broadcast_to(
+            np.float64(math.nan), (n if with_mass else n_steps + 1, 6, len(dofs))
+        )
         status = (
             f"{TOO_MANY_STEPS}: {n_steps:.3g} of {1.0 / step_rate:.3g} s each, allowed are "
             f"most_steps = {most_steps}"
         )
+        nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
         return Motion(
             scene, dofs, sample_rate, step_rate, False, status, 0, time,
             np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
+            nowhere if with_mass else None,
         )  # fmt: skip
     h = 1.0 / step_rate
     stride, place = 1, None

@@ -68,6 +68,7 @@ UNITS = {
     "outer_groove_radius": "m",
     "youngs_modulus": "Pa",
     "poisson": "1",
+    "roller_length": "m",
     "density": "kg/m³",
     "extent": "rad",
     "depth": "m",

@@ -71,6 +71,8 @@ def extent_error(
     level = math.sqrt(float(np.mean(signal**2))) * 10.0 ** (-noise / 20.0)
     signal = signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
     directions = tuple(motion.dofs[i] for i in columns)
-    found = size_defect(Recording(signal, sample_rate, directions), scene, progress=progress)
+    recording = Recording(signal, sample_rate, directions)
+    # which race is damaged is known here: only its size is asked for
+    found = size_defect(recording, scene, fault="outer race", progress=progress)
     error = found.best.extent - scene.defect.extent if found.conclusive else math.nan
     return ExtentError(error, found)

@@ -41,14 +41,12 @@ def radial_state(x, v, cj, sj, w):
 
 
 @inlined
-def forces_of_balls(rings, balls, at, passage, inner, system, part):
-    """Σ Q e of both races, (fi0, fi1, fo0, fo1).
+def forces_of_balls(X, V, balls, at, passage, inner, system, part):
+    """Σ Q e of both races, (fi0, fi1, fo0, fo1), rings at X, V (2, 2), balls at (u, v).
 
-    Places and velocities of rings (X, V), each (2, 2), and balls (u, v), each (n,).
     part [s] > 0: each ball takes an implicit midpoint step of twice that; 0: where it is.
     Returns the sums and the number of evaluations.
     """
-    X, V = rings
     u, v = balls
     contacts = system.contacts
     races = system.races
@@ -132,7 +130,7 @@ def march_implicit_balls(y, h, substeps, stride, system, history):
             laid = 0
         if step % stride == 0:
             fi0, fi1, fo0, fo1, more = forces_of_balls(
-                (X, V), (u, v), 2 * laid, passage, inner, system, 0.0
+                X, V, (u, v), 2 * laid, passage, inner, system, 0.0
             )
             f = ((fi0, fi1), (fo0, fo1))
             row = history[step // stride]
@@ -153,7 +151,7 @@ def march_implicit_balls(y, h, substeps, stride, system, history):
                 for a in range(2):
                     Xm[body, a] = X[body, a] + away * (V[body, a] + 0.5 * away * A[body, a])
             fi0, fi1, fo0, fo1, more = forces_of_balls(
-                (Xm, V), (u, v), 2 * laid + 1, passage, inner, system, 0.5 * small
+                Xm, V, (u, v), 2 * laid + 1, passage, inner, system, 0.5 * small
             )
             calls += more
             laid += 1

@@ -53,13 +53,14 @@ class Races(NamedTuple):
     distance : (2, n) [m]
         A_i and A_e, whose sum is A0.
     damping : (2, n) [N·s/m]
-    mass [kg], centrifugal [N], weight [N]
+    mass [kg], inverse_mass [1/kg], centrifugal [N], weight [N]
     """
 
     factor: Array
     distance: Array
     damping: Array
     mass: Array
+    inverse_mass: Array
     centrifugal: Array
     weight: Array
 
@@ -406,8 +407,8 @@ def ball_rates(y, k, passage, inner, at, system, work):
                 races.damping[INNER, j] * work.contact[INNER, j, 0]
                 - races.damping[OUTER, j] * work.contact[OUTER, j, 0]
             )
-            k[first + j] = y[speeds + j] + damped / races.mass[j]
-            k[speeds + j] = work.ball[0, j] / races.mass[j]
+            k[first + j] = y[speeds + j] + damped * races.inverse_mass[j]
+            k[speeds + j] = work.ball[0, j] * races.inverse_mass[j]
         ring_velocities(y, k, rotor, work, 1.0)
     else:
         find_contacts(y, first, passage, inner, at, system, work)
@@ -425,12 +426,12 @@ def ball_rates(y, k, passage, inner, at, system, work):
                         * work.contact[OUTER, j, 1 + part]
                     )
                 i = part * n_balls + j
-                k[first + i] = y[speeds + i] + damped / races.mass[j]
+                k[first + i] = y[speeds + i] + damped * races.inverse_mass[j]
         ring_velocities(y, k, rotor, work, 1.0 if smooth else 0.0)
         push_contacts(k, first, passage, inner, at, system, work, smooth)
         for j in range(n_balls):
             for part in range(2):
-                k[speeds + part * n_balls + j] = work.ball[part, j] / races.mass[j]
+                k[speeds + part * n_balls + j] = work.ball[part, j] * races.inverse_mass[j]
     for a in range(n):
         k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, work)
 
@@ -460,9 +461,9 @@ def change_variable(y, race, j, sign, passage, at, system, work):
         else:
             y[3 * n + a] += rotor.inverse_outer[a] * part
     speeds = 4 * n + (n_balls if planar else 2 * n_balls)
-    y[speeds + j] += side * damped * er / races.mass[j]
+    y[speeds + j] += side * damped * er * races.inverse_mass[j]
     if not planar:
-        y[speeds + n_balls + j] += side * damped * ez / races.mass[j]
+        y[speeds + n_balls + j] += side * damped * ez * races.inverse_mass[j]
 
 
 @borrowing

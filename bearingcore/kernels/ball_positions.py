@@ -391,8 +391,8 @@ def settle_ring(q, load, balls, places, work):
                 break
             step *= min(max(slope / (slope - slope1), 0.05), 0.6)
         if not found:
-            ring_energy(q, F, balls, places, work.g[now], work.H[now])
-            status = CONVERGED if residual <= limit else NOT_CONVERGED
+            _, _, settled = ring_energy(q, F, balls, places, work.g[now], work.H[now])
+            status = CONVERGED if settled and residual <= limit else NOT_CONVERGED
             return now, status, residual, iteration
         for a in active:
             q[a] = work.trial[a]

@@ -92,6 +92,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
         distance=each(*bearing.race_distances),
         damping=each(contact_damping * (1.0 + softer), contact_damping * (1.0 + 1.0 / softer)),
         mass=each(mass)[0],
+        inverse_mass=each(1.0 / mass)[0],
         centrifugal=each(bearing.centrifugal_load(scene.shaft_speed))[0],
         weight=each(mass * STANDARD_GRAVITY if weight else 0.0)[0],
     )

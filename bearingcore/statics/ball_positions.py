@@ -18,6 +18,11 @@ from bearingcore.statics.equilibrium import REASONS, TERM_INDICES, equilibrium
 
 Array = NDArray[np.float64]
 
+BALANCED = 1e-8
+"""Force left on a ball, over the greatest load, up to which its place counts as found."""
+
+UNSETTLED = kernels.NOT_CONVERGED
+
 
 @dataclass(frozen=True)
 class BallPositions:
@@ -143,6 +148,9 @@ def ball_positions(
         packing.static_load(scene, active),
     )
     status = np.where(massless.status == kernels.NOT_CARRIED, kernels.NOT_CARRIED, status)
+    left = _unbalanced(scene, races, massless.cage_angles, load, angle)
+    status = np.where((status < kernels.NOT_CARRIED) & (left > BALANCED), UNSETTLED, status)
+    residual = np.maximum(residual, left)
     units = packing.length_units(scene)
     gone = status >= kernels.NOT_CARRIED
     displacement = q / units
@@ -223,6 +231,23 @@ def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> Ce
     return CentrifugalEffect(
         with_load.centrifugal_load, float(load), apart, float(max(changes)), True
     )
+
+
+def _unbalanced(
+    scene: Scene, races: kernels.Races, cage_angles: Array, load: Array, angle: Array
+) -> Array:
+    """(n,) greatest force left on a ball over the greatest load at that cage angle.
+
+    Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
+    """
+    phi = cage_angles[:, None] + packing.contacts(scene.bearing).angle
+    known = np.nan_to_num(angle)
+    radial, axial = load * np.cos(known), load * np.sin(known)
+    outwards = radial[0] - radial[1] + races.centrifugal - races.weight * np.sin(phi)
+    left = np.hypot(outwards, axial[0] - axial[1]).max(axis=1)
+    # a ball with next to no load in the gap has none left on it
+    size = np.maximum(load.max(axis=(0, 2)), np.abs(races.centrifugal).max())
+    return np.asarray(left / np.maximum(size, 1e-300) * (left > 0.0))
 
 
 def static_balls(scene: Scene, races: kernels.Races) -> kernels.StaticBalls:

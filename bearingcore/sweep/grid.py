@@ -68,6 +68,7 @@ UNITS = {
     "outer_groove_radius": "m",
     "youngs_modulus": "Pa",
     "poisson": "1",
+    "density": "kg/m³",
     "extent": "rad",
     "depth": "m",
     "center": "rad",
@@ -95,6 +96,7 @@ UNITS = {
     "shaft_speed": "rad/s",
     "contact_damping": "N·s/m",
     "contact_law": "",
+    "balls": "",
 }
 """What a sweep can go over, and the unit of each; words have none."""
 

@@ -198,14 +198,6 @@ def _table() -> dict[str, Output]:
                 MOTION,
                 dof,
             )
-    table["floquet_multiplier_greatest"] = Output(
-        "1",
-        "size of the largest Floquet multiplier of the periodic motion; "
-        "above 1 a disturbance of it grows",
-        "Motion that repeats",
-        "largest Floquet multiplier |μ|",
-        ORBIT,
-    )
     table["mass_share"] = Output(
         "1",
         "share of the housing's power along x and y in the settings' band that the balls' mass "
@@ -213,6 +205,14 @@ def _table() -> dict[str, Output]:
         "Vibration of the housing",
         "share of the power that the balls' mass adds",
         MASS,
+    )
+    table["floquet_multiplier_greatest"] = Output(
+        "1",
+        "size of the largest Floquet multiplier of the periodic motion; "
+        "above 1 a disturbance of it grows",
+        "Motion that repeats",
+        "largest Floquet multiplier |μ|",
+        ORBIT,
     )
     return table
 

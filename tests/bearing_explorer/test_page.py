@@ -7,11 +7,13 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
+from bearing_explorer.measurement.diagnoses import answered
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.session import _BROKEN, _drawing
 from bearing_explorer.views.base import View
 from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MeasuredView
 
@@ -46,6 +48,9 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
     made = view(packed)
     if isinstance(made, MeasuredView):
         made.measure(measuring(signal()))
+    if isinstance(made, PartDiagnosis):  # whose answer is found in the background
+        question = made.question(results.scene.bearing)
+        made.measurement.diagnoses.keep(question, answered(question))
     data, ranges = made.data(results)
     assert packed.pack(data, ranges).size > 3 or isinstance(made, ControlView)
     assert all(np.isfinite(limits).all() and limits[0] != limits[1] for limits in ranges.values())

@@ -125,10 +125,15 @@ class Diagnoses:
         self._known = kept | {question: answer}
 
     def want(self, question: Question) -> None:
-        """Have it answered, in place of what was wanted before."""
+        """Have it answered, in place of what was wanted before; without a loop nothing is."""
         self._wanted = question
-        if question not in self._known and (self._task is None or self._task.done()):
-            self._task = asyncio.get_running_loop().create_task(self._work())
+        if question in self._known or not (self._task is None or self._task.done()):
+            return
+        try:
+            loop = asyncio.get_running_loop()
+        except RuntimeError:  # a view is drawn outside of a session
+            return
+        self._task = loop.create_task(self._work())
 
     def stop(self) -> None:
         """The session is over."""

@@ -19,7 +19,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.frequency_lines import NAME_WIDTH, ORDER_WIDTH, ROW_PIXELS
+from bearing_explorer.views.frequency_lines import ROW_PIXELS
 from bearing_explorer.views.measured_view import write_over
 from bearingcore import Diagnosis
 from bearingcore.diagnosis.evidence import NONE_SEEN, PartEvidence
@@ -42,9 +42,12 @@ INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 
 _ROW = ROW_PIXELS / FRAME
+_NAME_COLUMNS = ("frequency", "order", "row", "alpha", "told")
+_NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
+"""Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
 _WORDS = """
-if (row.order == 1) return `%s ${rounded(row.frequency, 4)} Hz`
-return `${row.order}×`
+const name = row.order == 1 ? '%s' : `${row.order}×`
+return row.told ? `${name} ${rounded(row.frequency, 4)} Hz` : name
 """
 
 
@@ -100,7 +103,7 @@ def named(multiples: NDArray[np.float64], first: float, low: float, high: float)
     clear = -math.inf
     for multiple in multiples[(multiples * first >= low) & (multiples * first <= high)]:
         at = multiple * first
-        wide = NAME_WIDTH if multiple == 1.0 else ORDER_WIDTH
+        wide = _NAME_WIDTH if multiple == 1.0 else _ORDER_WIDTH
         if at >= clear and at + wide * width <= high + 0.5 * wide * width:
             kept.append(float(multiple))
             clear = at + wide * width
@@ -149,7 +152,7 @@ class PartLines:
             "frequency", source=sidebands, line_color=color, line_alpha=0.7, line_width=1.0,
             line_dash="dotted", level="underlay",
         )  # fmt: skip
-        names = packed.source(f"{_lines(part)}_names", "frequency", "order", "row", "alpha")
+        names = packed.source(f"{_lines(part)}_names", *_NAME_COLUMNS)
         words = style.words_of(names, _WORDS % NAMES[part])
         write_over(
             self.plot, names, words, "frequency", "row", INKS[part], x_offset=3, text_alpha="alpha"
@@ -165,9 +168,7 @@ class PartLines:
         sources: Sources = {"diagnosis_spectrum": dict.fromkeys(("frequency", "level"), none)}
         for part in PARTS:
             sources[_lines(part)] = dict.fromkeys(("frequency", "alpha", "width"), none)
-            sources[f"{_lines(part)}_names"] = dict.fromkeys(
-                ("frequency", "order", "row", "alpha"), none
-            )
+            sources[f"{_lines(part)}_names"] = dict.fromkeys(_NAME_COLUMNS, none)
             sources[_sidebands(part)] = {"frequency": none}
             sources[_points(part)] = dict.fromkeys(("frequency", "level"), none)
         return sources
@@ -198,6 +199,7 @@ class PartLines:
                 "order": labels,
                 "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
                 "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
+                "told": np.full(labels.size, float(zoom.part != "")),
             }
         if lead is not None:
             sources |= self._of_lead(lead)

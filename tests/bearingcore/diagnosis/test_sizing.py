@@ -154,7 +154,7 @@ def test_event_times_are_those_of_the_balls_in_the_recording():
     """A signal that begins at cage angle 0: balls enter and leave as geometry says."""
     scene = RIG.replace(extent=math.radians(38.6))
     motion = simulate(scene, 1.2, RATE)
-    sized = size_defect(Recording(motion.outer_acceleration, RATE), scene)
+    sized = size_defect(Recording(motion.outer_acceleration, RATE), scene, fault="outer race")
     entries, leaves = sized.event_times(sized.best)
     cage, spacing = math.degrees(scene.cage_speed), 360.0 / 14.0
     for times, edge in ((entries, 270.0 - 19.3), (leaves, 270.0 + 19.3)):
@@ -186,12 +186,16 @@ def test_what_is_no_defect_s_signal_is_not_sized():
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
     sized = size_defect(Recording(noise, RATE), RIG)
     assert not sized.conclusive
-    assert "no lines stand out" in sized.status
-    healthy = size_defect(Recording(noisy(signal_of(RIG.healthy()), 20.0), RATE), RIG)
-    assert not healthy.conclusive
+    assert sized.candidates == ()
+    insisted = size_defect(Recording(noise, RATE), RIG, fault="outer race")
+    assert not insisted.conclusive
+    assert "no lines stand out" in insisted.status
+    still = Recording(noisy(signal_of(RIG.healthy()), 20.0), RATE)
+    for fault in (None, "outer race"):
+        assert not size_defect(still, RIG, fault=fault).conclusive
     elsewhere = RIG.replace(shaft_speed=1.07 * RIG.shaft_speed)
-    wrong = size_defect(Recording(signal_of(RIG), RATE), elsewhere)
-    assert not wrong.conclusive
+    for fault in (None, "outer race"):
+        assert not size_defect(Recording(signal_of(RIG), RATE), elsewhere, fault=fault).conclusive
 
 
 def test_progress_rises_and_may_end_the_work():

@@ -171,7 +171,7 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     S = work.S
     smooth = rotor.variables != VELOCITIES
     if rotor.variables == PLANAR:
-        planar_equations_of_motion(y, k, passage, at, rotor, contacts)
+        planar_equations_of_motion(y, 0.0, y, k, passage, at, rotor, contacts)
         return 0
     for a in range(n):
         x[active[a]] = y[a] - y[2 * n + a]
@@ -225,6 +225,7 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
     trial = work.trial
     n_steps = history.shape[0] - 1
     size = y.size
+    planar = rotor.variables == PLANAR
     half_turn = 0.5 * h * rotor.cage_speed
     sixth = h / 6.0
     for step in range(n_steps + 1):
@@ -241,9 +242,16 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
             at = i + (stage + 1) // 2
             part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
             before = max(stage - 1, 0)
-            for r in range(size):
-                trial[r] = y[r] + part * k[before, r]
-            count = equations_of_motion(trial, k[stage], passage, at, rotor, contacts, forces)
+            if Y is not None or not planar:
+                for r in range(size):
+                    trial[r] = y[r] + part * k[before, r]
+            if planar:
+                planar_equations_of_motion(
+                    y, part, k[before], k[stage], passage, at, rotor, contacts
+                )
+                count = 0
+            else:
+                count = equations_of_motion(trial, k[stage], passage, at, rotor, contacts, forces)
             if Y is not None:
                 slopes = tangent.slopes
                 if stage == 0 and rotor.variables == VELOCITIES:
@@ -256,7 +264,7 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
                 contact_slopes(trial, passage, at, system, forces, count, slopes)
                 tangent_rates(tangent.trial, tangent.k[stage], rotor, slopes)
             if stage == 0:
-                if rotor.variables == PLANAR:
+                if planar:
                     planar_forces(y, k[0], passage, at, rotor, contacts, forces.f)
                 elif rotor.variables == SMOOTH:
                     push_of_contacts(passage, at, rotor, contacts, forces, count, False)

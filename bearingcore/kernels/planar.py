@@ -1,7 +1,7 @@
 """A motion in x and y at zero contact angle, whose contacts never swivel: see `motion`.
 
 The same variables and the same answers as the general way (to 1e-13), in numbers instead of arrays:
-20,000 steps of the fan rig take 4.1 ms instead of 10.7.
+20,000 steps of the fan rig take 3.1 ms instead of 10.3.
 """
 
 from __future__ import annotations
@@ -38,18 +38,27 @@ def planar_sums(x0, x1, passage, at, contacts):
 
 
 @inlined
-def planar_equations_of_motion(y, k, passage, at, rotor, contacts):
-    """`motion.equations_of_motion` for y (8,), from one number to the next without work space."""
-    xo0 = y[4]
-    xo1 = y[5]
-    f0, f1, S0, S1 = planar_sums(y[0] - xo0, y[1] - xo1, passage, at, contacts)
+def planar_equations_of_motion(y, part, before, k, passage, at, rotor, contacts):
+    """`motion.equations_of_motion` at y + part·before (8,), all as numbers in registers.
+
+    Written to an array and read again, that sum alone would take a seventh of the march.
+    """
+    xi0 = y[0] + part * before[0]
+    xi1 = y[1] + part * before[1]
+    wi0 = y[2] + part * before[2]
+    wi1 = y[3] + part * before[3]
+    xo0 = y[4] + part * before[4]
+    xo1 = y[5] + part * before[5]
+    wo0 = y[6] + part * before[6]
+    wo1 = y[7] + part * before[7]
+    f0, f1, S0, S1 = planar_sums(xi0 - xo0, xi1 - xo1, passage, at, contacts)
     damping = rotor.contact_damping
     S0 *= damping
     S1 *= damping
-    vi0 = y[2] - rotor.inverse_inner[0] * S0
-    vi1 = y[3] - rotor.inverse_inner[1] * S1
-    vo0 = y[6] + rotor.inverse_outer[0] * S0
-    vo1 = y[7] + rotor.inverse_outer[1] * S1
+    vi0 = wi0 - rotor.inverse_inner[0] * S0
+    vi1 = wi1 - rotor.inverse_inner[1] * S1
+    vo0 = wo0 + rotor.inverse_outer[0] * S0
+    vo1 = wo1 + rotor.inverse_outer[1] * S1
     w = rotor.cage_speed
     ai0, ao0 = accelerations(rotor, 0, f0 + w * S1, xo0, vo0)
     ai1, ao1 = accelerations(rotor, 1, f1 - w * S0, xo1, vo1)

@@ -338,7 +338,8 @@ def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server)
     open_page(page, explorer)
     page.get_by_role("button", name="Lessons").click()
     panel = page.locator(".lesson")
-    for number, lesson in enumerate(lessons_in(own_folder(), TABS)):
+    lessons = lessons_in(own_folder(), TABS)
+    for number, lesson in enumerate(lessons):
         assert isinstance(lesson, Lesson)
         expect(panel.locator("h2")).to_have_text(lesson.title)
         expect(page.locator(f".section-{lesson.tab}.on-screen")).to_be_visible()
@@ -375,11 +376,12 @@ def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server)
             panel.get_by_role("button", name="published").click()
             settle(page)
             expect(sentence).to_contain_text("Fewest balls carry load at an extent of 63°")
-        if number < 8:
+        if number == 8:
+            panel.get_by_role("button", name="No load at all").click()
+            expect(page.locator("footer .status [role=status]")).to_contain_text("No answer")
+        if number < len(lessons) - 1:
             panel.get_by_role("button", name="Next lesson").click()
     expect(panel.get_by_role("button", name="Next lesson")).to_be_disabled()
-    panel.get_by_role("button", name="No load at all").click()
-    expect(page.locator("footer .status [role=status]")).to_contain_text("No answer")
     page.get_by_role("button", name="All controls").click()
     expect(slider(page, "fx_n")).to_be_visible()
     page.get_by_role("button", name="Close the lessons").click()

@@ -232,7 +232,7 @@ def test_a_floor_from_a_file(watch: tuple[Page, Watch], explorer: Server) -> Non
     before = pixels(page, "depth-profile")
     for name, text, wrong in (
         ("bad.csv", b"1, 2\nthree, 4\nfive, 6\n", "line 2"),
-        ("empty.csv", b"", "2 to"),
+        ("empty.csv", b"", "2 or more lines"),
         ("binary.csv", bytes(range(256)) * 20, "binary.csv"),
         ("large.csv", b"1, 2\n" * 300_000, "larger than 1 MB"),
     ):

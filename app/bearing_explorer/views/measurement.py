@@ -86,8 +86,10 @@ class MeasuredSignal(MeasuredView):
 
     name = "measurement"
     title = "1  Your measurement"
-    about = "The acceleration of a bearing's housing, beside what the scene would give. "
-        "Set the scene to your machine: bearing, load, support."
+    about = (
+        "The acceleration of a bearing's housing, beside what the scene would give. Set the scene "
+        "to your machine: bearing, load, support."
+    )
     needs = frozenset()
 
     def build(self, packed: PackedSource) -> Any:

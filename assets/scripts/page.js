@@ -9,6 +9,7 @@
   const beside_lesson = (lesson) => {
     lessons.setAttribute("aria-expanded", String(lesson !== null))
     mark(lesson?.watch ?? [])
+    mark_as_they_come()
   }
   window.addEventListener("explorer-lesson", (event) => beside_lesson(event.detail))
 
@@ -31,10 +32,18 @@
   let marked = []
   const mark = (views) => {
     marked = views
+    const missing = new Set(marked)
     for (const element of inside(document.querySelector("main")))
-      if (element.classList.contains("view"))
-        element.classList.toggle("watched",
-          marked.some((view) => element.classList.contains(`view-${view}`)))
+      if (element.classList.contains("view")) {
+        const found = marked.find((view) => element.classList.contains(`view-${view}`))
+        element.classList.toggle("watched", found !== undefined)
+        missing.delete(found)
+      }
+    return missing.size === 0
+  }
+  // A tab that is opened for the first time is built on the server: its figures come when they come.
+  const mark_as_they_come = (tries = 200) => {
+    if (!mark(marked) && tries > 0) setTimeout(() => mark_as_they_come(tries - 1), 50)
   }
 
   // Space turns the bearing, unless something else has a use for it.
@@ -76,7 +85,7 @@
     window.addEventListener("explorer-tab", (event) => {
       if (shown === event.detail) return
       shown = event.detail
-      requestAnimationFrame(() => mark(marked))
+      requestAnimationFrame(() => mark_as_they_come())
     })
   }
   begun()

@@ -19,10 +19,10 @@ from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
 from bearing_explorer.server.message_cost import too_much, weight
 from bearing_explorer.server.turns import Turns
 
-from tests.bearing_explorer.loops import run
 from tests.bearing_explorer.server.test_serving import get, origin, served, session_of
 from tests.browser.helpers import Server, free_port
 from tests.browser.helpers import serving as server_up
+from tests.helpers.loops import run
 from tests.page_client import PageClient
 
 HALF = b"GET / HTTP/1.1\r\nHost: x\r\n"

@@ -39,7 +39,7 @@ from bearing_explorer.views.part_lines import (
 from scipy.io import wavfile
 
 from bearingcore import Diagnosis, Recording, Scene, presets
-from tests.bearing_explorer.measuring import measuring
+from tests.helpers.measuring import measuring
 
 mpl.use("agg")
 

@@ -149,7 +149,7 @@ def test_a_floor_is_read_from_two_columns(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "lines of numbers"),
+        ("", "lines of two numbers"),
         ("1 2\n", "1 angles"),
         ("1 2\n3 x\n", "line 2"),
         ("1 2 3\n4 5 6\n", "number of columns in the floor is 3"),

@@ -23,7 +23,7 @@ from tests.bearing_explorer.server.test_serving import get, origin, served, sess
 from tests.browser.helpers import Server, free_port
 from tests.browser.helpers import serving as server_up
 from tests.helpers.loops import run
-from tests.page_client import PageClient
+from tests.helpers.page_client import PageClient
 
 HALF = b"GET / HTTP/1.1\r\nHost: x\r\n"
 

@@ -139,7 +139,8 @@ def size(kind: str, noise: float, scene: Scene, recording: Recording) -> Answer:
     """Size one signal of `scene`, whose extent is not looked at."""
     (defect,) = scene.defects
     begin = time.perf_counter()
-    sized = size_defect(recording, scene.replace(extent=0.5))
+    # which race is damaged is known here: the question is how large
+    sized = size_defect(recording, scene.replace(extent=0.5), fault="outer race")
     taken = time.perf_counter() - begin
     best, events = sized.best, sized.events
     knocks = None

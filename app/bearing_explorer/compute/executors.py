@@ -28,6 +28,8 @@ PLANS = ThreadPoolExecutor(_HALF, "plan")
 """Plans of all sessions: half of the machine stays with what moves."""
 JOBS = ThreadPoolExecutor(_HALF, "job")
 """Long computations that somebody started: half of the machine, drawing has the other half."""
+DIAGNOSES = ThreadPoolExecutor(_HALF, "diagnose")
+"""Which part is damaged, of all sessions: half of the machine, drawing has the other half."""
 READERS = ThreadPoolExecutor(2, "read")
 """Files that are read: two at a time, whoever brings them, as reading takes memory."""
 

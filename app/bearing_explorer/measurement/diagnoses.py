@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import os
 from collections.abc import Awaitable, Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
+from bearing_explorer.compute.executors import DIAGNOSES
 from bearing_explorer.compute.jobs import Change
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.state.quantities import refusal
@@ -34,11 +33,6 @@ FAILED = "The signal could not be looked at."
 
 MOST_KNOWN = 12
 """Answers about one recording that are kept."""
-
-#: half of the machine, so that drawing has the other half
-_THREADS = ThreadPoolExecutor(
-    max_workers=max(1, (os.cpu_count() or 2) // 2), thread_name_prefix="diagnose"
-)
 
 
 @dataclass(frozen=True)
@@ -143,7 +137,7 @@ class Diagnoses:
     async def _work(self) -> None:
         loop = asyncio.get_running_loop()
         while (question := self._wanted) is not None and question not in self._known:
-            answer = await loop.run_in_executor(_THREADS, answered, question)
+            answer = await loop.run_in_executor(DIAGNOSES, answered, question)
             if self._wanted is None:
                 return
             if self._wanted.measured is question.measured:

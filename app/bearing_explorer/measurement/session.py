@@ -11,12 +11,12 @@ import dataclasses
 import logging
 import math
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from bearing_explorer.compute.executors import READERS
 from bearing_explorer.compute.jobs import Change
 from bearing_explorer.compute.results import Results, Settings
 from bearing_explorer.measurement.background import noise_level, true_part
@@ -64,10 +64,6 @@ FIRST_WORDS = (
 _SPEED_OF_SCENE = (
     "The shaft speed is that of the scene: type in the measured one if it was another."
 )
-
-#: two files at a time are read, whoever brings them: reading takes memory, and the threads that
-#: draw must stay free
-_READERS = ThreadPoolExecutor(max_workers=2, thread_name_prefix="read")
 
 
 @dataclass(frozen=True)
@@ -326,7 +322,7 @@ class Measurement:
 
         async def run() -> None:
             try:
-                found = await asyncio.get_running_loop().run_in_executor(_READERS, compute)
+                found = await asyncio.get_running_loop().run_in_executor(READERS, compute)
             except ValueError as error:
                 sentence = str(error)
                 change = lambda: self._refuse(sentence)  # noqa: E731

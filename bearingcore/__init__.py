@@ -1,36 +1,36 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
 
-from bearingcore.diagnosis.diagnose import diagnose
-from bearingcore.diagnosis.evidence import Diagnosis, PartEvidence
-from bearingcore.diagnosis.sizing import Candidate, Sizing, size_defect
+from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
+from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.model.bearing import Bearing
-from bearingcore.model.catalogue import (
+from bearingcore.model.bearings.catalogue import (
     CatalogueBearing,
     catalogue,
     catalogue_text,
     read_catalogue,
 )
+from bearingcore.model.bearings.presets import preset_notes, presets
 from bearingcore.model.defect import EDGES, RACES, Defect
 from bearingcore.model.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.model.load import Load
-from bearingcore.model.presets import preset_notes, presets
 from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Scene
 from bearingcore.model.support import Support
+from bearingcore.plan.warm_up import warm
 from bearingcore.signals.envelope_band import impulsive_band
-from bearingcore.signals.read import read_table
+from bearingcore.signals.files.read import read_table
+from bearingcore.signals.files.table import Table
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
-from bearingcore.signals.table import Table
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.statics.film import Film, film
 from bearingcore.statics.life import Life, dynamic_load_rating, life
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
 from bearingcore.statics.validity import Limit, limits
-from bearingcore.warm_up import warm
 
 __all__ = [
     "CONTACT_LAWS",

@@ -15,7 +15,7 @@ from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import BAND
 from bearingcore.experiments.points import slope
 from bearingcore.experiments.references import motion_reference
-from bearingcore.model.presets import presets
+from bearingcore.model.bearings.presets import presets
 from bearingcore.model.scene import Scene
 
 

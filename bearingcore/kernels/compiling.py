@@ -69,9 +69,9 @@ def on_disk(kernel: Any) -> bool:
 
 @cache
 def sources(folder: Path) -> str:
-    """A fingerprint of the Python files of a folder; empty where there is no such folder."""
+    """A fingerprint of a folder's Python files, those of folders in it too; empty without any."""
     digest = hashlib.sha256()
-    files = sorted(folder.glob("*.py"))
+    files = sorted(folder.rglob("*.py"))
     for file in files:
-        digest.update(file.name.encode() + b"\0" + file.read_bytes() + b"\0")
+        digest.update(str(file.relative_to(folder)).encode() + b"\0" + file.read_bytes() + b"\0")
     return digest.hexdigest()[:16] if files else ""

@@ -25,7 +25,8 @@ from functools import cached_property
 from typing import Any, Self
 
 from bearingcore.common import checks
-from bearingcore.model import drawing, scene_file
+from bearingcore.model import scene_file
+from bearingcore.model.bearings import drawing
 from bearingcore.model.hertz import RaceContact, in_series, race_contact, spherical_contact
 from bearingcore.model.rows import MOST_ROWS, Row, pair
 

@@ -198,7 +198,7 @@ def seconds_a_call(kind: str, n_balls: int, n_dofs: int, law: str) -> float:
 
     `kind` is one of those of `Pilot.signal`.
     """
-    from bearingcore.model.presets import presets
+    from bearingcore.model.bearings.presets import presets
 
     widest = 0.9 * 45e-3 * math.sin(math.pi / n_balls) if n_balls > 1 else 8e-3
     example = presets["fan-rig"].replace(

@@ -39,7 +39,7 @@ from typing import NamedTuple
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
-from bearingcore.model.drawing import WIDEST_CONFORMITY
+from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
 from bearingcore.model.scene import Scene
 from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
 

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bearingcore import diagnose
-from bearingcore.diagnosis.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
 from tests.bearingcore.diagnosis.signals_made import HEALTHY, PARTS, draw_signal
 
 SCORED = 2031

@@ -22,9 +22,9 @@ from typing import Any, NamedTuple
 from unittest import mock
 
 from bearingcore import Diagnosis, Load, Scene, Support, diagnose, presets, size_defect
-from bearingcore.diagnosis import diagnose as diagnosing
-from bearingcore.diagnosis.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.diagnosis.parts import OUTER, PARTS
+from bearingcore.diagnosis.part import diagnose as diagnosing
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
+from bearingcore.diagnosis.part.parts import OUTER, PARTS
 from bearingcore.signals.filter_bank import Envelope
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
 

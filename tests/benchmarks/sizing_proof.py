@@ -30,8 +30,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore import Scene, contact_damping, presets, simulate
-from bearingcore.diagnosis import sizing as method
-from bearingcore.diagnosis.sizing import size_defect
+from bearingcore.diagnosis.size import sizing as method
+from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.signals.recording import Recording
 
 SAMPLE_RATE, DURATION = 20_480.0, 1.4

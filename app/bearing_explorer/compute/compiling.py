@@ -14,7 +14,7 @@ import threading
 
 from bearingcore import kernels, presets
 from bearingcore.plan import SETTLED, plan
-from bearingcore.warm_up import start_python
+from bearingcore.plan.warm_up import start_python
 
 _NICE = 10
 _lock = threading.Lock()

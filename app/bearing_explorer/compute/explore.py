@@ -28,7 +28,7 @@ from bearing_explorer.state.quantity_list import DEGREE
 from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
 from bearingcore.common.table import SUFFIXES
-from bearingcore.diagnosis.sizing_error import extent_error
+from bearingcore.diagnosis.size.sizing_error import extent_error
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (

@@ -16,8 +16,8 @@ import numpy as np
 
 from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
-from bearingcore.signals.facts import Finding
-from bearingcore.signals.units import STANDARD_GRAVITY, UNITS, VOLTAGES, kind_of
+from bearingcore.signals.files.facts import Finding
+from bearingcore.signals.files.units import STANDARD_GRAVITY, UNITS, VOLTAGES, kind_of
 
 FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate", "shaft_speed")
 LONGEST_TEXT = 40

@@ -39,7 +39,7 @@ from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearingcore import Recording, Scene, Sizing, Table, read_table
-from bearingcore.diagnosis.variants import Tolerances, variant
+from bearingcore.diagnosis.size.variants import Tolerances, variant
 
 log = logging.getLogger(__name__)
 

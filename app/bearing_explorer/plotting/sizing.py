@@ -9,7 +9,7 @@ import holoviews as hv
 
 from bearing_explorer.figures import style
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
-from bearingcore.diagnosis.sizing import Sizing
+from bearingcore.diagnosis.size.sizing import Sizing
 
 _EXTENT = style.AxisQuantity("Extent", "Δφf", "°")
 _PROBABILITY = style.AxisQuantity("Probability", "P", "")

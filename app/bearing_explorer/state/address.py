@@ -65,7 +65,7 @@ from bearingcore import (
     Scene,
     presets,
 )
-from bearingcore.model.drawing import OPTIONAL_FIELDS
+from bearingcore.model.bearings.drawing import OPTIONAL_FIELDS
 from bearingcore.model.floor import MOST_ROWS
 
 TOO_LONG = "too-long"

@@ -42,7 +42,7 @@ from bearingcore import (
     presets,
     read_floor,
 )
-from bearingcore.model.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
+from bearingcore.model.bearings.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
 
 MOST_DEFECTS = 6
 LARGEST_FILE = 1_000_000

@@ -16,8 +16,8 @@ from bearing_explorer.views.measured_view import NOTHING, LookPanel, MeasuredVie
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
 from bearing_explorer.widgets.part_panel import EvidenceTable, PartPanel
 from bearingcore import Bearing, Diagnosis
-from bearingcore.diagnosis.combs import HARMONICS
-from bearingcore.diagnosis.parts import PARTS
+from bearingcore.diagnosis.part.combs import HARMONICS
+from bearingcore.diagnosis.part.parts import PARTS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results

@@ -24,7 +24,7 @@ from bearing_explorer.state.simulated_signals import MACHINES, NOISES
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
-from bearingcore.signals.units import UNITS
+from bearingcore.signals.files.units import UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results

@@ -22,8 +22,8 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import ROW_PIXELS
 from bearing_explorer.views.measured_view import write_over
 from bearingcore import Diagnosis
-from bearingcore.diagnosis.evidence import NONE_SEEN, PartEvidence
-from bearingcore.diagnosis.parts import PARTS
+from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part.parts import PARTS
 
 FREQUENCY = style.AxisQuantity("Frequency of knocks", "f", "Hz")
 ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")

@@ -9,7 +9,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.measurement.diagnoses import SLIP, Question
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
 from bearingcore import Diagnosis
-from bearingcore.diagnosis.evidence import NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
 
 LIKELY = 0.9
 """Probability from which a part is called damaged without a "probably"."""

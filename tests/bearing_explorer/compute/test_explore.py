@@ -24,7 +24,7 @@ from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
 from bearing_explorer.views.explore import ExplorePlane, summary
 
 from bearingcore import equilibrium, modes, presets, simulate
-from bearingcore.diagnosis.sizing_error import extent_error
+from bearingcore.diagnosis.size.sizing_error import extent_error
 from bearingcore.sweep import OUTPUTS, STATUSES
 from bearingcore.sweep.grid import UNITS
 

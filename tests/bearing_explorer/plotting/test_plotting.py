@@ -26,7 +26,7 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.diagnosis.sizing_error import extent_error
+from bearingcore.diagnosis.size.sizing_error import extent_error
 
 SCENE = presets["fan-rig"].replace(extent=math.radians(38.6), depth=50e-6, fy=-100.0)
 STATE = equilibrium(SCENE)

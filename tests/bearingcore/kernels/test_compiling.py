@@ -154,3 +154,10 @@ def test_the_fingerprint_is_of_contents(tmp_path: Path) -> None:
     (tmp_path / "a.py").write_text("y")
     compiling.sources.cache_clear()
     assert first != compiling.sources(tmp_path) != ""
+    (tmp_path / "inside").mkdir()
+    (tmp_path / "inside" / "a.py").write_text("x")
+    compiling.sources.cache_clear()
+    deeper = compiling.sources(tmp_path)
+    (tmp_path / "inside" / "a.py").write_text("y")
+    compiling.sources.cache_clear()
+    assert deeper != compiling.sources(tmp_path), "folders inside count"

@@ -1,0 +1,1 @@
+"""Which part of the bearing is damaged, if that can be told."""

@@ -1,0 +1,112 @@
+"""Which part of a bearing is damaged, from a signal, its geometry and its speed.
+
+Knocks of a damaged part repeat at a frequency that the geometry gives. The signal is whitened, so
+that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's pre-whitening, smoothed);
+squared envelopes are taken in the bands of the fast kurtogram; in their spectra combs of six
+harmonics are looked for, with one common slip (see `combs`). A part is named if its comb
+
+- stands well above what noise reaches anywhere it was looked for (NOISE_MARGIN),
+- swings the envelope by more than healthy bearings do (LEAST_DEPTH),
+- stands well above the combs of the other parts (PART_MARGIN) and above every other comb there is
+  (OTHER_MARGIN), of this bearing or not, but those that follow from it: multiples and sidebands,
+- has the sidebands that its own turning makes: an inner race those of the shaft, a ball the cage's.
+
+The margins are few, and the same for every machine.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bearingcore.common import checks
+from bearingcore.diagnosis.part.decide import decide, silent
+from bearingcore.diagnosis.part.evidence import Diagnosis
+from bearingcore.diagnosis.part.judged import judge
+from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
+from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.diagnosis.part.unknown_speed import in_range
+from bearingcore.model.bearing import Bearing
+from bearingcore.signals.recording import Recording
+
+SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
+"""[rad/s] between which an unknown shaft is looked for."""
+
+
+def diagnose(
+    recording: Recording,
+    bearing: Bearing,
+    shaft_speed: float | tuple[float, float] | None,
+    *,
+    slip: float = 0.02,
+) -> Diagnosis:
+    """Which part of a bearing is damaged, if that can be told from a signal.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing, one direction or two.
+    bearing
+        its geometry; only balls, diameters and contact angle count.
+    shaft_speed
+        [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
+        of the recording is taken if it carries one, else it is looked for between 300 and 6000
+        turns a minute.
+    slip
+        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
+
+    Raises
+    ------
+    ValueError
+        for a speed or slip that cannot be.
+    """
+    slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
+    low, high, source = _speeds(recording, shaft_speed)
+    signal = ListenedSignal(recording)
+    if signal.nothing_to_hear is not None:
+        return silent(signal.nothing_to_hear, source)
+    if high <= low * (1.0 + 1e-9):
+        return _at_speed(signal, bearing, low, slip, source)
+    return in_range(signal, bearing, low, high, slip, source)
+
+
+def _speeds(
+    recording: Recording, shaft_speed: float | tuple[float, float] | None
+) -> tuple[float, float, str]:
+    """The speed from, to [Hz], and where it is from."""
+    turn = 2.0 * math.pi
+    if shaft_speed is None:
+        told = getattr(recording, "shaft_speed", None)
+        if told is not None:
+            speed = checks.number("shaft_speed", told, above=0.0, unit="rad/s") / turn
+            return speed, speed, "told by the recording"
+        return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
+    if np.ndim(shaft_speed) == 0:
+        speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
+        return speed, speed, "given"
+    try:
+        first, last = shaft_speed  # type: ignore[misc]
+    except (TypeError, ValueError):
+        raise checks.refuse(
+            "shaft_speed", shaft_speed, "a number [rad/s], a pair of them, or None"
+        ) from None
+    first = checks.number("lower shaft_speed", first, above=0.0, unit="rad/s")
+    last = checks.number("upper shaft_speed", last, at_least=first, unit="rad/s")
+    return first / turn, last / turn, "looked for"
+
+
+def _at_speed(
+    signal: ListenedSignal, bearing: Bearing, shaft: float, slip: float, source: str
+) -> Diagnosis:
+    """The diagnosis at a known speed [Hz]."""
+    parts = part_lines(bearing)
+    refused = unfit(signal, parts, shaft)
+    if refused is not None:
+        return silent(refused, source, shaft)
+    given, own = shaft, signal.shaft(shaft * (1.0 - slip), shaft * (1.0 + slip))
+    if own.clear:
+        shaft = own.frequency
+        source += ", made finer by the shaft's own lines"
+    judged = judge(signal, parts, shaft, slip, given)
+    return decide(signal, judged, shaft, source)

@@ -1,0 +1,198 @@
+"""What a diagnosis says, and on what grounds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.diagnosis.part.parts import PARTS
+from bearingcore.signals.filter_bank import Band
+
+NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
+FAULTS = (*PARTS, NONE_SEEN, CANNOT_TELL)
+
+
+@dataclass(frozen=True)
+class PartEvidence:
+    """What speaks for damage of one part.
+
+    Attributes
+    ----------
+    part
+        "outer race", "inner race" or "ball".
+    nominal_frequency, nominal_order
+        of its line by the geometry [Hz], [turns of the shaft]; of a ball twice its spin.
+    frequency, order
+        where its strongest lines are [Hz], [turns of the shaft].
+    slip
+        by how much that differs from nominal, as a fraction.
+    harmonics : (h,) [dB]
+        levels of the line and its harmonics over their surroundings.
+    level
+        [dB] of them together: the mean without the loudest, so that no single line decides.
+    noise
+        [dB] that noise alone reaches in one of a thousand signals.
+    depth
+        by how much the envelope swings at these lines, as a share of its mean.
+    sidebands : (h, 2) [dB]
+        levels below and above each harmonic, `sideband_spacing` away.
+    sideband_spacing
+        [Hz] one turn of the shaft for the races, of the cage for a ball.
+    sideband_source
+        "shaft" or "cage".
+    band
+        [Hz] in which the lines were seen best.
+    direction
+        of the recording in which they were.
+    kurtosis
+        of the signal in that band: 2 for noise, more for knocks.
+    false_alarm
+        how often noise alone would do as well, all bands and slips counted.
+    """
+
+    part: str
+    nominal_frequency: float
+    nominal_order: float
+    frequency: float
+    order: float
+    slip: float
+    harmonics: NDArray[np.float64]
+    level: float
+    noise: float
+    depth: float
+    sidebands: NDArray[np.float64]
+    sideband_spacing: float
+    sideband_source: str
+    band: Band
+    direction: str
+    kurtosis: float
+    false_alarm: float
+
+
+@dataclass(frozen=True)
+class OtherLines:
+    """The strongest lines in the signal that are none of this bearing's.
+
+    Attributes
+    ----------
+    frequency, order
+        of the first [Hz], [turns of the shaft].
+    level
+        [dB] of its harmonics, as for a part.
+    """
+
+    frequency: float
+    order: float
+    level: float
+
+
+@dataclass(frozen=True)
+class EnvelopeLines:
+    """The spectrum of the envelope on which a diagnosis rests.
+
+    Attributes
+    ----------
+    frequency : (m,) [Hz]
+    level : (m,) [dB]
+        over the surroundings.
+    band
+        [Hz] of the signal whose envelope it is.
+    direction
+        of the recording.
+    """
+
+    frequency: NDArray[np.float64] = field(repr=False)
+    level: NDArray[np.float64] = field(repr=False)
+    band: Band
+    direction: str
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What a signal says about which part of a bearing is damaged.
+
+    Attributes
+    ----------
+    fault
+        "outer race", "inner race", "ball", "none seen" or "cannot tell".
+    probability
+        that the fault named is the true one, never 1; where it cannot be told, that of the part
+        that leads.
+    status
+        sentences to pass on.
+    evidence
+        of each part: outer race, inner race, ball; empty where nothing could be looked at.
+    shaft_speed
+        [rad/s] on which it rests; None where none was found.
+    speed_source
+        where that is from: "given", "its own lines in the signal", ...
+    other
+        the strongest lines that are none of this bearing's, if any stand out.
+    detectable_depth
+        the least swing of the envelope, as a share of its mean, that would have been seen.
+    spectrum
+        that of the envelope in the band of the best evidence; None with no evidence.
+    """
+
+    fault: str
+    probability: float
+    status: str
+    evidence: tuple[PartEvidence, ...]
+    shaft_speed: float | None
+    speed_source: str
+    other: OtherLines | None
+    detectable_depth: float
+    spectrum: EnvelopeLines | None
+
+    @property
+    def conclusive(self) -> bool:
+        """Whether a part is named, or none seen where one would have been."""
+        return self.fault != CANNOT_TELL
+
+    @property
+    def names_a_part(self) -> bool:
+        """Whether a part is named."""
+        return self.fault in PARTS
+
+    def of(self, part: str) -> PartEvidence:
+        """The evidence of a part, by its name; KeyError where nothing could be looked at."""
+        for one in self.evidence:
+            if one.part == part:
+                return one
+        raise KeyError(part)
+
+    def table(self) -> ResultTable:
+        """A row a part with its evidence; beside them the spectrum of the envelope, if any."""
+        parts, spectrum = self.evidence, self.spectrum
+        count = len(parts[0].harmonics) if parts else 0
+        columns = table_of(
+            ("part", "", [one.part for one in parts]),
+            ("frequency", "Hz", [one.frequency for one in parts], "of its strongest lines"),
+            ("nominal_frequency", "Hz", [one.nominal_frequency for one in parts], "by geometry"),
+            ("order", "1", [one.order for one in parts], "turns of the shaft"),
+            ("nominal_order", "1", [one.nominal_order for one in parts]),
+            ("slip", "1", [one.slip for one in parts]),
+            ("level", "dB", [one.level for one in parts], "of all harmonics but the loudest"),
+            ("noise", "dB", [one.noise for one in parts], "reached in one of a thousand signals"),
+            *(
+                (f"harmonic_{k + 1}", "dB", [one.harmonics[k] for one in parts])
+                for k in range(count)
+            ),
+            ("sidebands", "dB", [one.sidebands.mean() for one in parts], "their mean"),
+            ("sideband_spacing", "Hz", [one.sideband_spacing for one in parts]),
+            ("envelope_swing", "1", [one.depth for one in parts], "at the lines, of its mean"),
+            ("band_low", "Hz", [one.band.low for one in parts]),
+            ("band_high", "Hz", [one.band.high for one in parts]),
+            ("direction", "", [one.direction for one in parts]),
+            ("kurtosis", "1", [one.kurtosis for one in parts]),
+            ("false_alarm", "1", [one.false_alarm for one in parts], "as good by noise alone"),
+        )
+        if spectrum is None:
+            return columns
+        return columns | table_of(
+            ("envelope_frequency", "Hz", spectrum.frequency),
+            ("envelope_level", "dB", spectrum.level, "over the surroundings"),
+        )

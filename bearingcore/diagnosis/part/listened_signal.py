@@ -1,0 +1,81 @@
+"""The signal that a diagnosis listens to: its directions, and what is wrong with each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bearingcore.diagnosis.part import say
+from bearingcore.diagnosis.part.combs import HARMONICS
+from bearingcore.diagnosis.part.parts import PartLines
+from bearingcore.diagnosis.part.shaft import ShaftLines, shaft_lines
+from bearingcore.signals.dropouts import SignalFaults, signal_faults
+from bearingcore.signals.filter_bank import Envelope, split, squared_envelopes
+from bearingcore.signals.recording import Recording
+
+FEWEST_PASSES = 12
+"""Knocks in a recording below which nothing is said."""
+
+MOST_DROPPED = 0.5
+"""Share of a recording without signal from which nothing is said."""
+
+NARROWEST = 16.0
+"""Turns of the shaft a second that a band is wide at least."""
+
+WHITENING = 3.0
+"""Turns of the shaft a second over which a signal is whitened."""
+
+
+class ListenedSignal:
+    """The directions of a recording, and what is wrong with each."""
+
+    def __init__(self, recording: Recording) -> None:
+        self.rate = recording.sample_rate
+        self.duration = recording.duration
+        columns = recording.acceleration.T
+        faults = [signal_faults(column) for column in columns]
+        usable = [index for index, one in enumerate(faults) if one.dropped_share <= MOST_DROPPED]
+        self.names = [recording.directions[index] for index in usable]
+        self.columns = [np.asarray(columns[index]) for index in usable]
+        self.faults: list[SignalFaults] = [faults[index] for index in usable]
+        self.nothing_to_hear: str | None = None
+        if not usable:
+            share = min(one.dropped_share for one in faults)
+            self.nothing_to_hear = say.dropped(share)
+
+    @property
+    def dropped(self) -> float:
+        """Share of the samples that dropped out."""
+        return max(one.dropped_share for one in self.faults)
+
+    @property
+    def clipped(self) -> float:
+        """Share of the samples that are clipped."""
+        return max(one.clipped_share for one in self.faults)
+
+    def heard(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
+        """Envelopes in all bands, with their directions."""
+        bands = split(self.rate, NARROWEST * shaft)
+        return [
+            (name, envelope)
+            for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
+            for envelope in squared_envelopes(
+                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
+            )
+        ]
+
+    def shaft(self, low: float, high: float) -> ShaftLines:
+        """The shaft's own lines between two frequencies [Hz]."""
+        return shaft_lines(self.columns, self.rate, low, high)
+
+
+def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> str | None:
+    """Why nothing can be said, or None."""
+    slowest = min(lines.order for lines in parts) * shaft
+    top = max(lines.order for lines in parts) * shaft
+    if signal.duration * slowest < FEWEST_PASSES:
+        return say.too_short(signal.duration, signal.duration * slowest, FEWEST_PASSES)
+    if 0.5 * signal.rate < (HARMONICS + 2.0) * top:
+        return say.too_slow(signal.rate, 2.0 * (HARMONICS + 2.0) * top)
+    return None

@@ -1,0 +1,118 @@
+"""The diagnosis where the speed is known roughly or not at all: it is looked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from bearingcore.diagnosis.part import say
+from bearingcore.diagnosis.part.decide import SURE, decide, silent
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, Diagnosis
+from bearingcore.diagnosis.part.judged import (
+    NOISE_MARGIN,
+    Judged,
+    compare,
+    judge,
+    most_telling,
+)
+from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
+from bearingcore.diagnosis.part.parts import PartLines, part_lines
+from bearingcore.diagnosis.part.shaft import ShaftLines
+from bearingcore.model.bearing import Bearing
+
+NARROW = 1.3
+"""A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
+
+SHAFT_MARGIN = 6.0
+"""[dB] by which the shaft's lines at one speed must stand above those at another."""
+
+
+def in_range(
+    signal: ListenedSignal, bearing: Bearing, low: float, high: float, slip: float, source: str
+) -> Diagnosis:
+    """The diagnosis at a speed that lies between two [Hz]: it is looked for.
+
+    The strongest comb in the signal may be of each part that has its line there at some speed of
+    the range. Which it is, the shaft's own lines at that speed decide.
+    """
+    parts = part_lines(bearing)
+    refused = unfit(signal, parts, low) or unfit(signal, parts, high)
+    if refused is not None:
+        return silent(refused, source)
+    own = signal.shaft(low, high)
+    hypotheses = []
+    if own.clear:
+        hypotheses.append(_Hypothesis(own, judge(signal, parts, own.frequency, slip)))
+    middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
+    combs = most_telling(signal, parts, middle, reach, known_speed=False)[0]
+    strongest = max(combs.found, key=lambda found: found.level)
+    stands_out = strongest.level - combs.noise >= NOISE_MARGIN
+    if stands_out:
+        for lines in parts:
+            speed = strongest.frequency / lines.order
+            if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
+                hypotheses.append(_Hypothesis.at(signal, parts, speed, slip))
+    holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
+    if not holding:
+        if own.clear:
+            return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
+        if not stands_out:
+            judged = compare(signal, combs, [combs], parts, reach)
+            return decide(signal, judged, None, f"{source}, not found")
+        return _undecided_speed(signal, hypotheses, strongest.frequency, source)
+    first = holding[0]
+    rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)
+    alone = high <= NARROW * low and rival is None
+    if not (first.shaft.clear or alone):
+        return _undecided_speed(signal, holding, first.judged.best.frequency, source)
+    if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
+        return _undecided_speed(signal, [first, rival], first.judged.best.frequency, source)
+    part = first.judged.best.lines.part
+    found = _FOUND if first.shaft.clear else f"taken from the lines of the {part}"
+    return decide(signal, first.judged, first.judged.combs.shaft, found)
+
+
+_FOUND = "found by the shaft's own lines"
+
+
+def _undecided_speed(
+    signal: ListenedSignal, hypotheses: Sequence[_Hypothesis], frequency: float, source: str
+) -> Diagnosis:
+    """Knocks that may be of one part or another, as the speed may be."""
+    readings: dict[str, float] = {}
+    for one in hypotheses:
+        readings.setdefault(one.judged.best.lines.part, one.judged.combs.shaft)
+    decided = decide(signal, hypotheses[0].judged, None, source)
+    return replace(
+        decided,
+        fault=CANNOT_TELL,
+        status=say.which_speed(frequency, list(readings.items())),
+        probability=SURE / max(2, len(readings)),
+    )
+
+
+@dataclass(frozen=True)
+class _Hypothesis:
+    """That the shaft turns at a speed, and what the signal says then."""
+
+    shaft: ShaftLines
+    judged: Judged
+
+    @classmethod
+    def at(
+        cls, signal: ListenedSignal, parts: Sequence[PartLines], speed: float, slip: float
+    ) -> _Hypothesis:
+        """What follows if the shaft turns about `speed` times a second [Hz]."""
+        shaft = signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip))
+        return cls(shaft, judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
+
+    @property
+    def holds(self) -> bool:
+        """Whether a part would be named at that speed."""
+        return self.judged.seen and self.judged.margin >= 0.0
+
+    def agrees(self, other: _Hypothesis, slip: float) -> bool:
+        """Whether another speed is the same, and the part."""
+        ratio = self.judged.combs.shaft / other.judged.combs.shaft
+        same = self.judged.best.lines.part == other.judged.best.lines.part
+        return same and abs(ratio - 1.0) <= 2.0 * slip

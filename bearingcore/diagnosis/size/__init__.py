@@ -1,0 +1,1 @@
+"""How large a defect is, if that can be told."""

@@ -1,0 +1,78 @@
+"""Whether a mean ball pass tells anything: is it one, and explained better than by chance?
+
+A few harmonics can be laid over many simulated passes, and some of those will fit by luck. How well
+luck does is found with the signal's own harmonics, their sizes kept and their phases drawn anew: of
+such a pass everything is left that tones, resonances and the path to the sensor do to its spectrum,
+and nothing of the order in which balls meet edges.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.diagnosis.size.synthesis import Target
+
+DRAWS = 24
+"""Passes with phases drawn anew."""
+
+
+@dataclass(frozen=True)
+class PassQuality:
+    """What a mean ball pass consists of, in the band that is compared.
+
+    Attributes
+    ----------
+    noise_share
+        part of its power that is noise, mean over directions.
+    strongest
+        part of its power that the strongest harmonic carries.
+    harmonics
+        how many harmonics carry it: 1/Σ p², p the parts of the power.
+    """
+
+    noise_share: float
+    strongest: float
+    harmonics: float
+
+
+def pass_quality(target: Target) -> PassQuality:
+    """Noise and number of harmonics of a measured mean ball pass."""
+    part = (np.abs(target.harmonics) ** 2 / target.energy).mean(axis=1)
+    part = part / max(float(part.sum()), 1e-300)
+    return PassQuality(
+        noise_share=float(target.noise_share.mean()),
+        strongest=float(part.max(initial=0.0)),
+        harmonics=1.0 / max(float((part**2).sum()), 1e-300),
+    )
+
+
+class ByChance:
+    """How well passes with the phases drawn anew are explained by the same simulations."""
+
+    def __init__(self, target: Target) -> None:
+        rng = np.random.default_rng(0)
+        count = len(target.harmonics)
+        turns = np.exp(2j * math.pi * rng.uniform(size=(DRAWS, count)))
+        self._drawn = [target.with_harmonics(target.harmonics * turn[:, None]) for turn in turns]
+        self._target = target
+        self._drawn_best = np.full(DRAWS, math.inf)
+        self._best = math.inf
+
+    def look(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> None:
+        """Let the drawn passes be explained by simulations (m, N, d), as the measured one is."""
+        self._best = min(self._best, _least(self._target, harmonics, power))
+        for i, drawn in enumerate(self._drawn):
+            self._drawn_best[i] = min(self._drawn_best[i], _least(drawn, harmonics, power))
+
+    @property
+    def share(self) -> float:
+        """Part of the passes, the measured one among them, explained as well as it is or better."""
+        return float((1 + np.sum(self._drawn_best <= self._best)) / (1 + DRAWS))
+
+
+def _least(target: Target, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> float:
+    return float(target.match(harmonics, power).waveform_misfit.mean(axis=1).min())

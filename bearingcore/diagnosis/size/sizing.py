@@ -1,0 +1,459 @@
+"""The size of a defect from the vibration of the housing: analysis by synthesis.
+
+The time from a ball's entry to a ball's exit gives the extent only up to whole ball spacings
+(Petersen, Howard & Prime 2014, Section 4). So every extent is simulated, what is only roughly known
+about the scene is varied with it, and each candidate Δφ + k·360°/N_b is asked how well it explains
+the signal: the mean ball pass in both directions and the spectrum. The answer is a probability for
+each candidate, and a word where the signal cannot tell.
+
+First the diagnosis is asked, which needs no model of the machine: an extent is looked for only
+where it names the outer race. Then the mean ball pass must be one: several harmonics, more than
+noise, and explained better than chance would (see `chance`).
+
+Quantity                                   | Symbol | Name           | Unit
+------------------------------------------ | ------ | -------------- | ----
+extent                                     | Δφ     | extent         | rad
+whole ball spacings in it                  | k      | turns          |
+time from entry to exit                    | Δt     | (events)       | s
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.evidence import Diagnosis
+from bearingcore.diagnosis.size.chance import PassQuality, pass_quality
+from bearingcore.diagnosis.size.events import Events, find_events
+from bearingcore.diagnosis.size.fitting import (
+    EXTENT_STEP,
+    GREATEST_EXTENT,
+    LEAST_EXTENT,
+    Guess,
+    Search,
+    guesses,
+)
+from bearingcore.diagnosis.size.synthesis import Band, Target, comparison_band
+from bearingcore.diagnosis.size.variants import Tolerances
+from bearingcore.dynamics.modes import modes
+from bearingcore.model.defect import Defect
+from bearingcore.model.scene import Scene
+from bearingcore.signals.averaging import BallPasses, average_passes
+from bearingcore.signals.recording import Recording
+from bearingcore.statics.passes import crossings
+
+TEMPERATURE = 3.0
+"""By which scores are divided before they become probabilities."""
+
+SPREAD_FACTOR = 1.0
+SPREAD_FLOOR = math.radians(0.05)
+"""What makes a standard deviation [rad] of the extent out of that of the fit."""
+
+CLEAR = 0.9
+"""Probability from which a candidate counts as told."""
+
+MUCH_UNEXPLAINED = 0.3
+"""Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
+
+MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
+"""Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
+a tone that happens to lie on a harmonic is not a defect."""
+
+LEAST_CHANCE = 0.05
+"""Part of passes with phases drawn anew that may be explained as well as the measured one."""
+
+OUTER, INNER = "outer race", "inner race"
+AT_MOST, AT_LEAST = "at most", "at least"
+
+LEAST_PROMINENCE = 6.0
+"""Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
+
+EVENTS_REACH = 3.3
+"""Times the highest compared frequency over 1.35 up to which knocks are looked for."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An extent that the time between entry and exit allows.
+
+    Attributes
+    ----------
+    turns
+        k, whole ball spacings in the extent.
+    extent
+        [rad]
+    probability
+        that this candidate is the true one, among all candidates.
+    edge
+        the edge model that fits best.
+    factors
+        by what the scene's numbers are multiplied to fit best, by name.
+    waveform_misfit, spectrum_misfit : (d,)
+        what is left unexplained of the mean ball pass; mean squared natural logarithm of the ratio
+        of the smoothed spectra.
+    level
+        natural logarithm of simulated over measured power.
+    scene
+        the fitted scene: its modes, bands, motion and spectrum are the candidate's.
+    passes
+        its simulated ball passes.
+    lag
+        ball-pass phase [rad] of the simulation at which the measured signal begins.
+    """
+
+    turns: int
+    extent: float
+    probability: float
+    edge: str
+    factors: dict[str, float]
+    waveform_misfit: NDArray[np.float64]
+    spectrum_misfit: NDArray[np.float64]
+    level: float
+    scene: Scene = field(repr=False)
+    passes: BallPasses = field(repr=False)
+    lag: float = field(repr=False)
+
+    @cached_property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest natural frequency [Hz] of each mode, by label."""
+        return modes(self.scene).bands()
+
+    def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
+        """The simulated mean pass (n, d), laid over the measured one."""
+        turn = np.exp(1j * self.lag * np.arange(1, len(self.passes.harmonics) + 1))
+        moved = dataclasses.replace(self.passes, harmonics=self.passes.harmonics * turn[:, None])
+        return moved.waveform(n, lowest)
+
+    def phases(self) -> tuple[float, float]:
+        """Phases [rad] of the measured ball pass at which balls enter and leave."""
+        spacing = self.scene.bearing.ball_spacing
+        found = {}
+        for crossing in crossings(self.scene, 0.0, spacing):
+            found[crossing.enters] = 2.0 * math.pi * crossing.cage_angle / spacing - self.lag
+        return found[True] % (2.0 * math.pi), found[False] % (2.0 * math.pi)
+
+
+@dataclass(frozen=True)
+class Sizing:
+    """What a signal says about the size of a defect.
+
+    Attributes
+    ----------
+    candidates
+        by rising extent; their probabilities add up to 1. None where no extent was looked for.
+    extent_uncertainty
+        standard deviation [rad] of the extent if the most probable candidate is the true one.
+    status
+        a sentence: how sure the answer is, or why there is none.
+    conclusive
+        whether one candidate is told from all the others, and its extent is not a bound.
+    bound
+        "at most" or "at least" where the best extent stands at an end of the search; else "".
+    diagnosis
+        which part the signal accuses; None where it was told by hand.
+    quality
+        what the mean ball pass consists of.
+    chance
+        how often a pass of such a spectrum is explained as well with its phases drawn anew.
+    events
+        entry and exit as found in the signal alone, and the paper's Δt.
+    passes
+        the measured mean ball pass and spectrum.
+    band
+        frequencies that were compared.
+    recording
+        the signal.
+    """
+
+    candidates: tuple[Candidate, ...]
+    extent_uncertainty: float
+    status: str
+    conclusive: bool
+    events: Events
+    passes: BallPasses
+    band: Band
+    recording: Recording = field(repr=False)
+    scores: NDArray[np.float64] = field(repr=False)
+    """(candidates,) before the temperature."""
+    quality: PassQuality
+    chance: float = math.nan
+    bound: str = ""
+    diagnosis: Diagnosis | None = None
+
+    def table(self) -> ResultTable:
+        """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
+        candidates = self.candidates
+        return table_of(
+            ("extent", "rad", [c.extent for c in candidates]),
+            ("ball_spacings", "", [c.turns for c in candidates], "whole ball spacings in it"),
+            ("probability", "1", [c.probability for c in candidates]),
+            ("edge", "", [c.edge for c in candidates]),
+            ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
+            ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
+            *(
+                (f"{name}_factor", "1", [c.factors[name] for c in candidates])
+                for name in (candidates[0].factors if candidates else ())
+            ),
+        )
+
+    @property
+    def best(self) -> Candidate:
+        """The most probable candidate. ValueError, with the status, where there is none."""
+        if not self.candidates:
+            raise ValueError(self.status)
+        return max(self.candidates, key=lambda candidate: candidate.probability)
+
+    def event_times(
+        self, candidate: Candidate | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Times [s] in the recording at which balls enter and leave the defect.
+
+        By a candidate's simulation, or by the signal alone where it is None.
+        """
+        entry, leave = (
+            candidate.phases()
+            if candidate is not None
+            else (self.events.entry_phase, self.events.exit_phase)
+        )
+        duration, frequency = self.recording.duration, self.passes.frequency
+        turns = np.arange(math.floor(duration * frequency) + 1)
+
+        def times(phase: float) -> NDArray[np.float64]:
+            all_times = (turns + phase / (2.0 * math.pi)) / frequency
+            return np.asarray(all_times[all_times <= duration])
+
+        return times(entry), times(leave)
+
+
+def size_defect(
+    recording: Recording,
+    scene: Scene,
+    *,
+    fault: str | None = None,
+    tolerances: Tolerances | None = None,
+    slip: float = 0.02,
+    progress: Callable[[float], None] | None = None,
+) -> Sizing:
+    """Candidates for the extent of a defect on the outer race, and their probabilities.
+
+    Where the diagnosis does not name the outer race there are none, and the status says why.
+    Inner races are not sized: their defect turns through the load zone, and no ball pass is like
+    the next.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing along y, or x and y: two directions tell more.
+    scene
+        bearing, load, support and shaft speed of the machine, and a defect whose centre and
+        nominal depth are taken as known; its extent is not looked at.
+    fault
+        "outer race" where that is known from elsewhere: then the diagnosis is not asked. None: it
+        is.
+    tolerances
+        how well the scene is known; None for the usual.
+    slip
+        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
+    progress
+        is called with the share of the work done, and may raise an exception to end it.
+
+    Raises
+    ------
+    ValueError
+        for a scene that is not fit for it, or a signal too short or sampled too slowly.
+    """
+    scene, columns = _prepared(scene, recording.directions)
+    slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
+    tolerances = tolerances if tolerances is not None else Tolerances()
+    if fault is not None:
+        checks.choice("fault", fault, (OUTER,))
+    band = comparison_band(scene, recording.sample_rate)
+    passes = average_passes(
+        recording.acceleration,
+        recording.sample_rate,
+        scene.bearing.bpfo(scene.shaft_speed),
+        slip,
+        band.lowest,
+        band.highest,
+        min(EVENTS_REACH * band.highest / 1.35, 0.4 * recording.sample_rate),
+    )
+    target = Target(passes, band)
+    events = find_events(passes, scene, recording.directions)
+    nothing = Sizing(
+        (), math.nan, "", False, events, passes, band, recording, np.zeros(0), pass_quality(target)
+    )
+    if fault is None:
+        found_fault = diagnose(recording, scene.bearing, scene.shaft_speed, slip=slip)
+        nothing = dataclasses.replace(nothing, diagnosis=found_fault, status=_no_size(found_fault))
+        if found_fault.fault != OUTER:
+            return nothing
+    spacing = scene.bearing.ball_spacing
+
+    def cell(difference: float) -> int:
+        return round(difference / spacing)
+
+    search = Search(scene, target, columns, tolerances)
+    found, chance = guesses(search, cell, progress if progress is not None else _go_on)
+    best = found[0]
+    in_cells: dict[int, Guess] = {}
+    for guess in found:
+        in_cells.setdefault(cell(guess.extent - best.extent), guess)
+    chosen = [in_cells[number] for number in sorted(in_cells)]
+    scores = np.array([guess.score for guess in chosen])
+    weights = np.exp((scores - scores.max()) / TEMPERATURE)
+    weights /= weights.sum()
+    candidates = tuple(
+        _candidate(search, guess, float(weight))
+        for guess, weight in zip(chosen, weights, strict=True)
+    )
+    spread = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
+    sized = dataclasses.replace(
+        nothing, candidates=candidates, extent_uncertainty=spread, scores=scores, chance=chance
+    )
+    conclusive, bound, status = judged(sized)
+    return dataclasses.replace(sized, conclusive=conclusive, bound=bound, status=status)
+
+
+def _go_on(share: float) -> None:
+    """Progress that nobody wants to know."""
+
+
+def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[int, ...]]:
+    """The scene with a nominal extent, and the columns of its motion that were measured."""
+    if not isinstance(scene.defect, Defect):
+        raise checks.refuse("defect", f"{len(scene.defect)} defects", "a single one")
+    if scene.defect.race != "outer":
+        raise checks.refuse("race", scene.defect.race, "outer: an inner-race defect turns")
+    if scene.defect.floor is not None:
+        raise checks.refuse("floor", "uneven", "a flat floor")
+    checks.number("depth", scene.defect.depth, above=0.0, unit="m")
+    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    if scene.bearing.n_balls < 3:
+        raise checks.refuse("n_balls", scene.bearing.n_balls, "at least 3")
+    missing = [name for name in directions if name not in scene.active_dofs]
+    if missing:
+        raise checks.refuse("dofs", scene.active_dofs, "with " + ", ".join(missing))
+    columns = tuple(scene.active_dofs.index(name) for name in directions)
+    return scene.replace(extent=0.5), columns
+
+
+def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
+    names = [f.name for f in dataclasses.fields(search.tolerances)]
+    exponents = guess.offsets * search.tolerances.spread
+    factors = {name: math.exp(x) for name, x in zip(names, exponents.tolist(), strict=True)}
+    return Candidate(
+        turns=math.floor(guess.extent / search.scene.bearing.ball_spacing),
+        extent=guess.extent,
+        probability=probability,
+        edge=guess.edge,
+        factors=factors,
+        waveform_misfit=guess.waveform_misfit,
+        spectrum_misfit=guess.spectrum_misfit,
+        level=guess.level,
+        scene=search.varied(guess.extent, guess.edge, guess.offsets),
+        passes=guess.passes,
+        lag=guess.lag,
+    )
+
+
+def _spread(best: Guess, others: list[Guess]) -> float:
+    """Standard deviation [rad] of the extent, from the fit's and from guesses nearly as good.
+
+    Never more than that of not knowing it at all.
+    """
+    weights = np.exp((np.array([g.score for g in others]) - best.score) / TEMPERATURE)
+    away = np.array([g.extent - best.extent for g in others])
+    between = float((weights * away**2).sum() / weights.sum())
+    own = best.extent_spread * SPREAD_FACTOR
+    spread = math.sqrt(own**2 + between + SPREAD_FLOOR**2)
+    return min(spread, (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0))
+
+
+def _no_size(found: Diagnosis) -> str:
+    """Why no extent is looked for where the outer race is not accused."""
+    words = found.status
+    if found.fault == INNER:
+        words += (
+            " Its size is not looked for: a defect of the inner race turns through the load zone, "
+            "and no ball pass is like the next."
+        )
+    return words
+
+
+def judged(sized: Sizing) -> tuple[bool, str, str]:
+    """Whether an answer is conclusive, whether it is a bound, and the sentence that says so."""
+    best, passes, quality = sized.best, sized.passes, sized.quality
+    spread = sized.extent_uncertainty
+    size = f"{math.degrees(best.extent):.1f}° ± {math.degrees(spread):.1f}°"
+    unexplained = float(best.waveform_misfit.mean())
+    beside_noise = unexplained - quality.noise_share
+    none = "The signal cannot tell the size of the defect: "
+    refusal = ""
+    if passes.prominence < LEAST_PROMINENCE and unexplained > 0.6:
+        refusal = "no lines stand out at the ball-pass frequency of an outer-race defect."
+    elif quality.strongest > MOST_IN_ONE or quality.harmonics < FEWEST_HARMONICS:
+        refusal = (
+            f"one harmonic carries {100.0 * quality.strongest:.0f} % of the mean ball pass, as a "
+            "tone would; a defect's entry and exit show in many."
+        )
+    elif sized.chance > LEAST_CHANCE:
+        refusal = (
+            "no extent explains it better than it would explain a signal of the same spectrum "
+            "by chance. Load, speed, support or bearing may not be those of this machine."
+        )
+    elif beside_noise > MUCH_UNEXPLAINED:
+        refusal = (
+            f"the best extent leaves {100.0 * unexplained:.0f} % of the mean ball pass "
+            f"unexplained, of which {100.0 * quality.noise_share:.0f} % are noise. Load, "
+            "speed, support or bearing may not be those of this machine."
+        )
+    elif abs(best.level) > math.log(10.0):
+        decibels = 10.0 / math.log(10.0) * abs(best.level)
+        than = "weaker" if best.level > 0.0 else "stronger"
+        refusal = (
+            f"most like {size}, but the signal is {decibels:.0f} dB {than} than such a defect "
+            "gives: it may be in another unit, or have another cause."
+        )
+    if refusal:
+        return False, "", none + refusal
+    if best.probability < CLEAR:
+        likely = [c for c in sized.candidates if c.probability >= 0.05]
+        told = ", ".join(
+            f"{math.degrees(c.extent):.1f}° ({100.0 * c.probability:.0f} %)" for c in likely
+        )
+        return False, "", f"The signal cannot tell these apart: {told}."
+    if best.extent - LEAST_EXTENT < max(2.0 * spread, EXTENT_STEP):
+        most = math.degrees(best.extent + 2.0 * spread)
+        return (
+            False,
+            AT_MOST,
+            (
+                f"The defect extends over {most:.1f}° at most: shorter ones than "
+                f"{math.degrees(LEAST_EXTENT):.0f}° are not told apart."
+            ),
+        )
+    if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
+        least = math.degrees(best.extent - 2.0 * spread)
+        return False, AT_LEAST, f"The defect extends over {least:.1f}° at least."
+    return (
+        True,
+        "",
+        (
+            f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
+            f"probability {percent(best.probability)}."
+        ),
+    )
+
+
+def percent(probability: float) -> str:
+    """A probability in words; nothing is ever certain."""
+    return "above 99 %" if probability > 0.99 else f"{100.0 * probability:.0f} %"

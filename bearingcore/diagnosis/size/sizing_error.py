@@ -1,0 +1,78 @@
+"""How far the size of a defect is missed when its own simulated signal is all there is to go by."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearingcore.common import checks
+from bearingcore.diagnosis.size.sizing import Sizing, size_defect
+from bearingcore.dynamics.motion import simulate
+from bearingcore.model.defect import Defect
+from bearingcore.model.scene import Scene
+from bearingcore.signals.recording import Recording
+
+SETTLED = 0.3
+"""[s] of a simulated motion before its signal is recorded."""
+
+
+@dataclass(frozen=True)
+class ExtentError:
+    """The most probable extent less the true one [rad], and the sizing that says so.
+
+    `error` is NaN where the signal cannot tell; `sizing.status` says why.
+    """
+
+    error: float
+    sizing: Sizing
+
+
+def extent_error(
+    scene: Scene,
+    *,
+    duration: float = 0.7,
+    sample_rate: float = 20_480.0,
+    noise: float = 20.0,
+    seed: int = 0,
+    progress: Callable[[float], None] | None = None,
+) -> ExtentError:
+    """Simulate what a sensor on the housing would record of `scene`, and size its defect by it.
+
+    Parameters
+    ----------
+    scene
+        with a single defect of the outer race.
+    duration, sample_rate
+        [s], [Hz] of the recording, along x and y.
+    noise
+        how far below the signal's mean power that of white noise lies [dB].
+    seed
+        of the noise.
+    progress
+        as for `size_defect`: is called with the share of the work done, and may raise an exception.
+
+    Raises
+    ------
+    ValueError
+        for a scene without a defect that can be sized, or one whose motion does not stay finite.
+    """
+    if not isinstance(scene.defect, Defect):
+        raise checks.refuse("defect", f"{len(scene.defect)} defects", "a single one")
+    checks.number("extent", scene.defect.extent, above=0.0, unit="rad")
+    checks.number("depth", scene.defect.depth, above=0.0, unit="m")
+    motion = simulate(scene, duration + SETTLED, sample_rate)
+    if not motion.completed:
+        raise ValueError(f"there is no signal to size: {motion.status}")
+    columns = [i for i, name in enumerate(motion.dofs) if name in ("x", "y")]
+    signal = motion.outer_acceleration[round(SETTLED * sample_rate) :, columns]
+    level = math.sqrt(float(np.mean(signal**2))) * 10.0 ** (-noise / 20.0)
+    signal = signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
+    directions = tuple(motion.dofs[i] for i in columns)
+    recording = Recording(signal, sample_rate, directions)
+    # which race is damaged is known here: only its size is asked for
+    found = size_defect(recording, scene, fault="outer race", progress=progress)
+    error = found.best.extent - scene.defect.extent if found.conclusive else math.nan
+    return ExtentError(error, found)

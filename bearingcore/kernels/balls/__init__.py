@@ -1,0 +1,1 @@
+"""Balls with mass: their motion, and their place at high speed."""

@@ -1,0 +1,328 @@
+"""Which part is damaged: right where it can be told, silent where it cannot."""
+
+import dataclasses
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bearingcore import Recording, diagnose
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
+from bearingcore.diagnosis.part.parts import PARTS, part_lines
+from tests.bearingcore.diagnosis.signals_made import (
+    HEALTHY,
+    Machine,
+    background,
+    draw_signal,
+    knocks,
+    tone,
+)
+from tests.benchmarks.measured import WRONG, verdict
+from tests.benchmarks.measured_records import ball_bearing, records
+
+TURN = 2.0 * math.pi
+MOTOR = Machine(9, 7.94 / 39.04, 29.93, 12_000.0, 4.0)
+
+
+def made(part: str, decibels: float, seed: int, machine: Machine = MOTOR) -> np.ndarray:
+    """A damaged motor bearing's signal."""
+    rng = np.random.default_rng([99, seed])
+    rest = background(machine, rng)
+    knocking = knocks(machine, part, rng)
+    return np.asarray(rest + knocking * 10.0 ** (decibels / 20.0) * rest.std() / knocking.std())
+
+
+def answer(signal, machine: Machine = MOTOR, speed=None, **told):
+    recording = Recording(signal, machine.rate, ("y",) if np.ndim(signal) == 1 else ("x", "y"))
+    return diagnose(
+        recording, machine.bearing, machine.shaft_speed if speed is None else speed, **told
+    )
+
+
+@pytest.fixture(scope="module")
+def damaged() -> dict[str, np.ndarray]:
+    return {part: made(part, 10.0, 3) for part in PARTS}
+
+
+@pytest.fixture(scope="module")
+def healthy() -> np.ndarray:
+    return background(MOTOR, np.random.default_rng(12))
+
+
+def test_orders_are_those_of_the_textbook():
+    """SKF's 6205: outer race 3.585, inner race 5.415, ball spin 2.357, cage 0.3983 a turn."""
+    outer, inner, ball = part_lines(ball_bearing(9, 7.94, 39.04))
+    assert outer.order == pytest.approx(3.585, abs=5e-4)
+    assert inner.order == pytest.approx(5.415, abs=5e-4)
+    assert ball.order == pytest.approx(2.0 * 2.357, abs=5e-3)
+    assert (outer.sidebands, inner.sidebands) == (0.0, 1.0)
+    assert ball.sidebands == pytest.approx(0.3983, abs=5e-4)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_the_damaged_part_is_named_with_its_lines(damaged, part):
+    found = answer(damaged[part])
+    assert found.fault == part
+    assert 0.5 < found.probability < 1.0
+    assert part in found.status
+    own = found.of(part)
+    assert own.level > own.noise + 2.0
+    assert own.nominal_frequency == pytest.approx(MOTOR.lines[part], rel=3e-3)
+    assert own.slip == pytest.approx(own.frequency / own.nominal_frequency - 1.0)
+    assert abs(own.slip) <= 0.02
+    assert own.order == pytest.approx(own.frequency / (found.shaft_speed / TURN))
+    assert own.false_alarm < 1e-6
+    assert own.harmonics.shape == (6,)
+    assert own.sidebands.shape == (6, 2)
+    assert own.sideband_source == ("cage" if part == "ball" else "shaft")
+    assert found.spectrum.band == own.band
+    for other in set(PARTS) - {part}:
+        assert found.of(other).level < own.level - 3.0
+
+
+def test_what_turns_through_the_load_has_sidebands_and_what_stands_still_has_none(damaged):
+    for part in ("inner race", "ball"):
+        own = answer(damaged[part]).of(part)
+        assert own.sidebands[:3].mean() > own.level - 12.0
+    own = answer(damaged["outer race"]).of("outer race")
+    assert own.sidebands[:3].mean() < own.level - 8.0
+
+
+def test_a_healthy_machine_is_told_so_in_words(healthy):
+    found = answer(healthy)
+    assert found.fault == NONE_SEEN
+    assert found.conclusive
+    assert not found.names_a_part
+    assert "No damage seen" in found.status
+    assert found.detectable_depth < 0.06
+
+
+@pytest.mark.parametrize("decibels", [30.0, 0.0])
+@pytest.mark.parametrize("kind", [*PARTS, HEALTHY])
+def test_signals_of_any_machine_are_named_rightly_or_not_at_all(kind, decibels):
+    right = 0
+    for number in range(2):
+        rng = np.random.default_rng([5, (*PARTS, HEALTHY).index(kind), number, int(decibels)])
+        machine, recording = draw_signal(kind, rng, decibels)
+        found = diagnose(recording, machine.bearing, machine.shaft_speed)
+        truth = NONE_SEEN if kind == HEALTHY else kind
+        assert found.fault in (truth, CANNOT_TELL)
+        right += found.fault == truth
+    assert right >= 1
+
+
+# -- what is no damage -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_tones_on_the_lines_are_no_damage(healthy, part):
+    """Steady tones on three harmonics of a part's line, each as loud as all noise together."""
+    time = np.arange(len(healthy)) / MOTOR.rate
+    rng = np.random.default_rng(14)
+    tones = sum(tone(time, k * MOTOR.lines[part], rng, 1.0) for k in (1, 2, 3))
+    assert answer(healthy + tones).fault == NONE_SEEN
+
+
+def test_a_swelling_noise_on_one_line_is_no_damage(healthy):
+    time = np.arange(len(healthy)) / MOTOR.rate
+    swell = 1.0 + 0.3 * np.cos(TURN * MOTOR.lines["outer race"] * time)
+    assert answer(healthy * swell).fault not in PARTS
+
+
+def test_a_gear_that_swells_every_turn_is_no_damage(healthy):
+    time = np.arange(len(healthy)) / MOTOR.rate
+    tooth = time * MOTOR.turns % 1.0
+    knock = np.exp(-300.0 * tooth / MOTOR.turns) * np.sin(TURN * 2500.0 * tooth / MOTOR.turns)
+    assert answer(healthy + 20.0 * knock).fault not in PARTS
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
+    """8 balls of 6.75 mm on 28.5 mm, the motor's other end: none of its lines lies near."""
+    other = dataclasses.replace(MOTOR, n_balls=8, ratio=6.7462 / 28.4988)
+    found = answer(damaged[part], other)
+    assert found.fault == CANNOT_TELL
+    assert found.other is not None
+    assert found.other.frequency == pytest.approx(MOTOR.lines[part], rel=0.012) or (
+        abs(found.other.frequency / MOTOR.lines[part] - 0.5) < 0.01
+    )
+
+
+def test_an_inner_race_is_not_taken_for_a_ball_of_another_bearing():
+    """BPFI 4.755 of the one is 2 BSF 4.714 of the other within the slip: sidebands tell."""
+    machine = Machine(8, 0.235 / 1.245, 25.0, 20_000.0, 3.0)
+    signal = made("inner race", 15.0, 4, machine)
+    assert answer(signal, machine).fault == "inner race"
+    wrong = dataclasses.replace(machine, n_balls=9, ratio=7.94 / 39.04)
+    assert answer(signal, wrong).fault not in PARTS
+
+
+# -- speed -----------------------------------------------------------------------------------------
+
+
+def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
+    time = np.arange(len(signal)) / MOTOR.rate
+    rng = np.random.default_rng(15)
+    lines = sum(tone(time, k * MOTOR.turns, rng, 0.5) for k in range(1, 7))
+    return np.asarray(signal + signal.std() * lines)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_a_rough_speed_is_made_fine_by_the_shaft(damaged, part):
+    speed = MOTOR.shaft_speed
+    found = answer(with_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
+    assert found.fault == part
+    assert found.shaft_speed == pytest.approx(speed, rel=2e-3)
+    assert "shaft's own lines" in found.speed_source
+    assert "turns a minute" in found.status
+
+
+def test_an_unknown_speed_is_looked_for(damaged):
+    recording = Recording(with_shaft_lines(damaged["outer race"]), MOTOR.rate, ("y",))
+    found = diagnose(recording, MOTOR.bearing, None)
+    assert found.fault == "outer race"
+    assert found.shaft_speed == pytest.approx(MOTOR.shaft_speed, rel=2e-3)
+
+
+def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
+    rng = np.random.default_rng(16)
+    signal = knocks(MOTOR, "outer race", rng)
+    signal = signal / signal.std() + 0.5 * rng.standard_normal(len(signal))
+    found = answer(signal, speed=(0.5 * MOTOR.shaft_speed, 2.0 * MOTOR.shaft_speed))
+    assert found.fault == CANNOT_TELL
+    assert "Tell the shaft speed" in found.status
+    found = answer(signal)
+    assert found.fault == "outer race"
+
+
+def test_a_speed_the_recording_carries_is_taken(damaged):
+    recording = Recording(damaged["outer race"], MOTOR.rate, ("y",))
+    object.__setattr__(recording, "shaft_speed", MOTOR.shaft_speed)
+    found = diagnose(recording, MOTOR.bearing, None)
+    assert found.fault == "outer race"
+    assert found.speed_source.startswith("told by the recording")
+
+
+def test_a_speed_told_one_percent_wrong_does_no_harm(damaged):
+    for factor in (0.99, 1.01):
+        found = answer(damaged["inner race"], speed=factor * MOTOR.shaft_speed)
+        assert found.fault == "inner race"
+
+
+# -- poor recordings -------------------------------------------------------------------------------
+
+
+def test_scale_sign_and_offset_change_nothing(damaged):
+    first = answer(damaged["inner race"])
+    for changed in (-1e-3 * damaged["inner race"], damaged["inner race"] + 500.0):
+        again = answer(changed)
+        assert again.fault == first.fault
+        assert again.probability == pytest.approx(first.probability, abs=1e-3)
+        assert again.of("inner race").level == pytest.approx(first.of("inner race").level, abs=0.05)
+
+
+def test_two_directions_are_both_heard(damaged, healthy):
+    found = answer(np.stack([healthy, damaged["outer race"]], axis=1))
+    assert found.fault == "outer race"
+    assert found.of("outer race").direction == "y"
+
+
+def test_a_tenth_of_a_second_tells_nothing_of_health(healthy):
+    found = answer(healthy[:1200])
+    assert found.fault == CANNOT_TELL
+    found = answer(healthy[: 1200 * 6])
+    assert found.fault == CANNOT_TELL
+    assert "longer recording" in found.status
+
+
+def test_clipped_and_coarse_signals_still_tell(damaged, healthy):
+    signal = damaged["outer race"]
+    assert answer(np.clip(signal, -signal.std(), signal.std())).fault == "outer race"
+    assert answer(np.round(signal / signal.std() * 4.0)).fault == "outer race"
+    found = answer(np.clip(healthy, -0.5 * healthy.std(), 0.5 * healthy.std()))
+    assert found.fault == CANNOT_TELL
+    assert "clipped" in found.status
+
+
+def test_dropouts_are_left_out(damaged, healthy):
+    rng = np.random.default_rng(17)
+
+    def gaps(signal: np.ndarray, count: int) -> np.ndarray:
+        torn = signal.copy()
+        for begin in rng.integers(0, len(torn) - 600, count):
+            torn[begin : begin + 600] = 0.0
+        return torn
+
+    assert answer(gaps(damaged["outer race"], 15)).fault == "outer race"
+    assert answer(gaps(healthy, 15)).fault == CANNOT_TELL
+    mostly = healthy.copy()
+    mostly[5000:] = 0.0
+    found = answer(mostly)
+    assert found.fault == CANNOT_TELL
+    assert "dropped out" in found.status
+    assert found.evidence == ()
+    with pytest.raises(KeyError):
+        found.of("ball")
+
+
+def test_a_few_great_blows_hide_no_damage_and_make_none(damaged, healthy):
+    def hit(signal: np.ndarray) -> np.ndarray:
+        signal = signal.copy()
+        signal[[7000, 20_000, 33_000]] += 200.0 * signal.std()
+        return signal
+
+    assert answer(hit(damaged["outer race"])).fault == "outer race"
+    found = answer(hit(healthy))
+    assert found.fault == CANNOT_TELL
+    assert "not at the rate of any part" in found.status
+
+
+def test_too_low_a_rate_is_said():
+    slow = dataclasses.replace(MOTOR, rate=1000.0)
+    found = answer(np.random.default_rng(18).standard_normal(4000), slow)
+    assert found.fault == CANNOT_TELL
+    assert "1000 Hz" in found.status
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"),
+    [
+        (0.0, "shaft_speed is 0"),
+        (-3.0, "shaft_speed is -3"),
+        (math.nan, "shaft_speed is nan"),
+        ((3.0, 2.0), "upper shaft_speed is 2"),
+        ((0.0, 2.0), "lower shaft_speed is 0"),
+        ((1.0, 2.0, 3.0), "shaft_speed"),
+        ("fast", "shaft_speed"),
+    ],
+)
+def test_a_speed_that_cannot_be_is_refused(healthy, speed, told):
+    with pytest.raises(ValueError, match=told):
+        answer(healthy, speed=speed)
+
+
+def test_a_slip_that_cannot_be_is_refused(healthy):
+    for slip in (-0.01, 0.2, math.nan):
+        with pytest.raises(ValueError, match="slip"):
+            answer(healthy, slip=slip)
+
+
+# -- real machines ---------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif("BEARING_RECORDS" not in os.environ, reason="BEARING_RECORDS names no folder")
+def test_no_measured_record_is_answered_conclusively_and_wrongly():
+    found = [
+        (record, diagnose(record.recording, record.bearing, record.shaft_speed))
+        for record in records(Path(os.environ["BEARING_RECORDS"]))
+    ]
+    assert found
+    assert [record.name for record, one in found if verdict(record, one) == WRONG] == []
+    named = [record.truth == one.fault for record, one in found if record.truth in PARTS]
+    assert sum(named) >= 0.88 * len(named)
+
+
+def test_the_words_for_faults_are_the_five():
+    assert FAULTS == ("outer race", "inner race", "ball", "none seen", "cannot tell")

@@ -1,0 +1,326 @@
+"""Sizing defects: of signals made here by another code path, and of scenes drawn by seed."""
+
+import dataclasses
+import math
+import re
+
+import numpy as np
+import pytest
+
+from bearingcore import Defect, Scene, simulate
+from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
+from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
+from bearingcore.diagnosis.size.synthesis import Target, comparison_band, synthesise
+from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.signals.averaging import average_passes
+from bearingcore.signals.files.read import read_table
+from bearingcore.signals.recording import Recording
+from tests.benchmarks.sizing_proof import SCORED, size_all
+from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
+
+
+@pytest.fixture(scope="module")
+def measured() -> tuple[Scene, bytes]:
+    return file_from_elsewhere()
+
+
+def test_a_file_from_elsewhere_is_sized(measured):
+    truth, content = measured
+    recording = read_table("rig.csv", content).recording(
+        ["horizontal", "vertical"], ["x", "y"], "g"
+    )
+    sized = size_defect(recording, truth.replace(extent=1.0))
+    assert math.degrees(sized.best.extent) == pytest.approx(47.3, abs=0.5)
+    assert sized.best.turns == 1
+    assert sized.best.probability > 0.9
+    assert sized.conclusive
+    assert abs(sized.best.extent - truth.defect.extent) < 4.0 * sized.extent_uncertainty
+    # the clock runs 0.1 % fast, so balls pass 0.1 % more often than the shaft speed says
+    nominal = truth.bearing.bpfo(truth.shaft_speed)
+    assert sized.passes.frequency == pytest.approx(1.001 * nominal, rel=1.5e-4)
+
+
+def test_in_another_unit_it_says_so(measured):
+    truth, content = measured
+    recording = read_table("rig.csv", content).recording([1, 2], ["x", "y"], "m/s²")
+    sized = size_defect(recording, truth)
+    assert not sized.conclusive
+    assert "20 dB weaker" in sized.status
+    assert "unit" in sized.status
+
+
+@pytest.fixture(scope="module")
+def paper() -> dict[float, Sizing]:
+    """The paper's two defects, a ball spacing apart, at 20 dB; the extent told is a third one."""
+    return {
+        extent: size_defect(
+            Recording(noisy(signal_of(RIG.replace(extent=math.radians(extent))), 20.0), RATE),
+            RIG.replace(extent=math.radians(80.0)),
+        )
+        for extent in (12.9, 38.6)
+    }
+
+
+@pytest.mark.parametrize(("extent", "turns"), [(12.9, 0), (38.6, 1)])
+def test_the_paper_s_two_defects_are_told_apart(paper, extent, turns):
+    sized = paper[extent]
+    assert math.degrees(sized.best.extent) == pytest.approx(extent, abs=0.3)
+    assert (sized.best.turns, sized.conclusive) == (turns, True)
+    assert sum(c.probability for c in sized.candidates) == pytest.approx(1.0)
+    assert f"{turns} whole" in sized.status
+    assert "unexplained" not in sized.status
+    extents = [c.extent for c in sized.candidates]
+    assert extents == sorted(extents)
+    assert len(extents) >= 4
+
+
+def test_an_answer_that_leaves_much_unexplained_is_refused(paper):
+    sized = paper[12.9]
+    poor = dataclasses.replace(sized.best, waveform_misfit=np.array([0.4, 0.6]))
+    others = [c for c in sized.candidates if c is not sized.best]
+    conclusive, bound, words = judged(dataclasses.replace(sized, candidates=(poor, *others)))
+    assert not conclusive
+    assert not bound
+    assert words.startswith("The signal cannot tell")
+    assert "leaves 50 % of the mean ball pass unexplained" in words
+
+
+def test_a_pass_that_lives_on_one_tone_or_is_explained_by_chance_is_refused(paper):
+    sized = paper[12.9]
+    tone = dataclasses.replace(sized.quality, strongest=0.8, harmonics=1.5)
+    conclusive, _, words = judged(dataclasses.replace(sized, quality=tone))
+    assert not conclusive
+    assert "one harmonic carries 80 %" in words
+    conclusive, _, words = judged(dataclasses.replace(sized, chance=0.2))
+    assert not conclusive
+    assert "by chance" in words
+
+
+def test_an_extent_at_an_end_of_the_search_is_a_bound(paper):
+    sized = paper[12.9]
+    others = [c for c in sized.candidates if c is not sized.best]
+    for extent, bound, words in (
+        (LEAST_EXTENT, "at most", "at most: shorter ones than 1°"),
+        (GREATEST_EXTENT, "at least", "at least"),
+    ):
+        edge = dataclasses.replace(sized.best, extent=extent)
+        answer = judged(dataclasses.replace(sized, candidates=(edge, *others)))
+        assert not answer[0]
+        assert answer[1] == bound
+        assert words in answer[2]
+
+
+def test_no_size_is_looked_for_where_another_part_is_accused_or_none():
+    """Noise, and a signal of an inner race: knocks at 8.28 times the shaft, louder in its turn."""
+    rng = np.random.default_rng(5)
+    noise = Recording(rng.standard_normal((round(2.0 * RATE), 1)), RATE, ("y",))
+    sized = size_defect(noise, RIG.replace(shaft_speed=2.0 * math.pi * 20.0))
+    assert sized.candidates == ()
+    assert not sized.conclusive
+    assert sized.diagnosis is not None
+    assert sized.status == sized.diagnosis.status
+    with pytest.raises(ValueError, match=re.escape(sized.status[:20])):
+        _ = sized.best
+    assert len(sized.table()["extent"]) == 0
+
+
+def test_only_outer_races_can_be_told_by_hand():
+    noise = Recording(np.random.default_rng(5).standard_normal((40_000, 1)), RATE, ("y",))
+    with pytest.raises(ValueError, match="fault is 'inner race'; allowed: outer race"):
+        size_defect(noise, RIG, fault="inner race")
+
+
+@pytest.mark.parametrize("extent", [12.9, 38.6])
+def test_events_of_signal_and_synthesis_agree_and_know_entry_from_exit(paper, extent):
+    """The knocks stand where balls lose and take up load, up to 1.5° inside the edges."""
+    sized = paper[extent]
+    spacing = 360.0 / 14.0
+    events = sized.events
+    assert events.told_apart
+    for found, true, inside in zip(
+        (events.entry_phase, events.exit_phase), sized.best.phases(), (1.0, -1.0), strict=True
+    ):
+        late = math.degrees(math.remainder(found - true, 2.0 * math.pi)) * inside * spacing / 360.0
+        assert -0.3 < late < 1.5
+    # Δt is the same for both, 12.45 ms between the edges
+    between = events.time_difference * sized.passes.frequency * spacing
+    assert between < 12.9 < between + 3.0
+    assert math.degrees(events.remainder) == pytest.approx(extent % spacing, abs=0.8)
+    assert events.time_uncertainty < 0.5e-3
+    assert events.turns == round((extent - extent % spacing) / spacing)
+
+
+def test_event_times_are_those_of_the_balls_in_the_recording():
+    """A signal that begins at cage angle 0: balls enter and leave as geometry says."""
+    scene = RIG.replace(extent=math.radians(38.6))
+    motion = simulate(scene, 1.2, RATE)
+    sized = size_defect(Recording(motion.outer_acceleration, RATE), scene, fault="outer race")
+    entries, leaves = sized.event_times(sized.best)
+    cage, spacing = math.degrees(scene.cage_speed), 360.0 / 14.0
+    for times, edge in ((entries, 270.0 - 19.3), (leaves, 270.0 + 19.3)):
+        away = (cage * times - edge + 0.5 * spacing) % spacing - 0.5 * spacing
+        assert np.abs(away).max() < 0.25
+        assert np.diff(times) == pytest.approx(1.0 / sized.passes.frequency)
+        assert 0.0 <= times[0] < times[-1] <= 1.2
+        assert len(times) in (48, 49)
+
+
+def test_one_direction_is_enough_but_its_knocks_are_not_told_apart():
+    scene = RIG.replace(extent=math.radians(38.6))
+    signal = noisy(signal_of(scene), 30.0)[:, 1]
+    sized = size_defect(Recording(signal, RATE, ("y",)), scene)
+    assert math.degrees(sized.best.extent) == pytest.approx(38.6, abs=0.3)
+    assert not sized.events.told_apart
+    assert sized.events.turns is None
+
+
+def test_the_order_of_the_columns_does_not_matter(paper):
+    scene = RIG.replace(extent=math.radians(38.6))
+    signal = noisy(signal_of(scene), 20.0)
+    sized = size_defect(Recording(signal[:, ::-1], RATE, ("y", "x")), scene)
+    assert sized.best.extent == pytest.approx(paper[38.6].best.extent, abs=1e-3)
+    assert sized.events.entry_phase == pytest.approx(paper[38.6].events.entry_phase, abs=0.01)
+
+
+def test_what_is_no_defect_s_signal_is_not_sized():
+    noise = np.random.default_rng(4).standard_normal((20_000, 2))
+    sized = size_defect(Recording(noise, RATE), RIG)
+    assert not sized.conclusive
+    assert sized.candidates == ()
+    insisted = size_defect(Recording(noise, RATE), RIG, fault="outer race")
+    assert not insisted.conclusive
+    assert "no lines stand out" in insisted.status
+    still = Recording(noisy(signal_of(RIG.healthy()), 20.0), RATE)
+    for fault in (None, "outer race"):
+        assert not size_defect(still, RIG, fault=fault).conclusive
+    elsewhere = RIG.replace(shaft_speed=1.07 * RIG.shaft_speed)
+    for fault in (None, "outer race"):
+        assert not size_defect(Recording(signal_of(RIG), RATE), elsewhere, fault=fault).conclusive
+
+
+def test_progress_rises_and_may_end_the_work():
+    class Enough(Exception):  # noqa: N818
+        pass
+
+    shares: list[float] = []
+
+    def until_half(share: float) -> None:
+        shares.append(share)
+        if share >= 0.5:
+            raise Enough
+
+    recording = Recording(signal_of(RIG), RATE)
+    with pytest.raises(Enough):
+        size_defect(recording, RIG, progress=until_half)
+    assert shares == sorted(shares)
+    size_defect(recording, RIG, progress=shares.append)
+    assert shares[-1] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        (RIG.replace(race="inner"), "race is 'inner'"),
+        (RIG.replace(depth=0.0), "depth is 0"),
+        (RIG.replace(shaft_speed=0.0), "shaft_speed is 0"),
+        (RIG.replace(dofs=("y",)), "dofs is .*with x"),
+        (RIG.replace(defect=(RIG.defect, Defect(0.1, 5e-5, 1.0))), "2 defects"),
+    ],
+)
+def test_scenes_that_are_not_fit_are_refused(scene, told):
+    with pytest.raises(ValueError, match=told):
+        size_defect(Recording(signal_of(RIG), RATE), scene)
+
+
+def test_signals_that_are_too_short_or_too_slow_are_refused():
+    signal = signal_of(RIG)
+    with pytest.raises(ValueError, match=r"signal is 'of 0.195 s'.*ball passes"):
+        size_defect(Recording(signal[:4000], RATE), RIG)
+    with pytest.raises(ValueError, match="sample_rate is 1000"):
+        size_defect(Recording(signal, 1000.0), RIG)
+    with pytest.raises(ValueError, match=r"slip is 0\.5"):
+        size_defect(Recording(signal, RATE), RIG, slip=0.5)
+    with pytest.raises(ValueError, match=r"load is -0\.1"):
+        Tolerances(load=-0.1)
+
+
+def test_averages_find_the_frequency_and_lose_the_noise():
+    """A known waveform at a known rate, 2 dB of noise: coefficients within their own scatter."""
+    rng = np.random.default_rng(8)
+    frequency, order = 41.037, np.arange(1, 41)
+    time = np.arange(30_000) / RATE
+    size = rng.standard_normal((40, 2)) + 1j * rng.standard_normal((40, 2))
+    turn = np.exp(2j * math.pi * frequency * time[:, None] * order)
+    clean = 2.0 * (turn @ size).real
+    found = average_passes(noisy(clean, 2.0), RATE, 40.8, 0.02, 30.0, 1700.0, 1700.0)
+    assert found.frequency == pytest.approx(frequency, rel=3e-5)
+    error = np.abs(found.harmonics[3:40] - size[3:])
+    expected = np.sqrt(found.scatter[3:40])
+    assert np.mean(error**2 < 9.0 * (expected**2 + 0.02**2)) > 0.97
+    assert found.prominence > 10.0
+
+
+@pytest.mark.parametrize("rate", [16_016.0, 16_000.0 / 1.001, 12_345.678, 20_480.0])
+def test_any_rate_allows_what_it_allows(rate):
+    """0.4 of a rate times 2.5 is more than the rate for some, by rounding."""
+    signal = np.random.default_rng(1).standard_normal((round(rate), 1))
+    found = average_passes(signal, rate, 40.0, 0.01, 100.0, 1000.0, 0.4 * rate)
+    assert len(found.harmonics) == math.floor(0.4 * rate / found.frequency)
+
+
+def test_a_synthesised_pass_matches_itself_turned():
+    scene = RIG
+    band = comparison_band(scene, RATE)
+    frequency = scene.bearing.bpfo(scene.shaft_speed)
+    passes = synthesise(scene, frequency, 61, (0, 1))
+    target = Target(passes, band)
+    turn = np.exp(-1j * 1.234 * np.arange(1, 62))[:, None]
+    match = target.match((passes.harmonics * turn)[None], passes.power[None])
+    assert match.lag[0] == pytest.approx(1.234, abs=1e-3)
+    assert match.waveform_misfit.max() < 1e-4
+    assert match.spectrum_misfit.max() < 1e-4
+    other = synthesise(scene.replace(extent=math.radians(38.6)), frequency, 61, (0, 1))
+    assert target.match(other.harmonics[None], other.power[None]).waveform_misfit.min() > 0.3
+
+
+def test_refining_finds_a_scene_whose_numbers_are_off():
+    """Load 8 % and stiffness 3 % off, extent half a step of the library: all three are found."""
+    offsets = np.array([0.03, 0.0, 0.08, 0.0, 0.0])
+    truth = variant(RIG, math.radians(20.0), "published", offsets)
+    recording = Recording(signal_of(truth), RATE)
+    band = comparison_band(RIG, RATE)
+    nominal = RIG.bearing.bpfo(RIG.shaft_speed)
+    passes = average_passes(recording.acceleration, RATE, nominal, 0.01, *_edges(band))
+    search = Search(RIG, Target(passes, band), (0, 1), Tolerances())
+    guess = search.guess(math.radians(20.25), "published", np.zeros(5))
+    first = guess.score
+    for _ in range(6):
+        guess = search.refined(guess)
+    assert guess.score > first + 10.0
+    assert math.degrees(guess.extent) == pytest.approx(20.0, abs=0.1)
+    found = guess.offsets * Tolerances().spread
+    assert found[0] == pytest.approx(0.03, abs=0.01)
+    assert found[2] == pytest.approx(0.08, abs=0.03)
+
+
+def _edges(band):
+    return band.lowest, band.highest, band.highest
+
+
+@pytest.mark.proof
+def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
+    """A small part of `python -m tests.benchmarks.sizing_proof`, with room for bad luck."""
+    answers = size_all(SCORED, 16, noises=(20.0,))
+    right = [a for a in answers if a.kind == "right"]
+    wrong = [a for a in answers if a.kind != "right"]
+    assert len(right) == 16
+    assert len(wrong) >= 16
+    assert sum(a.right_turns() for a in right) >= 15
+    assert sum(a.right_extent() for a in right) >= 15
+    assert sum(a.right_turns() for a in wrong) >= 0.8 * len(wrong)
+    assert sum(a.right_extent() for a in wrong) >= 0.7 * len(wrong)
+    # the paper's way cannot know whole ball spacings: most of these extents have some
+    assert sum(a.right_turns(a.remainder) for a in right) <= 8
+    sure = [a for a in answers if a.conclusive]
+    assert sum(a.right_turns() for a in sure) >= 0.9 * len(sure)
+    assert len(sure) >= 0.7 * len(answers)

@@ -1,0 +1,34 @@
+"""What compiles the kernels beforehand compiles what is called afterwards, once."""
+
+from __future__ import annotations
+
+import pytest
+
+from bearingcore import kernels, warm
+from bearingcore.plan import warm_up
+
+
+def signatures() -> dict[str, int]:
+    """How many versions of each kernel are in memory."""
+    found = {name: getattr(getattr(kernels, name), "signatures", ()) for name in dir(kernels)}
+    return {name: len(versions) for name, versions in found.items()}
+
+
+def test_the_helper_compiles_what_motions_call() -> None:
+    told: list[str] = []
+    warm(told.append)
+    before = signatures()
+    assert min(before[name] for name in ("march", "turn_smooth", "elastic_loads")) > 0
+    warm_up.compile_motions()
+    assert signatures() == before
+    assert len(told) == 6
+    assert all(line.startswith("compiled: ") for line in told)
+
+
+def test_the_helper_leaves_statics_to_the_other_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise AssertionError("compiled twice")
+
+    monkeypatch.setattr(kernels, "static_states", refuse)
+    monkeypatch.setattr(kernels, "static_maps", refuse)
+    warm_up.compile_motions()

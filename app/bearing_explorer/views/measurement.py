@@ -20,7 +20,7 @@ from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.state.simulated_signals import MACHINES, NOISES
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
@@ -223,6 +223,10 @@ def spec() -> dict[str, Any]:
         ),
         "noises": [["20", "20 dB"], *[noise for noise in noises if noise[0] != "20"]],
         "machines": [[name, _MACHINE_WORDS[name]] for name in MACHINES],
+        "pits": [
+            [name, "the scene's" if length is None else f"pit of {name} mm, balls with mass"]
+            for name, length in PITS.items()
+        ],
         "units": [[unit, unit] for unit in UNITS],
     }
 

@@ -19,6 +19,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
+from bearing_explorer.server.bokeh_private import send_message
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.views.base import Ranges, Sources
@@ -78,7 +79,7 @@ class MeasurementPanel(JSComponent):
 
     def want(self, begin: int, of: int) -> None:
         """Ask for the piece of the file that begins at this byte; `of` comes back with it."""
-        self._send_msg({"want": begin, "of": of})
+        send_message(self, {"want": begin, "of": of})
 
 
 class MeasuredSignal(MeasuredView):

@@ -143,7 +143,9 @@ class Plan:
             else:
                 parts.append(f"{self.duration:.3g} s")
             error = f"error {_short(self.predicted_error)} dB"
-            full = f"full model {_duration(self.full_seconds)}, error {_short(self.full_error)} dB"
+            full = f"full model {_duration(self.full_seconds)}"
+            if not math.isnan(self.full_error):
+                full += f", error {_short(self.full_error)} dB"
         text = f"this scene: {', '.join(parts)}: {_duration(self.seconds)}, {error}; {full}"
         if not self.met:
             text += "; the budget is not met"

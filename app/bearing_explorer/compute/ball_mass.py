@@ -15,7 +15,7 @@ from bearing_explorer.compute.excerpt import Event, excerpt
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.strikes import Flight, Strike, flights, strikes
 from bearingcore.model.defect import RACES
-from bearingcore.plan.balls import compared_directions
+from bearingcore.plan.balls import QUIET, compared_directions
 from bearingcore.statics.passes import path_kinks
 
 if TYPE_CHECKING:
@@ -25,9 +25,6 @@ Array = NDArray[np.float64]
 
 LOWEST_OCTAVE = 250.0
 """[Hz] at which the lowest octave begins: eight lines of the spectra to it."""
-
-QUIET = 1e-4
-"""Power of an octave over that of the loudest below which nobody would hear what is in it."""
 
 BEFORE, AFTER = 0.4, 1.1
 """Parts of the time that a ball takes through the defect that are shown before it enters and after

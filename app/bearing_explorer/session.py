@@ -31,7 +31,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.lessons import Fault, Lesson
-from bearing_explorer.state.quantities import Values
+from bearing_explorer.state.quantities import Values, in_page_words
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
@@ -43,8 +43,9 @@ from bearing_explorer.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
-from bearingcore import Scene
+from bearingcore import Limit, Scene
 from bearingcore.plan import CURVES
+from bearingcore.statics.validity import summary
 
 log = logging.getLogger(__name__)
 
@@ -156,7 +157,7 @@ class Picture:
 
     drawings: list[Drawing]
     status: dict[str, Any]
-    limits: list[dict[str, Any]] | None
+    limits: tuple[Limit, ...] | None
 
 
 class Explorer:
@@ -194,6 +195,7 @@ class Explorer:
         self._reporting = False
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
+        self._open_lesson()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
@@ -456,11 +458,33 @@ class Explorer:
         for panel in self._panels:
             panel.show(**news)
 
+    def _open_lesson(self) -> None:
+        """The lesson that the address names; with its scene where the address says none."""
+        name = self.bookmarks.lesson
+        if not name:
+            return
+        lesson = self.lesson.begin(name)
+        if lesson is None:
+            self.bookmarks.lesson = ""
+            self.bookmarks.say(f"There is no lesson “{name}” here.")
+            return
+        self.lesson.open_first = True
+        if not self.bookmarks.has_scene:
+            lesson.begin(self.editor)
+            self.bookmarks.begin_anew(lesson.tab)
+        self.share.state = self.bookmarks.state()
+
     def _lesson_asked(self, message: Any) -> None:
-        """A lesson begins, or a button among its words is pressed."""
+        """A lesson begins, its words are asked for, or a button among them is pressed."""
         if not isinstance(message, dict):
             return
-        lesson = self.lesson.begin(message.get("lesson"))
+        words_only = message.get("words_only") is True
+        lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
+        if lesson is not None or message.get("lesson") == "":
+            self.bookmarks.lesson = "" if lesson is None else lesson.name
+        if words_only or message.get("lesson") == "":
+            self._asked(message)
+            return
         if lesson is not None:
             lesson.begin(self.editor)
             self._show_controls(state=self.editor.state())
@@ -569,7 +593,7 @@ class Explorer:
             self.status.put(line=picture.status)
             self.plan.show(results, self.tabs.active)
             if picture.limits is not None:
-                self.limits.put(rows=picture.limits)
+                self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 
         await one_message(self._doc, change)
 
@@ -598,7 +622,7 @@ def _picture(
     results.begin(shown)
     drawings = [_drawing(results, view) for view in views]
     status = status_of(results, time.perf_counter() - started, shown)
-    return Picture(drawings, status, rows_of(results.limits) if limits else None)
+    return Picture(drawings, status, results.limits if limits else None)
 
 
 def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
@@ -645,7 +669,7 @@ def _drawing(results: Results, view: View) -> Drawing:
     try:
         return Drawing(view, view.data(results), view.sentence(results))
     except ValueError as error:
-        return Drawing(view, None, f"Not shown for this scene: {error}.")
+        return Drawing(view, None, f"Not shown for this scene: {in_page_words(str(error))}.")
     except Exception:
         log.exception("the view %s failed", view.name)
         return Drawing(view, None, _BROKEN)

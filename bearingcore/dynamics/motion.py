@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_motion import (
     ball_start,
@@ -304,8 +305,8 @@ def simulate(
             np.float64(math.nan), (n if with_mass else n_steps + 1, 6, len(dofs))
         )
         status = (
-            f"{TOO_MANY_STEPS}: {n_steps:.3g} of {1.0 / step_rate:.3g} s each, allowed are "
-            f"most_steps = {most_steps}"
+            f"{TOO_MANY_STEPS}: {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
+            f"allowed are most_steps = {most_steps}"
         )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
         return Motion(
@@ -337,7 +338,8 @@ def simulate(
             history[done // stride + 1 :] = math.nan
             if place is not None:
                 place[done // stride + 1 :] = math.nan
-            status = f"diverged after {done * h:.3g} s: {step_rate:g} steps a second are too few"
+            rate = thousands(step_rate)
+            status = f"diverged after {number(done * h)} s: {rate} steps a second are too few"
     motion = Motion(
         scene=scene,
         dofs=dofs,

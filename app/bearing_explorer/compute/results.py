@@ -35,6 +35,7 @@ from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
+from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate
@@ -160,8 +161,8 @@ def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> fl
         if with_mass:
             why = "balls swing so fast between their races that"
         raise ValueError(
-            f"{'set by hand,' if by_hand else why} a motion takes {rate:.2g} steps a second; "
-            f"allowed here: {most / SHORTEST:.2g}"
+            f"{'set by hand,' if by_hand else why} a motion takes {thousands(rate)} steps a "
+            f"second; allowed here: {thousands(most / SHORTEST)}"
         )
     return most / rate
 
@@ -267,6 +268,19 @@ def _ball_mass(scene: Scene, how: Marching) -> BallMass:
     return ball_mass(massless.motion, moved.motion, moved.since)
 
 
+def _dynamic_load(scene: Scene, how: How) -> float:
+    """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
+    motion, since = motions(scene, how)
+    if not motion.completed:
+        return math.nan
+    loads = motion.ball_loads(math.ceil(since * motion.sample_rate - 1e-6))
+    return float(loads.max(initial=0.0))
+
+
+def _limits(scene: Scene, step_rate: float | None, dynamic_load: float | None) -> tuple[Limit, ...]:
+    return core.limits(scene, dynamic_load=dynamic_load, step_rate=step_rate)
+
+
 def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
     return plan_for(scene, view, how)
 
@@ -279,6 +293,8 @@ planned_modes = SingleFlightCache(_modes_over_nodes, 64)
 maps = SingleFlightCache(_maps, 16)  # about 2 MB each
 motions = SingleFlightCache(_motion, 8)  # about 20 MB each
 step_rates = SingleFlightCache(_step_rate, 512)
+dynamic_loads = SingleFlightCache(_dynamic_load, 512)
+limits_of = SingleFlightCache(_limits, 512)
 excerpts = SingleFlightCache(_excerpt, 64)
 spectra = SingleFlightCache(_spectra, 64)
 late_spectra = SingleFlightCache(_late_spectra, 64)
@@ -757,14 +773,30 @@ class Results:
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """What the model leaves out of the scene, also of a simulated motion where it moves."""
+        """What the model leaves out of the scene, with what is known of it in motion.
+
+        The same whatever is on screen: looked at over cage angles of its own, and with the motion
+        that any view has had simulated.
+        """
         step_rate = self.settings.step_rate
         if step_rate is None:
             try:
                 step_rate = step_rates(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return core.limits(self.scene, self.equilibrium, step_rate=step_rate)
+        return limits_of(self.scene, step_rate, self._dynamic_load)
+
+    @property
+    def _dynamic_load(self) -> float | None:
+        """Greatest ball load [N] of the settled motion, where one has been simulated."""
+        planning = self.settings.planning(SETTLED)
+        assert isinstance(planning, MotionPlanning)
+        for how in (planning, self.settings.marching):
+            key = self.scene, how
+            if dynamic_loads.knows(*key) or (not self.moving and motions.knows(*key)):
+                load = dynamic_loads(*key)
+                return load if math.isfinite(load) else None
+        return None
 
     @cached_property
     def dof_comparison(self) -> DofComparison:

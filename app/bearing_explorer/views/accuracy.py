@@ -32,8 +32,8 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.widgets.status import scientific
 from bearing_explorer.widgets.step_choice import StepChoice
+from bearingcore.common.numbers import scientific
 from bearingcore.experiments import Experiment, Point, StabilityChart
 from bearingcore.experiments.balls import BALL_METHODS, BANDS
 from bearingcore.experiments.integrators import METHODS

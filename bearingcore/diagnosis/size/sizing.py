@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import probability
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
@@ -204,6 +205,18 @@ class Sizing:
                 for name in (candidates[0].factors if candidates else ())
             ),
         )
+
+    @property
+    def time_difference(self) -> float:
+        """Δt [s] from a ball entering to the next that leaves, by the most probable candidate.
+
+        What its extent leaves over whole ball spacings, at the speed of the measured cage. The
+        knocks in the signal stand closer together (`events`): a ball loses its load a little inside
+        the edge and takes it up again before the other.
+        """
+        best = self.best
+        spacing = best.scene.bearing.ball_spacing
+        return (best.extent - best.turns * spacing) / (spacing * self.passes.frequency)
 
     @property
     def best(self) -> Candidate:
@@ -429,7 +442,7 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
     if best.probability < CLEAR:
         likely = [c for c in sized.candidates if c.probability >= 0.05]
         told = ", ".join(
-            f"{math.degrees(c.extent):.1f}° ({100.0 * c.probability:.0f} %)" for c in likely
+            f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
         )
         return False, "", f"The signal cannot tell these apart: {told}."
     if best.extent - LEAST_EXTENT < max(2.0 * spread, EXTENT_STEP):
@@ -450,11 +463,6 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
         "",
         (
             f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
-            f"probability {percent(best.probability)}."
+            f"probability {probability(best.probability)}."
         ),
     )
-
-
-def percent(probability: float) -> str:
-    """A probability in words; nothing is ever certain."""
-    return "above 99 %" if probability > 0.99 else f"{100.0 * probability:.0f} %"

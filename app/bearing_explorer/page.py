@@ -43,22 +43,22 @@ from bearing_explorer.views.vibration_time import VibrationInTime
 log = logging.getLogger(__name__)
 
 SECTIONS = (
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "At rest"),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "Understand"),
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
-    Section("modes", "Natural frequencies", (NaturalFrequencies,)),
-    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra), "In motion"),
+    Section("explore", "Explore", (ExplorePlane,)),
+    Section("modes", "Natural frequencies", (NaturalFrequencies,), "Dynamics"),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("explore", "Explore", (ExplorePlane,), "Tools"),
+    Section("bearing", "Bearing", (BearingEditor,), "My machine"),
+    Section("model", "Model", (ModelEditor, DofDifferences)),
     Section(
         "diagnosis",
         "Diagnosis",
         (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
     ),
-    Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
-    Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
-    Section("model", "Model", (ModelEditor, DofDifferences)),
+    Section("accuracy", "Accuracy", (PlanInFull, Accuracy), "How sure"),
 )
 """The tabs; a group goes on until the next begins.
 

@@ -191,8 +191,9 @@ class Explorer:
         self.measurement.change_scene = self._asked
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
-        one_line = ["one-line"]
-        self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
+        self.status = StatusLine(
+            folded=True, sizing_mode="stretch_width", margin=0, css_classes=["one-line"]
+        )
         self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
         tab = self.bookmarks.tab
@@ -504,7 +505,7 @@ class Explorer:
 
         if quick or not slow:
             inputs, results, picture = await self._scheduler.run(
-                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick, started
+                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick
             )
             await self._assign(results, picture, None if slow else inputs.mark)
         else:
@@ -512,19 +513,19 @@ class Explorer:
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await self._scheduler.run_slow(_picture, results, slow, started, limits)
+            picture = await self._scheduler.run_slow(_picture, results, slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
 
     def _quick_picture(
-        self, inputs: Inputs, views: Sequence[View], started: float
+        self, inputs: Inputs, views: Sequence[View]
     ) -> tuple[Inputs, Results, Picture]:
         """A picture of the newest inputs: others may have waited for their turn too."""
         inputs = self._worker.newest(inputs)
         results = inputs.results
-        return inputs, results, _picture(results, views, started, self._limits_due(inputs))
+        return inputs, results, _picture(results, views, self._limits_due(inputs))
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()
@@ -571,15 +572,15 @@ class Explorer:
         await one_message(self._doc, change)
 
 
-def _picture(
-    results: Results, views: Sequence[View], started: float, limits: bool = False
-) -> Picture:
+def _picture(results: Results, views: Sequence[View], limits: bool = False) -> Picture:
     """Compute what the views need and have them say it, and what `limits` of the model say."""
     shown = frozenset[str]().union(*(view.needs for view in views))
+    before = time.thread_time()  # of this thread alone: waiting is no cost
     results.begin(shown)
     drawings = [_drawing(results, view) for view in views]
-    status = status_of(results, time.perf_counter() - started, shown)
-    return Picture(drawings, status, rows_of(results.limits) if limits else None)
+    checked = rows_of(results.limits) if limits else None
+    results.costs.append(time.thread_time() - before)
+    return Picture(drawings, status_of(results, sum(results.costs), shown), checked)
 
 
 def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+import time
 from collections.abc import Callable, Hashable
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
@@ -309,6 +310,8 @@ class Results:
         self.moving = moving
         self.planned = planned
         self.pinned = pinned
+        #: times [s] that processors have worked on it, in any thread: waiting is no cost
+        self.costs: list[float] = []
 
     @property
     def beside(self) -> Scene:
@@ -521,7 +524,15 @@ class Results:
         if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
             if not late_spectra.knows(*asked):
-                BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
+                BESIDE.submit(self._costing, late_spectra, *asked)  # who asks waits for this one
+
+    def _costing(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
+        """Compute something in another thread than that of the picture, at its cost."""
+        before = time.thread_time()
+        try:
+            return compute(*key)
+        finally:
+            self.costs.append(time.thread_time() - before)
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""

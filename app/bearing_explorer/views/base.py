@@ -3,7 +3,8 @@
 A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
-To write one, subclass `View`, set the class attributes, and give it
+To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
+stands on one line above the figure, and the rest is shown when asked for), and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
@@ -18,6 +19,7 @@ session in `attach(parts)`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -47,10 +49,12 @@ Ranges = dict[str, tuple[float, float]]
 
 
 class Caption(LiveComponent):
-    """Head of a view: its title, what it shows, and buttons that save it."""
+    """Head of a view: its title, what it shows in a line, and a menu to take it along."""
 
     title = param.String()
-    about = param.String()
+    #: what it shows, and the rest of that, which is shown when asked for
+    line = param.String()
+    rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
     #: what is drawn in grey, where that is a pinned scene
@@ -60,7 +64,7 @@ class Caption(LiveComponent):
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
 
-    _esm = scripts("element.js", "figure_export.js", "caption.js")
+    _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
 
@@ -128,9 +132,11 @@ class View:
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
+        line, rest = first_sentence(self.about)
         self._caption = Caption(
             title=self.title,
-            about=self.about,
+            line=line,
+            rest=rest,
             name_of_files=self.name,
             figures=[plot.id for plot in self.figures],
             picture=self.picture,
@@ -199,6 +205,12 @@ class View:
             self._caption.send({"csv": self.csv()})
         if event.data == "python":
             self._caption.send({"python": self.python()})
+
+
+def first_sentence(text: str) -> tuple[str, str]:
+    """The first sentence of a text, and what follows it."""
+    found = re.match(r"(.+?[.!?])\s+(?=[A-Z“])(.+)", text, re.DOTALL)
+    return (found[1], found[2]) if found else (text, "")
 
 
 def figures_in(layout: Any) -> list[Plot]:

@@ -64,8 +64,9 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "Seen along the shaft, z towards you. Bars and colours: what the balls carry. Grey rim: "
-        "the same without the defect. Arrow: the load. The keyway turns with the shaft."
+        "What the balls carry now, seen along the shaft. Bars and colours: their loads. Grey rim:"
+        " the same without the defect. Arrow: the load on the shaft. The keyway turns with the "
+        "shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
 

@@ -71,8 +71,9 @@ class Stiffness(View):
     name = "stiffness"
     title = "Stiffness of the bearing"
     about = (
-        "The 15 independent terms of its symmetric 5×5 stiffness matrix as the bearing turns: "
-        "how hard the inner ring resists each displacement (column) with each load (row)."
+        "How hard the inner ring resists each displacement with each load. The 15 independent "
+        "terms of its symmetric 5×5 stiffness matrix as the bearing turns: displacements are the "
+        "columns, loads the rows."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)

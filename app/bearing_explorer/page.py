@@ -31,6 +31,11 @@ from bearing_explorer.views.measurement import MeasuredSignal
 from bearing_explorer.views.model_editor import ModelEditor
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.orbit import SteadyOrbit
+from bearing_explorer.views.overview.bands import OverviewBands
+from bearing_explorer.views.overview.bearing import OverviewBearing
+from bearing_explorer.views.overview.change import LastChange
+from bearing_explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.views.overview.stiffness import OverviewStiffness
 from bearing_explorer.views.plan import PlanInFull
 from bearing_explorer.views.sizing import DefectSize
 from bearing_explorer.views.speed_run import SpeedRunSpectra
@@ -43,7 +48,13 @@ from bearing_explorer.views.vibration_time import VibrationInTime
 log = logging.getLogger(__name__)
 
 SECTIONS = (
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "Understand"),
+    Section(
+        "overview",
+        "Overview",
+        (OverviewBearing, LastChange, OverviewStiffness, OverviewBands, OverviewSpectrum),
+        "Understand",
+    ),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("explore", "Explore", (ExplorePlane,)),

@@ -29,6 +29,7 @@ from bearing_explorer.server.live import good_byes, one_message, send_at_once
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
+from bearing_explorer.state.last_state import LastState
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.quantities import Values
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
@@ -86,7 +87,7 @@ class Inputs:
 
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
     computed. When the hand has `rested` it is drawn by the plans of what is `planned`, and after a
-    long search where it `seeks_orbit`.
+    long search where it `seeks_orbit`. `before` is the scene before the last change.
     """
 
     scene: Scene
@@ -98,6 +99,7 @@ class Inputs:
     planned: tuple[str, ...] = ()
     pinned: Reference | None = None
     seeks_orbit: bool = False
+    before: Scene | None = None
 
     @property
     def kind(self) -> Hashable:
@@ -129,6 +131,7 @@ class Inputs:
             moving=not self.rested,
             planned=self.planned,
             pinned=self.pinned,
+            before=self.before,
         )
 
 
@@ -182,6 +185,7 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
+        self._last_state = LastState(self.editor.scene)
         self._reporting = False
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
@@ -226,6 +230,7 @@ class Explorer:
             self.editor.focus,
             self._settings,
             pinned=self.bookmarks.pinned,
+            before=self._last_state.before,
         )
 
     @property
@@ -255,6 +260,7 @@ class Explorer:
 
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""
+        self._last_state.follow(self.scene, self.bookmarks.moving)
         inputs, section = self.inputs, self._sections[self._shown]
         rested = dataclasses.replace(
             inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit

@@ -131,9 +131,20 @@ export function render({ model }) {
   help.addEventListener("click", () => explain(rest.hidden))
   help.hidden = !model.rest
   explain(false)
-  const words = element("div", { class: "words" },
-    element("div", { class: "title" }, element("h2", {}, model.title), help),
-    element("p", { class: "line" }, model.line), rest, grey)
+  const title = element("h2", {}, model.title)
+  if (model.leads_to) {
+    const lead = element("button", { type: "button", class: "lead", title: "Open it in full" }, model.title)
+    lead.addEventListener("click", () =>
+      window.dispatchEvent(new CustomEvent("explorer-show", { detail: model.leads_to })))
+    title.replaceChildren(lead)
+  }
+  const head = element("div", { class: "title" }, title, help)
+  if (model.compact) {  // all there is to say is behind the "?"
+    rest.textContent = `${model.line} ${model.rest}`
+    help.hidden = false
+    return element("header", { class: "compact" }, element("div", { class: "words" }, head, rest, grey))
+  }
+  const words = element("div", { class: "words" }, head, element("p", { class: "line" }, model.line), rest, grey)
 
   const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
                                      "aria-label": `Export “${model.title}”` }, "Export")

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import bearingcore as core
+from bearing_explorer.compute.chain import Chain, chain
 from bearing_explorer.compute.dof_comparison import (
     DofComparison,
     other_dofs,
@@ -265,6 +266,8 @@ class Results:
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
+    chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
+    chain_before: the same of the scene before the last change, or of what is drawn in grey
     """
 
     #: attributes that take long enough to be drawn after the others
@@ -279,12 +282,14 @@ class Results:
             "orbit",
             "orbit_spectra",
             "dof_comparison",
+            "chain",
+            "chain_before",
         }
     )
 
     #: attributes that are made of a simulated motion
     moving_ones = frozenset(
-        {"motion", "excerpt", "spectra", "late_spectra", "orbit", "dof_comparison"}
+        {"motion", "excerpt", "spectra", "late_spectra", "orbit", "dof_comparison", "chain"}
     )
 
     def __init__(
@@ -297,11 +302,12 @@ class Results:
         moving: bool = False,
         planned: tuple[str, ...] = (),
         pinned: Reference | None = None,
+        before: Scene | None = None,
     ) -> None:
         """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
 
         `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
-        without its defect.
+        without its defect. `before`: the scene before the last change, where there was one.
         """
         self.scene = scene
         self.cage_angle = cage_angle
@@ -310,6 +316,7 @@ class Results:
         self.moving = moving
         self.planned = planned
         self.pinned = pinned
+        self.before = before
         #: times [s] that processors have worked on it, in any thread: waiting is no cost
         self.costs: list[float] = []
 
@@ -523,8 +530,8 @@ class Results:
         """Begin what of these attributes can be computed beside the others, in another thread."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
-            if not late_spectra.knows(*asked):
-                BESIDE.submit(self._costing, late_spectra, *asked)  # who asks waits for this one
+            if not late_spectra.knows(*asked):  # whoever asks for it waits for this one
+                BESIDE.submit(lambda: self._costing(late_spectra, *asked))
 
     def _costing(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
         """Compute something in another thread than that of the picture, at its cost."""
@@ -669,6 +676,19 @@ class Results:
             except ValueError:
                 step_rate = None  # no motion, no steps
         return core.limits(self.scene, self.equilibrium, step_rate=step_rate)
+
+    @cached_property
+    def chain(self) -> Chain:
+        """What the scene gives from the loads of the balls to the vibration."""
+        return chain(self)
+
+    @cached_property
+    def chain_before(self) -> Chain:
+        """The same of the scene before the last change; before the first, of what is in grey."""
+        scene = self.beside if self.before is None else self.before
+        if scene == self.scene:
+            return self.chain
+        return Results(scene, self.cage_angle, self.settings, moving=self.moving).chain
 
     @cached_property
     def dof_comparison(self) -> DofComparison:

@@ -90,6 +90,11 @@ class Bookmarks:
         """The section that the address names."""
         return self._tab
 
+    @property
+    def moving(self) -> bool:
+        """Whether a hand moves something: a step has begun and not ended."""
+        return bool(self._history.moving)
+
     def say(self, sentence: str) -> None:
         """What happened, for the person; said again it is news again."""
         self._said = (self._said[0] + 1, sentence)

@@ -63,6 +63,9 @@ class Caption(LiveComponent):
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
+    #: a small one: a title that leads to the tab of this name, and what there is to say
+    compact = param.Boolean(default=False)
+    leads_to = param.String()
 
     _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
@@ -121,12 +124,17 @@ class View:
     plans: ClassVar[tuple[str, ...]] = ()
     #: whether it stands in a report; one without `needs` only with what its job has found
     in_report: ClassVar[bool] = True
+    #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
+    compact: ClassVar[bool] = False
+    leads_to: ClassVar[str] = ""
     #: what a job of the view has found
     found: Any = None
 
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
-        self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
+        self._sentence = Sentence(
+            sizing_mode="stretch_width", margin=0, css_classes=["unseen"] if self.leads_to else []
+        )
         body = pn.panel(self.build(packed), margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
@@ -140,6 +148,8 @@ class View:
             name_of_files=self.name,
             figures=[plot.id for plot in self.figures],
             picture=self.picture,
+            compact=self.compact,
+            leads_to=self.leads_to,
             sizing_mode="stretch_width",
             margin=0,
         )
@@ -152,9 +162,9 @@ class View:
             self._caption,
             body,
             self._sentence,
-            css_classes=["view", f"view-{self.name}"],
+            css_classes=["view", f"view-{self.name}", *(["compact"] if self.compact else [])],
             stylesheets=[asset_text("view.css")],
-            sizing_mode="stretch_width",
+            sizing_mode="stretch_both" if self.compact else "stretch_width",
             margin=0,
         )
 

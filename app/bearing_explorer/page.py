@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import logging
 from functools import cache
 from pathlib import Path
@@ -58,7 +59,7 @@ SECTIONS = (
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("explore", "Explore", (ExplorePlane,)),
-    Section("modes", "Natural frequencies", (NaturalFrequencies,), "Dynamics"),
+    Section("modes", "Frequencies", (NaturalFrequencies,), "Dynamics"),
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
@@ -89,6 +90,9 @@ def address() -> str:
     return urlencode([(name, value) for name, values in given.items() for value in values])
 
 
+PYTHON_INSTALL = "pip install ."
+"""What the page says of how to install it."""
+
 TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
 """Names of the tabs and of their views, as lessons speak of them."""
 
@@ -103,6 +107,8 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())
     template.add_variable("theme_script", asset_text("theme.js"))
+    template.add_variable("python_install", PYTHON_INSTALL)
+    template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
     template.add_variable("page_script", asset_text("page.js"))
     template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)

@@ -187,6 +187,9 @@ class Explorer:
         self.bookmarks = Bookmarks(self.editor, address)
         self._last_state = LastState(self.editor.scene)
         self._reporting = False
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self.measurement = Measurement(
@@ -200,8 +203,6 @@ class Explorer:
         )
         self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
         self._on_screen = ""
         self.tabs = Tabs(
             self._tab_asked,

@@ -48,15 +48,18 @@ export function render({ model }) {
     next.focus()
     next.click()
   })
-  model.on("active", () => {
+  const root = document.documentElement
+  const stands = () => {
     show(model.active, false)
+    root.dataset.tab = model.active
     window.dispatchEvent(new CustomEvent("explorer-tab", { detail: model.active }))
-  })
+  }
+  model.on("active", stands)
   const asked = (event) => {
     if (!list.isConnected) window.removeEventListener("explorer-show", asked)
     else if (titles.has(event.detail)) show(event.detail, true)
   }
   window.addEventListener("explorer-show", asked)
-  show(model.active, false)
+  stands()
   return element("div", {}, list, select)
 }

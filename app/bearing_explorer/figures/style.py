@@ -146,11 +146,10 @@ def house_figure(
         min_border_right=right,
         min_border_left=64,
         min_border_top=10,
-        min_width=280,
         background_fill_color=PAPER,
         border_fill_color=PAPER,
         outline_line_color=None,
-        **options,
+        **{"min_width": 280, **options},
     )
     plot.toolbar.logo = None
     plot.toolbar.autohide = True

@@ -79,6 +79,8 @@ LONGEST_TEXT = 2_500_000
 _MOST_FIELDS = 400
 _LONGEST_NUMBER = 40
 
+TAB_OF_OLD_LINKS = "load"
+"""Links that name no tab are of days when this one came first."""
 FORMER_TABS = {"sizing": "diagnosis"}
 """What tabs were called in links that people have."""
 
@@ -164,6 +166,14 @@ def opened(text: str, editor: SceneEditor) -> Place:
         what = str(error) if str(error).endswith(".") else refusal(error)
         note = f"The address could not be opened. {what} Shown is a bearing to begin with."
     return dataclasses.replace(place_of(editor, tab), note=note)
+
+
+def holds_scene(text: str) -> bool:
+    """Whether a text says something about a scene that can be read."""
+    try:
+        return read(text) is not None
+    except ValueError:
+        return False
 
 
 def place_of(editor: SceneEditor, tab: str = "") -> Place:

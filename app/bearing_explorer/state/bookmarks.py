@@ -14,7 +14,9 @@ from typing import Any
 from bearing_explorer.state.address import (
     LONGEST_LINK,
     LONGEST_TEXT,
+    TAB_OF_OLD_LINKS,
     Place,
+    holds_scene,
     leaves_out,
     opened,
     place_of,
@@ -80,14 +82,14 @@ class Bookmarks:
         """`address`: what stood behind the question mark as the page was opened."""
         self._editor = editor
         place = opened(address, editor)
-        self._tab = place.tab
+        self._tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
         self.pinned: Reference | None = None
 
     @property
     def tab(self) -> str:
-        """The section that the address names."""
+        """The section that is to be shown; empty where the address says nothing of a scene."""
         return self._tab
 
     @property

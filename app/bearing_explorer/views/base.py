@@ -126,6 +126,8 @@ class View:
     in_report: ClassVar[bool] = True
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False
+    #: "unseen": for screen readers alone; "large"
+    sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
     #: what a job of the view has found
     found: Any = None
@@ -133,7 +135,7 @@ class View:
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
         self._sentence = Sentence(
-            sizing_mode="stretch_width", margin=0, css_classes=["unseen"] if self.leads_to else []
+            sizing_mode="stretch_width", margin=0, css_classes=list(self.sentence_looks)
         )
         body = pn.panel(self.build(packed), margin=0)
         #: Bokeh's figures, in the order of the page

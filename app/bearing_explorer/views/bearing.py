@@ -71,6 +71,8 @@ class BearingDrawing(View):
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
+    #: where it says how deep the defect is drawn
+    scale_line: ClassVar[float] = TOP_LINE
 
     def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
@@ -244,7 +246,7 @@ class BearingDrawing(View):
             f"{self.prefix}_load_words": load_words(scene.load),
             f"{self.prefix}_scale_words": {
                 "x": np.array([HALF_WIDTH]),
-                "y": np.array([TOP_LINE]),
+                "y": np.array([self.scale_line]),
                 "scale": np.array([drawn.depth_scale]),
             },
         }

@@ -32,6 +32,7 @@ class OverviewBands(View):
     )
     needs = frozenset({"band_modes", "healthy_modes"})
     compact = True
+    sentence_looks = ("unseen",)
     leads_to = "modes"
     in_report = False
 
@@ -42,7 +43,7 @@ class OverviewBands(View):
             style.AxisQuantity("", "", ""),
             packed.range("overview_band_frequency", 0.0, HIGHEST),
             packed.range("overview_band_rows", -3.6, 0.6),
-            height=80,
+            height=60,
             sizing_mode="stretch_both",
         )
         plot.xaxis.visible = False
@@ -53,7 +54,7 @@ class OverviewBands(View):
         healthy = packed.source("overview_healthy_bands", "low", "high", "row")
         plot.hbar(
             "row", left="low", right="high", height=0.84, source=healthy,
-            fill_color=style.HEALTHY, fill_alpha=0.28, line_color=None,
+            fill_color=style.HEALTHY, fill_alpha=0.5, line_color=None,
         )  # fmt: skip
         bands = packed.source(
             "overview_bands", "low", "high", "direction", "number", "row", "now", "label_at"

@@ -6,7 +6,7 @@ from bokeh.models import LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
 from bearing_explorer.figures import style
-from bearing_explorer.views.bearing import BearingDrawing
+from bearing_explorer.views.bearing import TOP_LINE, BearingDrawing
 
 
 class OverviewBearing(BearingDrawing):
@@ -15,7 +15,9 @@ class OverviewBearing(BearingDrawing):
     name = "overview-bearing"
     prefix = "overview_bearing"
     title = "Load of the balls"
+    scale_line = -TOP_LINE - 0.06  # in the other corner: it is narrow
     compact = True
+    sentence_looks = ("unseen",)
     leads_to = "load"
     in_report = False
 

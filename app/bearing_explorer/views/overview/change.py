@@ -31,8 +31,9 @@ class LastChange(View):
         "angles. What changes by less than 1 %, the loudest line by less than 2 dB, is not "
         "named. Before the first change it is held against what is drawn in grey."
     )
-    needs = frozenset({"chain", "chain_before"})
+    needs = frozenset({"chain", "chain_before", "late_spectra", "healthy_late_spectra"})
     compact = True
+    sentence_looks = ("large",)
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:

@@ -24,7 +24,7 @@ from bearing_explorer.views.vibration_spectrum import (
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
 
-LEVEL = style.AxisQuantity("", "", "dB")
+LEVEL = style.AxisQuantity("Density", "", "dB")
 
 
 class OverviewSpectrum(View):
@@ -39,6 +39,7 @@ class OverviewSpectrum(View):
     )
     needs: ClassVar[frozenset[str]] = VibrationSpectra.needs
     compact = True
+    sentence_looks = ("unseen",)
     leads_to = "vibration"
     in_report = False
 
@@ -50,7 +51,7 @@ class OverviewSpectrum(View):
             LEVEL,
             packed.range("overview_frequency", 0.0, HIGHEST),
             packed.range("overview_level", -80.0, -20.0),
-            height=140,
+            height=120,
             sizing_mode="stretch_both",
         )
         healthy = packed.source("overview_healthy_lines", "frequency", *SHOWN)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,7 +36,7 @@ MOST_POINTS = 61
 """Of a trace: a cell is little more than a hundred pixels wide."""
 
 _CELLS = [
-    Cell(column + 0.05, column + 0.96, -row - 0.95, -row - 0.36)
+    Cell(column + 0.05, column + 0.96, -row - 0.97, -row - 0.38)
     for row, column in (divmod(index, COLUMNS) for index in range(len(SYMBOLS)))
 ]
 _ROWS = math.ceil(len(_CELLS) / COLUMNS)
@@ -58,10 +59,11 @@ class OverviewStiffness(View):
     about = (
         "The 15 terms of the stiffness matrix as the bearing turns. Blue, with their value now: "
         "those that vary, or are not what they are in the healthy bearing, which is grey. Pale: "
-        "those to which nothing happens."
+        "those to which nothing happens, or along which the ring cannot move in this scene."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     compact = True
+    sentence_looks = ("unseen",)
     leads_to = "stiffness"
     in_report = False
 
@@ -70,7 +72,7 @@ class OverviewStiffness(View):
         plot = style.bare_figure(
             Range1d(0.0, COLUMNS, syncable=False),
             Range1d(-_ROWS, 0.0, syncable=False),
-            height=150,
+            height=110,
             sizing_mode="stretch_both",
         )
         frames = ColumnDataSource(
@@ -85,8 +87,11 @@ class OverviewStiffness(View):
         )
         plot.quad(source=frames, fill_color="#FAFBFC", line_color=style.GRID)
         serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": style.INK}
-        plot.text("left", "top", text="name", source=frames, text_font_size="13px", **serif)
-        below = {"x_offset": 8, "y_offset": 3}
+        above = {"y_offset": -3}
+        plot.text(
+            "left", "top", text="name", source=frames, text_font_size="13px", **above, **serif
+        )
+        below = {"x_offset": 8, "y_offset": -1}
         plot.text(
             "left", "top", text="below", source=frames, text_font_size="10px", **below, **serif
         )
@@ -99,6 +104,7 @@ class OverviewStiffness(View):
             text_align="right",
             text_font={"value": style.FONT},
             text_font_size="10.5px",
+            y_offset=-3,
             text_color=style.INK,
         )
         for name, color, width in (
@@ -122,6 +128,7 @@ class OverviewStiffness(View):
         ]
         share = (results.cage_angle - first) % (last - first) / (last - first)
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
+        free = free_terms(found.dofs)
         lively = np.zeros(len(_CELLS))
         values = np.empty(len(_CELLS))
         traces: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {
@@ -135,7 +142,7 @@ class OverviewStiffness(View):
             values[i] = cleaned(now.term(term), scale)[0]
             limits = trace_limits(self._limits[i], scale, a, b)
             ours = cell.x(shares[0]), cell.y(a[pick[0]], limits)
-            lively[i] = is_lively(a, b, scale)
+            lively[i] = term in free and is_lively(a, b, scale)
             if lively[i]:
                 traces["lively"].append(ours)
                 traces["healthy"].append((cell.x(shares[1]), cell.y(b[pick[1]], limits)))
@@ -163,13 +170,19 @@ class OverviewStiffness(View):
             f"{term} from {style.with_prefix(np.nanmin(values), TERM_UNITS[term])} to "
             f"{style.with_prefix(np.nanmax(values), TERM_UNITS[term])}"
             for term, scale in zip(STIFFNESS_TERMS, scales, strict=True)
-            if is_lively(values := found.term(term), healthy.term(term), scale)
+            if term in free_terms(found.dofs)
+            and is_lively(values := found.term(term), healthy.term(term), scale)
         ]
         return f"As the bearing turns these vary: {style.list_words(named) or 'none'}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         answer = results.equilibrium.table().in_units()
         return answer.only("cage_angle", *STIFFNESS_TERMS).named()
+
+
+def free_terms(dofs: Sequence[str]) -> set[str]:
+    """Terms that matter where the inner ring can move in these directions only."""
+    return {f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]}
 
 
 def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: float) -> bool:

@@ -262,6 +262,7 @@ def text_for_teachers(tabs: Tabs) -> str:
     for token in tokens:
         if token.type in ("heading_open", "heading_close"):
             _lower(token)
+            _lower(token)  # below the title of the list of lessons
         if token.children:
             _without_links_to_files(token.children)
             _mend(token.children, 1, head, tabs)

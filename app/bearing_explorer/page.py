@@ -25,9 +25,12 @@ from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.maps import StiffnessMaps
+from bearing_explorer.views.mass_spectrum import MassInSpectrum
+from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
+from bearing_explorer.views.mechanism import WhichMechanism
 from bearing_explorer.views.model_editor import ModelEditor
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.orbit import SteadyOrbit
@@ -48,6 +51,7 @@ SECTIONS = (
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("modes", "Natural frequencies", (NaturalFrequencies,)),
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra), "In motion"),
+    Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
     Section("explore", "Explore", (ExplorePlane,), "Tools"),

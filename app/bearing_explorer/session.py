@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import dataclasses
 import logging
 import math
@@ -76,6 +77,11 @@ class Section:
         return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
 
     @property
+    def has_motion(self) -> bool:
+        """Whether it shows a simulated motion, in which balls may have mass."""
+        return any(view.needs & {"ball_mass", "late_spectra"} for view in self.views)
+
+    @property
     def has_orbit(self) -> bool:
         """Whether it shows the orbit, which can take long to find."""
         return any("orbit" in view.needs for view in self.views)
@@ -86,8 +92,9 @@ class Inputs:
     """What is to be drawn; `mark` is the number of the newest change it holds.
 
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
-    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, and after a
-    long search where it `seeks_orbit`.
+    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, after a long
+    search where it `seeks_orbit`, and once more after it `compares_balls` with and without mass.
+    Until all is `compiled` some of it cannot be drawn.
     """
 
     scene: Scene
@@ -99,6 +106,8 @@ class Inputs:
     planned: tuple[str, ...] = ()
     pinned: Reference | None = None
     seeks_orbit: bool = False
+    compares_balls: bool = False
+    compiled: bool = True
 
     @property
     def kind(self) -> Hashable:
@@ -276,16 +285,26 @@ class Explorer:
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
             and rested.seeks_orbit <= last.seeks_orbit
+            and last.compiled
+            and self._compared(rested)
         )
+
+    def _compared(self, rested: Inputs) -> bool:
+        """Whether there is nothing to be found out about the balls' mass, or it is known."""
+        wanted = self._sections[self._shown].has_motion and rested.scene.shaft_speed > 0.0
+        return not wanted or (self._rested is not None and self._rested.compares_balls)
 
     def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        rested = dataclasses.replace(inputs, planned=planned)
+        compiled = compiling.ready()
+        rested = dataclasses.replace(inputs, planned=planned, compiled=compiled)
         if rested != self._rested:
             self._rested = rested
             self._worker.submit(rested)
-        if not compiling.ready():
+        if not compiled:
             self._idle_task.begin(inputs)  # there will be more to say
+        elif not inputs.compares_balls and not self._compared(rested):
+            self._idle_task.begin(dataclasses.replace(inputs, compares_balls=True))
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -610,7 +629,8 @@ def _picture(
 def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     """What plans share that cost about the same. Those of motions may take seconds: no kind."""
     curves = all(view in CURVES for view in inputs.planned)
-    return inputs.kind if curves and not inputs.seeks_orbit else None
+    takes_long = inputs.seeks_orbit or inputs.compares_balls
+    return inputs.kind if curves and not takes_long else None
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
@@ -633,6 +653,9 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
             log.exception("planning %s failed", view)
             continue
         made.append(view)
+    if inputs.compares_balls and not overtaken():
+        with contextlib.suppress(ValueError):  # there is no motion to compare
+            results.compare_balls()
     if inputs.seeks_orbit and compiling.ready() and not overtaken():
         try:
             results.seek_orbit(overtaken)

@@ -281,8 +281,6 @@ def simulate(
     with_mass = scene.balls == WITH_MASS
     if step_rate is None:
         step_rate = default_step_rate(scene, sample_rate, highest)
-        if with_mass:
-            step_rate = max(ball_step_rate(scene, sample_rate), step_rate)
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     if with_mass and a_step > 1:
         raise checks.refuse(
@@ -404,14 +402,19 @@ def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | N
 
 
 def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
-    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do."""
+    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
+
+    Where balls have mass a multiple, see `ball_step_rate`.
+    """
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
     for defect in scene.defects:
         across = defect.extent / abs(1.0 - defect.turn_ratio(scene.bearing))
         needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / across)
+    if scene.balls == WITH_MASS:
+        needed = max(needed, ball_step_rate(scene, sample_rate))
     if needed <= sample_rate:
         return sample_rate / math.floor(sample_rate / needed)
-    return sample_rate * math.ceil(needed / sample_rate)
+    return sample_rate * math.ceil(needed / sample_rate - 1e-9)
 
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:

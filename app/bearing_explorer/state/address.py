@@ -17,7 +17,7 @@ The rules of version 1, which later versions go on reading:
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.
-- `race`, `edge`, `law`, `dofs` (``auto`` or names with dots between) are words. `floor` is
+- `race`, `edge`, `law`, `balls`, `dofs` (``auto`` or names with dots between) are words. `floor` is
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.
 - `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is

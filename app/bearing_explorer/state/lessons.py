@@ -66,7 +66,7 @@ from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.quantities import QUANTITIES
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
-from bearing_explorer.state.simulated_signals import MACHINES, NOISES
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import presets
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
@@ -559,11 +559,16 @@ def _set(rest: str, line: int, head: _Head) -> str:
 
 def _simulate(rest: str, line: int, head: _Head) -> str:
     changes = dict(parse_qsl(rest, keep_blank_values=True))
-    noise, machine = changes.pop("noise", "20"), changes.pop("machine", MACHINES[0])
-    for name, word, known in (("noise", noise, list(NOISES)), ("machine", machine, MACHINES)):
+    wish = {}
+    for name, known, usual in (
+        ("noise", list(NOISES), "20"),
+        ("machine", list(MACHINES), MACHINES[0]),
+        ("pit", list(PITS), "scene"),
+    ):
+        wish[name] = word = changes.pop(name, usual)
         if word not in known:
             raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
-    return _ask({**_changed(changes, line, head), "simulate": {"noise": noise, "machine": machine}})
+    return _ask({**_changed(changes, line, head), "simulate": wish})
 
 
 def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:

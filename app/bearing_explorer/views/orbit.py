@@ -29,6 +29,7 @@ from bearing_explorer.widgets.status import StatusLine
 from bearingcore.common.numbers import count, scientific
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
+from bearingcore.model.scene import MASSLESS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -184,6 +185,12 @@ class SteadyOrbit(View):
         )
 
     def sentence(self, results: Results) -> str:
+        words = self._orbit_words(results)
+        if results.scene.balls == MASSLESS:
+            return words
+        return f"{words} Orbits are looked for with massless balls; grey moves with their mass."
+
+    def _orbit_words(self, results: Results) -> str:
         orbit = results.orbit
         if orbit is None:
             return (

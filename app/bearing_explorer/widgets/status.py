@@ -55,6 +55,8 @@ def status_of(
     finite = found.residual[found.converged & np.isfinite(found.residual)]
     if finite.size:
         details.append(f"residual at most {scientific(float(finite.max()))}")
+    if "ball_mass" in shown or "late_spectra" in shown:
+        details += about_mass(results)
     overruled = by_hand(results.settings)
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
     if (plan := results.plan) is not None:
@@ -64,6 +66,13 @@ def status_of(
     details.append(f"{freedom}: {symbols}")
     details.append(count(n_angles, "cage angle"))
     if results.is_coarse(shown):
-        details.append("coarse while it moves: half the motion in half the steps")
+        details.append(results.coarse_words(shown))
     details = [*overruled, *details, f"{1e3 * seconds:.1f} ms"]
     return {"mood": mood, "words": words, "details": details}
+
+
+def about_mass(results: Results) -> list[str]:
+    """Up to which frequency massless balls will do, and what mass costs, where that is known."""
+    comparison = results.ball_comparison
+    said = results.plan is not None and "massless:" in results.plan.note
+    return [] if comparison is None or said else [comparison.sentence]

@@ -47,7 +47,7 @@ from bearingcore.diagnosis.size.synthesis import Band, Target, comparison_band
 from bearingcore.diagnosis.size.variants import Tolerances
 from bearingcore.dynamics.modes import modes
 from bearingcore.model.defect import Defect
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.passes import crossings
@@ -268,7 +268,8 @@ def size_defect(
         acceleration of the housing along y, or x and y: two directions tell more.
     scene
         bearing, load, support and shaft speed of the machine, and a defect whose centre and
-        nominal depth are taken as known; its extent is not looked at.
+        nominal depth are taken as known; its extent is not looked at. Balls are taken to be
+        massless: what is compared lies far below their resonances.
     fault
         "outer race" where that is known from elsewhere: then the diagnosis is not asked. None: it
         is.
@@ -284,7 +285,7 @@ def size_defect(
     ValueError
         for a scene that is not fit for it, or a signal too short or sampled too slowly.
     """
-    scene, columns = _prepared(scene, recording.directions)
+    scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
     if fault is not None:

@@ -476,6 +476,7 @@ class Explorer:
         if lesson is None:
             self.bookmarks.lesson = ""
             self.bookmarks.say(f"There is no lesson “{name}” here.")
+            self.share.state = self.bookmarks.state()
             return
         self.lesson.open_first = True
         if not self.bookmarks.has_scene:

@@ -127,7 +127,7 @@ def compare_balls(
     added = 10.0 * np.log10(powers[1] / powers[0])
     loudest = max(float(power.max(initial=0.0)) for power in powers)
     counts = np.maximum(*powers) > QUIET * loudest
-    within = (~counts | (np.abs(added) <= budget)).all(axis=1)
+    within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
     good = len(within) if within.all() else int(np.argmin(within))
     return BallComparison(
         scene, budget, edges, added, float(edges[good]) if good else math.nan, *seconds

@@ -33,6 +33,7 @@ from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
     MASS,
+    MODES,
     MOTION,
     ORBIT,
     OUTPUTS,
@@ -60,7 +61,7 @@ BUDGET = 120.0
 
 _SIZING = "sizing"
 _SECONDS = {**SECONDS, _SIZING: 0.6}
-_MANY_DIRECTIONS = 10.0  # times the cost, for all but statics
+_MANY_DIRECTIONS = 10.0  # times the cost, for all but statics and modes
 _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
@@ -78,6 +79,7 @@ _REASONS = {
     "no_common_period": "the motion never repeats",
     "arithmetic_failed": "the numbers are too extreme",
     "too_many_steps": "the motion takes too many steps",
+    "too_many_contacts": "there are too many contacts to solve",
     "complete": "this scene has no such mode",
 }
 """Why there is no number, by the status of a sweep."""
@@ -111,7 +113,7 @@ class MapOutput:
 
     def seconds(self, scene: Scene) -> float:
         """Rough cost of a scene [s]."""
-        many = len(scene.active_dofs) > 2 and self.needs != STATICS
+        many = len(scene.active_dofs) > 2 and self.needs not in (STATICS, MODES)
         return _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
 
 

@@ -133,6 +133,14 @@ class Inputs:
 
 
 @dataclass(frozen=True)
+class Planned:
+    """What could be planned for some inputs, and whether all that it needs was compiled."""
+
+    views: tuple[str, ...]
+    compiled: bool
+
+
+@dataclass(frozen=True)
 class Drawing:
     """What a view has to say about some results; without `data` it could not say anything."""
 
@@ -174,7 +182,7 @@ class Explorer:
         self._tasks: set[asyncio.Task[None]] = set()
         self._scheduler = Scheduler()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
-        self._idle_task: IdleTask[Inputs, tuple[str, ...]] = IdleTask(
+        self._idle_task: IdleTask[Inputs, Planned] = IdleTask(
             _planned, self._draw_by_plan, self._worker.finished, self._scheduler, _kind_of_idle_work
         )
         self._rested: Inputs | None = None
@@ -271,18 +279,22 @@ class Explorer:
         last = self._rested
         return (
             last is not None
+            and compiling.ready()
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
             and rested.seeks_orbit <= last.seeks_orbit
         )
 
-    def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
+    def _draw_by_plan(self, inputs: Inputs, found: Planned) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        rested = dataclasses.replace(inputs, planned=planned)
-        if rested != self._rested:
+        rested = dataclasses.replace(
+            inputs, planned=found.views, seeks_orbit=inputs.seeks_orbit and found.compiled
+        )
+        # the last time also where nothing new was planned: the page says that kernels are compiled
+        if rested != self._rested or (found.compiled and self.plan.says_compiling):
             self._rested = rested
             self._worker.submit(rested)
-        if not compiling.ready():
+        if not found.compiled:
             self._idle_task.begin(inputs)  # there will be more to say
 
     # What the browser asks for. Its messages are not to be trusted.
@@ -588,17 +600,18 @@ def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     return inputs.kind if curves and not inputs.seeks_orbit else None
 
 
-def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
-    """Those of `inputs.planned` that could be planned; in a thread, or in turn where that is light.
+def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> Planned:
+    """Plan what `inputs.planned` says; in a thread, or in turn where that is light.
 
     The plans stay known, and so does an orbit that is looked for.
     """
     results = inputs.results
     made = []
+    compiled = compiling.ready()  # once: it may come while this is at work
     for view in inputs.planned:
         if overtaken():
             break
-        if view not in CURVES and not compiling.ready():
+        if view not in CURVES and not compiled:
             continue
         try:
             results.plan_of(view)
@@ -608,14 +621,14 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
             log.exception("planning %s failed", view)
             continue
         made.append(view)
-    if inputs.seeks_orbit and compiling.ready() and not overtaken():
+    if inputs.seeks_orbit and compiled and not overtaken():
         try:
             results.seek_orbit(overtaken)
         except ValueError:
             pass  # again the view says why
         except Exception:
             log.exception("looking for an orbit failed")
-    return tuple(made)
+    return Planned(tuple(made), compiled)
 
 
 def _drawing(results: Results, view: View) -> Drawing:

@@ -92,6 +92,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())
     template.add_variable("theme_script", asset_text("theme.js"))
+    template.add_variable("connection_script", asset_text("connection.js"))
     template.add_variable("page_script", asset_text("page.js"))
     template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)

@@ -7,6 +7,7 @@ is proven stable. A plan says what was chosen, the error to expect and what it c
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Iterable
 
@@ -15,7 +16,8 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.dynamics.motion import MOST_STEPS
-from bearingcore.model.scene import Scene, check_dofs
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene, check_dofs
+from bearingcore.plan.balls import compare_balls
 from bearingcore.plan.cage_angles import CURVES
 from bearingcore.plan.curves import plan_curves
 from bearingcore.plan.motions import Asked, plan_motion
@@ -39,6 +41,7 @@ def plan(
     step_rate: float | None = None,
     march: bool = False,
     most_steps: int = MOST_STEPS,
+    up_to: float | None = None,
 ) -> Plan:
     """The cheapest way to compute a view of a scene within an error budget.
 
@@ -57,6 +60,10 @@ def plan(
         steps of each march that is tried for a motion's plan. They are counted before the first:
         where there would be more nothing is tried, the budget counts as not met, and the note says
         how many there would be.
+    up_to
+        the highest frequency [Hz] that is looked at. Where it is given, motions have massless balls
+        if those are within the budget up to there, and else balls with mass; None: as the scene
+        says.
 
     Raises
     ------
@@ -73,5 +80,12 @@ def plan(
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if view in CURVES:
         return plan_curves(scene, view, budget, began)
+    note = ""
+    if up_to is not None:
+        up_to = checks.number("up_to", up_to, above=0.0, at_most=0.5 * sample_rate, unit="Hz")
+        comparison = compare_balls(scene.replace(balls=MASSLESS), budget, sample_rate=sample_rate)
+        scene = scene.replace(balls=MASSLESS if comparison.enough_up_to(up_to) else WITH_MASS)
+        note = comparison.sentence if scene.balls == MASSLESS else ""
     asked = Asked(scene, view, budget, duration, sample_rate, step_rate, march, most_steps)
-    return plan_motion(asked, began)
+    made = plan_motion(asked, began)
+    return dataclasses.replace(made, note="; ".join(filter(None, (made.note, note))))

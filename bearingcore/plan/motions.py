@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.numbers import number, thousands
 from bearingcore.dynamics.ball_motion import ball_step_rate
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS, default_step_rate
@@ -146,8 +147,8 @@ def _not_begun(asked: Asked, rate: float, began: float) -> Plan:
         full_error=math.inf,
         planning_seconds=time.perf_counter() - began,
         note=(
-            f"{TOO_MANY_STEPS} to plan it: {PILOT * rate:.3g} for {PILOT:g} s of motion, allowed "
-            f"are most_steps = {asked.most_steps}"
+            f"{TOO_MANY_STEPS} to plan it: {thousands(PILOT * rate)} for {number(PILOT)} s of "
+            f"motion, allowed are most_steps = {thousands(asked.most_steps)}"
         ),
     )
 

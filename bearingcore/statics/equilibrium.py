@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import scientific, thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
@@ -52,7 +53,7 @@ REASONS = {
     ),
     kernels.FREE_DIRECTION: "the ring can move without resistance along {free}",
     kernels.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
-    kernels.NOT_CONVERGED: "not converged: relative residual {residual:.1e}",
+    kernels.NOT_CONVERGED: "not converged: relative residual {residual}",
     kernels.TOO_MANY: "too many contacts",
 }
 """What each status means."""
@@ -158,7 +159,9 @@ class Equilibrium:
         free = [
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
-        return self.cost or REASONS[code].format(free=", ".join(free), residual=self.residual[i])
+        return self.cost or REASONS[code].format(
+            free=", ".join(free), residual=scientific(float(self.residual[i]), 2)
+        )
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
@@ -255,7 +258,9 @@ def too_many_contacts(scene: Scene, points: int, most: int) -> str:
     contacts = points * packing.contacts(scene.bearing).angle.size
     if contacts <= most:
         return ""
-    return f"too many contacts: {contacts:.3g}, allowed are most_contacts = {most}"
+    return (
+        f"too many contacts: {thousands(contacts)}, allowed are most_contacts = {thousands(most)}"
+    )
 
 
 def _not_begun(

@@ -318,12 +318,13 @@ class Explorer:
 
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
-        was_changed = self.editor.changed
+        was_changed, waited = self.editor.changed, bool(self.editor.draft)
         refused, changed = self.editor.set(given)
         names = [name for name in changed if name not in given]
+        names += [name for name in self.editor.draft if name not in names]
         if confirm:
             names += [name for name in given if name in self.values and name not in refused]
-        if names or was_changed != self.editor.changed:
+        if names or waited or was_changed != self.editor.changed:
             self._show_controls(state=self.editor.state(names))
         if refused:
             self._show_controls(refused=refused)
@@ -395,7 +396,7 @@ class Explorer:
         made = [view for views in self._views.values() for view in views]
         found = {view.name: view.found for view in made if view.found is not None}
         link = f"{base}?{self.bookmarks.state()['address']}"
-        about = About(self.editor.preset, link, now())
+        about = About(self.editor.name, self.editor.note, link, now())
 
         def make() -> dict[str, Any] | None:
             try:

@@ -294,7 +294,7 @@ class Bearing:
 
     @property
     def preload(self) -> float | None:
-        """How far [m] the inner grooves of a pair are pushed against each other; None of no pair."""
+        """How far [m] the inner grooves of a pair are pushed against each other; else None."""
         if not self.arrangement:
             return None
         low, high = self.rows
@@ -389,7 +389,13 @@ class Bearing:
         A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
         its proportion to it; one named in `changes` is taken as it is.
         """
+        if self.is_self_aligning and not self.is_drawn and "rows" not in changes:
+            return self._aligned(changes)
         changed = dataclasses.replace(self, **changes)
+        if changed.is_roller != self.is_roller:
+            raise checks.refuse(
+                "roller_length", changed.roller_length, "what it was: see Bearing.cylindrical"
+            )
         drawn = self.is_drawn and changed.is_drawn
         if not (drawn or (self.is_roller and changed.is_roller)):
             return changed
@@ -399,6 +405,39 @@ class Bearing:
             if name not in changes and now != was:
                 changes[name] = now if old == was else old * (now / was)
         return dataclasses.replace(self, **changes)
+
+    def _aligned(self, changes: dict[str, Any]) -> Self:
+        """A self-aligning bearing with what it is drawn by changed: all else follows."""
+        for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
+                     "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
+            if name in changes and changes[name] != getattr(self, name):
+                raise checks.refuse(
+                    name, changes[name], "what follows from ball, sphere, groove and contact angle"
+                )
+        drawn_by = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
+        if not any(changes.get(name) is not None for name in drawn_by):
+            return dataclasses.replace(self, **changes)
+
+        def built(given: dict[str, Any]) -> Self:
+            get = given.get
+            return type(self).self_aligning(
+                n_balls=get("n_balls", self.n_balls),
+                ball_diameter=get("ball_diameter", self.ball_diameter),
+                sphere_radius=get("outer_raceway_radius", self.outer_raceway_radius),
+                inner_groove_radius=get("inner_groove_radius") or self.sphere_groove,
+                contact_angle=get("contact_angle", self.contact_angle),
+                radial_clearance=get("radial_clearance", self.radial_clearance),
+            )
+
+        new = built(changes)
+        stiffer = self.load_deflection_factor / built({}).load_deflection_factor
+        rows = tuple(
+            dataclasses.replace(row, place=fresh.place)
+            for row, fresh in zip(self.rows, new.rows, strict=True)
+        )
+        factor = changes.get("load_deflection_factor", new.load_deflection_factor * stiffer)
+        density = changes.get("density", self.density)
+        return dataclasses.replace(new, rows=rows, load_deflection_factor=factor, density=density)
 
     def _derived(self) -> drawing.Derived:
         if self.roller_length is not None:
@@ -451,9 +490,7 @@ class Bearing:
         """
         checks.choice("race", race, ("outer", "inner"))
         if self.roller_length is not None:
-            return roller_contact(
-                race, self.ball_diameter, self.pitch_diameter, self.roller_length
-            )
+            return roller_contact(race, self.ball_diameter, self.pitch_diameter, self.roller_length)
         if self.is_self_aligning and not self.is_drawn:
             return self._aligning_contact(race)
         name = f"{race}_groove_radius"

@@ -92,7 +92,9 @@ def snapshot_loads(
     state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     if unknown := _unknown(state):
         return unknown
-    return _averaged(scene, state.ball_load[:1], np.full(1, 1.0), load_exponent, scatter, turning_race)
+    return _averaged(
+        scene, state.ball_load[:1], np.full(1, 1.0), load_exponent, scatter, turning_race
+    )
 
 
 def race_loads(
@@ -210,7 +212,9 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
         return RaceLoads(0.0, 0.0, 0.0)
     inner = outer = 0.0
     order = np.arange(n // 2 + 1)[:, None, None]
-    for row, own in zip(bearing.all_rows, np.split(loads, len(bearing.all_rows), axis=2), strict=True):
+    for row, own in zip(
+        bearing.all_rows, np.split(loads, len(bearing.all_rows), axis=2), strict=True
+    ):
         used = (own / size) ** load_exponent
         inner += weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1)
         # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between

@@ -298,8 +298,8 @@ def _share(which: str, force: float, load: float, limit: float, so_what: str) ->
     share = force / load
     crossed = share > limit
     sentence = (
-        f"The centrifugal force of a {which.split()[-1]}, {force:.3g} N, is {_percent(share)} of the "
-        f"{load:.4g} N on the {which}"
+        f"The centrifugal force of a {which.split()[-1]}, {force:.3g} N, is "
+        f"{_percent(share)} of the {load:.4g} N on the {which}"
         + (f": {so_what}." if crossed else f", below the {100.0 * limit:.0f} % that matter.")
     )
     return Limit(name, share, limit, "", crossed, sentence)

@@ -47,6 +47,7 @@ def below(extent_deg: float, depth: float) -> Defect:
     """A defect in the middle of the load zone, with the edges that geometry asks for."""
     return Defect(math.radians(extent_deg), depth, math.radians(270.0), edge="exact")
 
+
 ASSUMED = (
     "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "
     "speed unless said otherwise, and the rotor and support of the fan rig, with which no rig of "

@@ -13,6 +13,7 @@ from bearingcore.model.defect import Defect
 from bearingcore.model.load import Load
 from bearingcore.model.scene import Scene
 
+
 def _7208(contact_angle_deg: float, thrust: float) -> Scene:
     return Scene(
         bearing=Bearing.from_drawing(
@@ -137,6 +138,7 @@ presets: Mapping[str, Scene] = _Presets(
     }
 )
 """Scenes by name."""
+
 
 def _note_7208(contact_angle_deg: int, rating_kn: int, thrust: str) -> str:
     return (

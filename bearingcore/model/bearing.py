@@ -22,7 +22,7 @@ import dataclasses
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, Self, cast
 
 from bearingcore.common import checks
 from bearingcore.model import scene_file
@@ -390,7 +390,7 @@ class Bearing:
         its proportion to it; one named in `changes` is taken as it is.
         """
         if self.is_self_aligning and not self.is_drawn and "rows" not in changes:
-            return self._aligned(changes)
+            return cast(Self, self._aligned(changes))
         changed = dataclasses.replace(self, **changes)
         if changed.is_roller != self.is_roller:
             raise checks.refuse(
@@ -406,7 +406,7 @@ class Bearing:
                 changes[name] = now if old == was else old * (now / was)
         return dataclasses.replace(self, **changes)
 
-    def _aligned(self, changes: dict[str, Any]) -> Self:
+    def _aligned(self, changes: dict[str, Any]) -> Bearing:
         """A self-aligning bearing with what it is drawn by changed: all else follows."""
         for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
                      "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
@@ -418,9 +418,9 @@ class Bearing:
         if not any(changes.get(name) is not None for name in drawn_by):
             return dataclasses.replace(self, **changes)
 
-        def built(given: dict[str, Any]) -> Self:
+        def built(given: dict[str, Any]) -> Bearing:
             get = given.get
-            return type(self).self_aligning(
+            return Bearing.self_aligning(
                 n_balls=get("n_balls", self.n_balls),
                 ball_diameter=get("ball_diameter", self.ball_diameter),
                 sphere_radius=get("outer_raceway_radius", self.outer_raceway_radius),

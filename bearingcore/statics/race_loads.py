@@ -216,16 +216,16 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
         bearing.all_rows, np.split(loads, len(bearing.all_rows), axis=2), strict=True
     ):
         used = (own / size) ** load_exponent
-        inner += weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1)
+        inner += float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
         # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between
         theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
         series = np.fft.rfft(used, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
         along = np.mean(shifted, axis=2) @ weights
         passing = np.fft.irfft(along, FINER * n) * (FINER * n)
-        outer += np.mean(np.maximum(passing, 0.0) ** scatter)
+        outer += float(np.mean(np.maximum(passing, 0.0) ** scatter))
     root = 1.0 / (load_exponent * scatter)
-    return RaceLoads(size * float(inner) ** root, size * float(outer) ** root, size)
+    return RaceLoads(size * inner**root, size * outer**root, size)
 
 
 def _turned(scene: Scene, angle: float) -> tuple[Defect, ...]:

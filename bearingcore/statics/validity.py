@@ -150,7 +150,7 @@ def limits(
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     heaviest = heaviest_ball(state).load
-    found = [
+    found: list[Limit | None] = [
         _pressure(scene, "inner", heaviest),
         _pressure(scene, "outer", heaviest),
         *_centrifugal(scene, state, heaviest),

@@ -356,7 +356,7 @@ def _read(given: dict[str, str]) -> Place:
 def _rows(text: str) -> tuple[Row, ...]:
     if text == "one":
         return ()
-    rows = []
+    rows: list[Row] = []
     for word in text.split("~"):
         numbers = [_parsed(number, "rows")[0] for number in word.split("_")]
         if len(numbers) != len(_OF_ROW) or len(rows) == MOST_SHOWN_ROWS:

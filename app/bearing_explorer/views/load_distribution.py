@@ -137,7 +137,7 @@ class LoadDistribution(View):
         bearing = results.scene.bearing
         if not results.equilibrium.converged.any():
             return f"There is no load distribution: {results.equilibrium.reason(0)}."
-        told = []
+        told: list[str] = []
         curves = zip(results.load_curves, results.healthy_load_curves, strict=False)
         for row, ((angle, load), (_, healthy)) in enumerate(curves):
             most = int(np.nanargmax(load))

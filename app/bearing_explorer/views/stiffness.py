@@ -192,9 +192,8 @@ class Stiffness(View):
         at = in_degrees(results.cage_angle)
         over = " Curves are over a turn of the shaft, with which a defect turns."
         carry = f"{elements(found.scene.bearing)} carry load"
-        return (
-            f"{'; '.join(parts)}. {count} {carry}. Marked: cage angle {at}."
-            + (over if results.over_shaft else "")
+        return f"{'; '.join(parts)}. {count} {carry}. Marked: cage angle {at}." + (
+            over if results.over_shaft else ""
         )
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -390,7 +390,7 @@ class Bearing:
         its proportion to it; one named in `changes` is taken as it is.
         """
         if self.is_self_aligning and not self.is_drawn and "rows" not in changes:
-            return cast(Self, self._aligned(changes))
+            return cast(Self, self._aligned(dict(changes)))
         changed = dataclasses.replace(self, **changes)
         if changed.is_roller != self.is_roller:
             raise checks.refuse(
@@ -410,9 +410,10 @@ class Bearing:
         """A self-aligning bearing with what it is drawn by changed: all else follows."""
         for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
                      "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
-            if name in changes and changes[name] != getattr(self, name):
+            given = changes.pop(name, None)
+            if given is not None and not math.isclose(given, getattr(self, name), rel_tol=1e-9):
                 raise checks.refuse(
-                    name, changes[name], "what follows from ball, sphere, groove and contact angle"
+                    name, given, "what follows from ball, sphere, groove and contact angle"
                 )
         drawn_by = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
         if not any(changes.get(name) is not None for name in drawn_by):

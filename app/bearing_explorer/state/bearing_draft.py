@@ -105,7 +105,7 @@ class _Numbers:
 def _field_of(error: ValueError, otherwise: str) -> str:
     """The control that the core speaks of first."""
     first = str(error).split(" ", 1)[0]
-    return next((name for name, q in QUANTITIES.items() if q.last_name == first), otherwise)
+    return next((name for name in OF_BEARING if QUANTITIES[name].last_name == first), otherwise)
 
 
 def _most_balls(ball: float, pitch: float) -> str:

@@ -24,7 +24,9 @@ NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7
 
 
 def about(link: str = "http://localhost:5006/?v=1&preset=fan-rig&fy_n=-120") -> About:
-    return About("fan-rig", "Where its numbers come from.", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC))
+    return About(
+        "fan-rig", "Where its numbers come from.", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC)
+    )
 
 
 class Reader(HTMLParser):

@@ -41,7 +41,8 @@ def test_two_rows_have_a_curve_and_a_name_each() -> None:
     sources, _ = view.data(results)
     assert sources["load_distribution_rows"]["row"].tolist() == [1.0, 2.0]
     first, second = (
-        np.nanmax(sources[f"load_distribution_{which}"]["load"]) for which in ("curve", "other_rows")
+        np.nanmax(sources[f"load_distribution_{which}"]["load"])
+        for which in ("curve", "other_rows")
     )
     assert first == pytest.approx(results.equilibrium.ball_load[:, :14].max())
     assert second == pytest.approx(results.equilibrium.ball_load[:, 14:].max())

@@ -55,6 +55,12 @@ export function render({ model }) {
       called.placeholder = name
       if (called.getRootNode().activeElement !== called) called.value = own
     }
+    if (state.choices?.kind) {
+      const rollers = state.choices.kind === "rollers"
+      for (const { root, label } of Object.values(panel.rows))
+        root.querySelector("label").textContent = rollers
+          ? label.replace(/\bballs\b/, "rollers").replace(/^Ball\b/, "Roller") : label
+    }
     if (state.draft) {
       waits.hidden = !state.draft.words
       words.textContent = state.draft.words

@@ -55,7 +55,7 @@ function bearing_picture(pointed) {
     const rim = n.outer_raceway_radius + 0.42 * n.ball_diameter
     const places = n.rows.map(({ place }) => place)
     const span = Math.max(...places) - Math.min(...places)
-    const scale = Math.min(325 / rim, 84 / n.ball_diameter, 190 / (span + 1.6 * n.ball_diameter))
+    const scale = Math.min(325 / rim, 84 / n.ball_diameter, 150 / (span + 1.6 * n.ball_diameter))
     const axis = 372, middle = 155
     const up = (radius) => axis - scale * radius
     const ball = 0.5 * scale * n.ball_diameter
@@ -109,8 +109,8 @@ function bearing_picture(pointed) {
         label(middle, under - 12, ["a"])))
     }
     return [...parts,
-      ...(rollers || sphere ? [] : [height("groove_center_radius_mm", 30, left, up(n.groove_center_radius), ["r", "d"])]),
-      height("pitch_diameter_mm", Math.min(72, left - 8), left, centre, ["D", "p", "/2"]),
+      ...(rollers || sphere ? [] : [height("groove_center_radius_mm", 26, left, up(n.groove_center_radius), ["r", "d"])]),
+      height("pitch_diameter_mm", Math.min(72, left - 6), left, centre, ["D", "p", "/2"]),
       height("inner_raceway_radius_mm", Math.max(236, right + 8), right, inner, ["R", "i"]),
       height("outer_raceway_radius_mm", Math.max(266, right + 38), right, outer, ["R", "o"]),
       dimension("ball_diameter_mm", ...(rollers ? arrow(first + 0.6 * long, centre - ball, first + 0.6 * long, centre + ball)
@@ -136,8 +136,8 @@ function bearing_picture(pointed) {
       ...(gap ? [dimension("radial_clearance_um",
         ...arrow(right, low - 18, right, low, false), ...arrow(right, low + gap + 18, right, low + gap, false),
         label(right + 8, low + 4 + 0.5 * gap, ["r", "L"], "start"))] : []),
-      label(x, 270, ["a roller on its races, clearance drawn large;"]),
-      label(x, 288, ["it does not tilt here, and carries nothing along the shaft"])]
+      label(x + 30, 270, ["a roller on its races, clearance drawn large"]),
+      label(x + 30, 288, ["no tilt, and nothing along the shaft"])]
   }
   const grooves = (n) => {
     const x = 440, y = 142, ball = 76

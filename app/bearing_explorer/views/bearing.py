@@ -31,6 +31,8 @@ TOP_LINE, LINE_HEIGHT = 1.47, 0.1
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
+POLYGONS = ("bearing_rings", "bearing_defect", "bearing_healthy_loads", "bearing_arrow")
+
 # pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
 LOAD_PALETTE = list(magma(256))[40:246][::-1]
 DARK_LOAD_PALETTE = list(magma(256))[62:]
@@ -54,7 +56,8 @@ _ROW_WORDS = """
 return `Row ${row.row} at z = ${rounded(1000*row.place, 3)} mm`
 """
 _EQUAL_ASPECT = """
-const w = plot.inner_width, h = plot.inner_height
+let w = 0, h = 0
+try { w = plot.inner_width; h = plot.inner_height } catch { return }  // not laid out yet
 if (!(w > 0 && h > 0)) return
 const unit = Math.min(w/shown.end, h/half)
 plot.x_range.setv({start: -w/unit, end: w/unit})
@@ -273,13 +276,16 @@ class BearingDrawing(View):
                 else polar(),
             }
             several.append(moved(shapes, (2 * row + 1) * HALF_WIDTH - wide))
-        sources = {name: one_after_other([one[name] for one in several]) for name in several[0]}
+        sources = {
+            name: one_after_other([one[name] for one in several], gaps=name in POLYGONS)
+            for name in several[0]
+        }
         sources |= {
             "bearing_load_words": load_words(scene.load, wide),
             "bearing_row_words": row_words(scene, wide),
             "bearing_scale_words": {
                 "x": np.array([wide]),
-                "y": np.array([TOP_LINE]),
+                "y": load_words(scene.load, wide)["y"][:1],
                 "scale": np.array([drawn.depth_scale]),
             },
         }
@@ -350,9 +356,11 @@ def moved(shapes: Sources, to_right: float) -> Sources:
     }
 
 
-def one_after_other(parts: list[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
-    """Columns of several shapes as one, with NaN between those that are not empty."""
-    parts = [part for part in parts if next(iter(part.values())).size] or parts[:1]
+def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
+    """Columns of several shapes as one, polygons with NaN between those that are not empty."""
+    if not gaps:
+        return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}
+    parts = [part for part in parts if part["x"].size] or parts[:1]
     gap = np.array([np.nan])
     return {
         column: np.concatenate([piece for part in parts for piece in (part[column], gap)][:-1])
@@ -372,7 +380,7 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
     number = np.arange(float(len(rows)))
     return {
         "x": (2.0 * number + 1.0) * HALF_WIDTH - wide,
-        "y": np.full(number.size, -HALF_WIDTH + 0.02),
+        "y": np.full(number.size, -HALF_WIDTH - 0.12),
         "row": number + 1.0,
         "place": np.array([row.place for row in rows], dtype=float),
     }
@@ -388,9 +396,12 @@ def load_words(load: Load, wide: float = HALF_WIDTH) -> dict[str, np.ndarray]:
         if value != 0.0
     ]
     kind, value, angle = np.array(rows, dtype=float).T
+    # several rows of balls are drawn smaller, with room above them
+    line = LINE_HEIGHT * wide / HALF_WIDTH
+    above = 0 if wide == HALF_WIDTH else kind.size
     return {
         "x": np.full(kind.size, -wide),
-        "y": TOP_LINE - LINE_HEIGHT * np.arange(kind.size),
+        "y": TOP_LINE + line * (above - np.arange(kind.size)),
         "kind": kind,
         "value": value,
         "angle": angle,

@@ -180,18 +180,7 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
 def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
     return [
         *_of_rows(bearing),
-        (
-            "Free contact angle",
-            "α<sub>f</sub>",
-            _free_angle(bearing),
-            "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
-        ),
-        (
-            "Diametral play",
-            "s",
-            style.with_prefix(bearing.diametral_play, "m"),
-            "From contact to contact across the shaft: what contact angle and clearance stand for.",
-        ),
+        *([] if bearing.is_self_aligning else _of_play(bearing)),
         (
             "Load-deflection factor",
             "K",
@@ -203,6 +192,23 @@ def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
             "A<sub>0</sub>",
             style.with_prefix(bearing.groove_center_distance, "m", 4),
             "Both groove radii together less a ball diameter.",
+        ),
+    ]
+
+
+def _of_play(bearing: Bearing) -> list[tuple[str, str, str, str]]:
+    return [
+        (
+            "Free contact angle",
+            "α<sub>f</sub>",
+            _free_angle(bearing),
+            "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
+        ),
+        (
+            "Diametral play",
+            "s",
+            style.with_prefix(bearing.diametral_play, "m"),
+            "From contact to contact across the shaft: what contact angle and clearance stand for.",
         ),
     ]
 

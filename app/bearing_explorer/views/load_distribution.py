@@ -130,7 +130,8 @@ class LoadDistribution(View):
                 "load": now.ball_load[0],
             },
         }
-        loads = [one for _, one in (*results.load_curves, *results.healthy_load_curves)]
+        room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
+        loads = [room * one for _, one in (*results.load_curves, *results.healthy_load_curves)]
         return sources, {"load_distribution_load": self._range.fit(*loads)}
 
     def sentence(self, results: Results) -> str:

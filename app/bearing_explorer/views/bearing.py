@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from bokeh.models import CustomJS, LinearColorMapper, Range1d
@@ -31,7 +31,7 @@ TOP_LINE, LINE_HEIGHT = 1.47, 0.1
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
-POLYGONS = ("bearing_rings", "bearing_defect", "bearing_healthy_loads", "bearing_arrow")
+POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
 
 # pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
 LOAD_PALETTE = list(magma(256))[40:246][::-1]
@@ -71,22 +71,24 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "Seen along the shaft, z towards you, several rows side by side. Bars and colours: what "
-        "the balls carry. Grey rim: the same without the defect. Arrow: the load. The keyway turns "
-        "with the shaft."
+        "What the balls carry now, seen along the shaft, several rows side by side. Bars and "
+        "colours: their loads. Grey rim: the same without the defect. Arrow: the load on the "
+        "shaft. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
+    #: of the names of its sources
+    prefix: ClassVar[str] = "bearing"
+    #: where it says how deep the defect is drawn
+    scale_line: ClassVar[float] = TOP_LINE
 
     def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
-        load = packed.range("bearing_load", 0.0, 100.0)
+        load = packed.range(f"{self.prefix}_load", 0.0, 100.0)
         half = HALF_WIDTH
-        plot = style.bare_figure(
-            Range1d(-half, half, syncable=False),
-            Range1d(-half, half, syncable=False),
-            height=520,
+        plot = self._figure(
+            Range1d(-half, half, syncable=False), Range1d(-half, half, syncable=False)
         )
-        shown = packed.range("bearing_width", -half, half)
+        shown = packed.range(f"{self.prefix}_width", -half, half)
         aspect = CustomJS(args={"plot": plot, "half": half, "shown": shown}, code=_EQUAL_ASPECT)
         shown.js_on_change("end", aspect)
         plot.js_on_change("inner_width", aspect)
@@ -116,6 +118,13 @@ class BearingDrawing(View):
         self._draw_rings(plot, packed)
         self._draw_loads(plot, packed, colors, inks)
         self._write_words(plot, packed)
+        self._add_scale(plot, colors, load)
+        return plot
+
+    def _figure(self, x: Range1d, y: Range1d) -> figure:
+        return style.bare_figure(x, y, height=520)
+
+    def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
         bar = color_bar(
             colors,
             orientation="horizontal",
@@ -128,13 +137,12 @@ class BearingDrawing(View):
         )
         style.write_units(bar, style.BALL_LOAD, load)
         plot.add_layout(bar, "below")
-        return plot
 
     def _draw_rings(self, plot: figure, packed: PackedSource) -> None:
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_healthy_loads", "x", "y"),
+            source=packed.source(f"{self.prefix}_healthy_loads", "x", "y"),
             fill_color=style.HEALTHY,
             fill_alpha=0.25,
             line_color=None,
@@ -142,7 +150,7 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_rings", "x", "y"),
+            source=packed.source(f"{self.prefix}_rings", "x", "y"),
             fill_color=style.STEEL,
             line_color=style.STEEL_EDGE,
             line_width=1.2,
@@ -150,13 +158,13 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_defect", "x", "y"),
+            source=packed.source(f"{self.prefix}_defect", "x", "y"),
             fill_color=style.DEFECT,
             fill_alpha=0.55,
             line_color="#B87A00",
             line_width=1.2,
         )
-        marks = packed.source("bearing_marks", "x", "y", "angle", "turn")
+        marks = packed.source(f"{self.prefix}_marks", "x", "y", "angle", "turn")
         plot.text(
             "x",
             "y",
@@ -173,13 +181,13 @@ class BearingDrawing(View):
     def _draw_loads(
         self, plot: figure, packed: PackedSource, colors: LinearColorMapper, inks: LinearColorMapper
     ) -> None:
-        balls = packed.source("bearing_balls", "x", "y", "radius", "load", "number")
+        balls = packed.source(f"{self.prefix}_balls", "x", "y", "radius", "load", "number")
         plot.segment(
             "x0",
             "y0",
             "x1",
             "y1",
-            source=packed.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
+            source=packed.source(f"{self.prefix}_bars", "x0", "y0", "x1", "y1", "load"),
             line_color={"field": "load", "transform": colors},
             line_width=8,
         )
@@ -196,7 +204,7 @@ class BearingDrawing(View):
             "x",
             "y",
             radius="radius",
-            source=packed.source("bearing_roller_ends", "x", "y", "radius"),
+            source=packed.source(f"{self.prefix}_roller_ends", "x", "y", "radius"),
             fill_color=None,
             line_color="#6B7480",
             line_width=1.0,
@@ -215,7 +223,7 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_arrow", "x", "y"),
+            source=packed.source(f"{self.prefix}_arrow", "x", "y"),
             fill_color=style.INK,
             line_color=None,
         )
@@ -226,9 +234,9 @@ class BearingDrawing(View):
             "text_font_size": style.TEXT_SIZE,
             "text_color": style.FAINT_INK,
         }
-        loads = packed.source("bearing_load_words", "x", "y", "kind", "value", "angle")
+        loads = packed.source(f"{self.prefix}_load_words", "x", "y", "kind", "value", "angle")
         plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
-        rows = packed.source("bearing_row_words", "x", "y", "row", "place")
+        rows = packed.source(f"{self.prefix}_row_words", "x", "y", "row", "place")
         plot.text(
             "x",
             "y",
@@ -237,7 +245,7 @@ class BearingDrawing(View):
             text_align="center",
             **look,
         )
-        scale = packed.source("bearing_scale_words", "x", "y", "scale")
+        scale = packed.source(f"{self.prefix}_scale_words", "x", "y", "scale")
         plot.text(
             "x",
             "y",
@@ -264,32 +272,34 @@ class BearingDrawing(View):
             drop = {race: drops[own] for race, drops in results.drop.items()}
             balls = drawn.balls(drop, load)
             shapes = {
-                "bearing_rings": drawn.rings(),
-                "bearing_defect": drawn.defects(),
-                "bearing_marks": drawn.angle_marks(),
-                "bearing_balls": balls,
-                "bearing_roller_ends": roller_ends(scene, balls),
-                "bearing_bars": drawn.bars(load, top),
-                "bearing_arrow": drawn.load_arrow(),
-                "bearing_healthy_loads": drawn.load_rim(*healthy[row], top)
+                "rings": drawn.rings(),
+                "defect": drawn.defects(),
+                "marks": drawn.angle_marks(),
+                "balls": balls,
+                "roller_ends": roller_ends(scene, balls),
+                "bars": drawn.bars(load, top),
+                "arrow": drawn.load_arrow(),
+                "healthy_loads": drawn.load_rim(*healthy[row], top)
                 if row < len(healthy)  # a pinned scene may have fewer rows
                 else polar(),
             }
             several.append(moved(shapes, (2 * row + 1) * HALF_WIDTH - wide))
         sources = {
-            name: one_after_other([one[name] for one in several], gaps=name in POLYGONS)
+            f"{self.prefix}_{name}": one_after_other(
+                [one[name] for one in several], gaps=name in POLYGONS
+            )
             for name in several[0]
         }
         sources |= {
-            "bearing_load_words": load_words(scene.load, wide),
-            "bearing_row_words": row_words(scene, wide),
-            "bearing_scale_words": {
+            f"{self.prefix}_load_words": load_words(scene.load, wide),
+            f"{self.prefix}_row_words": row_words(scene, wide),
+            f"{self.prefix}_scale_words": {
                 "x": np.array([wide]),
-                "y": load_words(scene.load, wide)["y"][:1],
+                "y": load_words(scene.load, wide)["y"][:1] + self.scale_line - TOP_LINE,
                 "scale": np.array([drawn.depth_scale]),
             },
         }
-        return sources, {"bearing_load": load_range, "bearing_width": (-wide, wide)}
+        return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
 
     def sentence(self, results: Results) -> str:
         now = results.now

@@ -191,7 +191,7 @@ class VibrationInTime(View):
         if entry and leaving:
             text += (
                 f"; {element_name(bearing, entry.ball)} enters the defect and "
-                f"{style.with_prefix(leaving.time - entry.time, 's')} later "
+                f"{style.with_prefix(leaving.time - entry.time, 's', 4)} later "
                 + ("it" if leaving.ball == entry.ball else element_name(bearing, leaving.ball))
                 + " leaves it"
             )

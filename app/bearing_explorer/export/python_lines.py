@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from bearing_explorer.compute.endurance import endurance
 from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
@@ -165,6 +166,35 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
         'plt.subplot(projection="polar")',
         'plt.bar(angle, columns["ball_load_n"], width=0.5 * scene.bearing.ball_spacing)',
     )
+
+
+def _life(script: Script, results: Results, view: Any) -> None:
+    asked = view.asked
+    found = endurance(results.scene, asked)
+    if found.life is not None:
+        script.core("life")
+        rating = short(found.life.dynamic_load_rating)
+        script.add(
+            f'lasting = life(scene, {rating}, positions="all")  # C_r {found.rating_words}',
+            "print(lasting.sentence)",
+        )
+    if found.pressures is not None:
+        script.core("contact_pressures")
+        script.add(
+            "pressures = contact_pressures(scene)",
+            "print(pressures.inner.greatest_pressure, pressures.outer.greatest_pressure)  # Pa",
+        )
+    if found.film is not None:
+        script.core("film")
+        script.add(
+            "oil = film(",
+            f"    scene, viscosity={short(asked.viscosity)}, "
+            f"roughness_inner={short(asked.race_roughness)},",
+            f"    roughness_outer={short(asked.race_roughness)}, "
+            f"roughness_ball={short(asked.ball_roughness)},",
+            ")",
+            "print(oil.sentence)",
+        )
 
 
 def _load_distribution(script: Script, results: Results, view: Any) -> None:
@@ -568,6 +598,7 @@ def _nothing_yet(script: Script) -> None:
 
 _MAKERS: dict[str, Callable[[Script, Results, Any], None]] = {
     "bearing": _bearing,
+    "life": _life,
     "load-distribution": _load_distribution,
     "depth-profile": _depth_profile,
     "stiffness": _stiffness,

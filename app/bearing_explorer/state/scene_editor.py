@@ -20,6 +20,7 @@ from bearing_explorer.state.bearing_kinds import (
     hidden_of,
     scene_with,
 )
+from bearing_explorer.state.bearing_list import BearingTable, origin_words
 from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice, chosen_of
 from bearing_explorer.state.quantities import (
     FIRST_ROUGHNESS,
@@ -115,6 +116,8 @@ class SceneEditor:
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
+    listed: BearingTable = field(init=False, default_factory=BearingTable)
+    """Bearings by designation."""
 
     def __post_init__(self) -> None:
         self.take_preset(self.preset)
@@ -351,6 +354,8 @@ class SceneEditor:
             refused |= self._tried("defect", self._take_defect, defect)
         if isinstance(name := choice.get("name"), str):
             self.own_name = clean_name(name)
+        if isinstance(listed := choice.get("bearing"), str):
+            refused |= self._tried("bearing", self._take_listed, listed)
         if choice.get("draft") == "discard":
             self.drop_draft()
         if isinstance(dofs := choice.get("dofs"), str):
@@ -376,6 +381,11 @@ class SceneEditor:
         self._with_defects(
             [dataclasses.replace(defect, **fields) for defect in self.defects], self.selected
         )
+
+    def _take_listed(self, name: str) -> None:
+        found = self.listed.find(name)
+        origin = origin_words(found, found.name in self.listed.own)
+        self.take_bearing(found.bearing, found.name, origin)
 
     def _take_kind(self, kind: str) -> None:
         self._take(scene_with(self.scene, as_kind(self.scene.bearing, kind)))

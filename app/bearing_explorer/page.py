@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import logging
 from functools import cache
 from pathlib import Path
@@ -10,12 +11,12 @@ from urllib.parse import urlencode
 import panel as pn
 
 import bearingcore
-from bearing_explorer.assets import asset_text
+from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute import compiling
 from bearing_explorer.server.live import on_loop
 from bearing_explorer.server.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
-from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder
+from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
@@ -25,12 +26,20 @@ from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.maps import StiffnessMaps
+from bearing_explorer.views.mass_spectrum import MassInSpectrum
+from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
+from bearing_explorer.views.mechanism import WhichMechanism
 from bearing_explorer.views.model_editor import ModelEditor
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.orbit import SteadyOrbit
+from bearing_explorer.views.overview.bands import OverviewBands
+from bearing_explorer.views.overview.bearing import OverviewBearing
+from bearing_explorer.views.overview.change import LastChange
+from bearing_explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.views.overview.stiffness import OverviewStiffness
 from bearing_explorer.views.plan import PlanInFull
 from bearing_explorer.views.sizing import DefectSize
 from bearing_explorer.views.speed_run import SpeedRunSpectra
@@ -43,22 +52,29 @@ from bearing_explorer.views.vibration_time import VibrationInTime
 log = logging.getLogger(__name__)
 
 SECTIONS = (
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "At rest"),
+    Section(
+        "overview",
+        "Overview",
+        (OverviewBearing, LastChange, OverviewStiffness, OverviewBands, OverviewSpectrum),
+        "Understand",
+    ),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
-    Section("modes", "Natural frequencies", (NaturalFrequencies,)),
-    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra), "In motion"),
+    Section("explore", "Explore", (ExplorePlane,)),
+    Section("modes", "Frequencies", (NaturalFrequencies,), "Dynamics"),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+    Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("explore", "Explore", (ExplorePlane,), "Tools"),
+    Section("bearing", "Bearing", (BearingEditor,), "My machine"),
+    Section("model", "Model", (ModelEditor, DofDifferences)),
     Section(
         "diagnosis",
         "Diagnosis",
         (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
     ),
-    Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
-    Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
-    Section("model", "Model", (ModelEditor, DofDifferences)),
+    Section("accuracy", "Accuracy", (PlanInFull, Accuracy), "How sure"),
 )
 """The tabs; a group goes on until the next begins.
 
@@ -78,8 +94,16 @@ def address() -> str:
     return urlencode([(name, value) for name, values in given.items() for value in values])
 
 
+PYTHON_INSTALL = "pip install ."
+"""What the page says of how to install it."""
+
 TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
 """Names of the tabs and of their views, as lessons speak of them."""
+
+
+@cache
+def _for_teachers() -> str:
+    return text_for_teachers(TABS)
 
 
 def page(lessons: Path | None = None) -> PageTemplate:
@@ -87,12 +111,15 @@ def page(lessons: Path | None = None) -> PageTemplate:
     compiling.begin()
     known = lessons_in(lessons or own_folder(), TABS)
     explorer = Explorer(SECTIONS, address=address(), lessons=known)
+    explorer.lesson.teachers = _for_teachers()
     template = PageTemplate(asset_text("page.html"))
     template.add_variable("style", asset_text("page.css") + dark_properties())
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())
     template.add_variable("theme_script", asset_text("theme.js"))
-    template.add_variable("page_script", asset_text("page.js"))
+    template.add_variable("python_install", PYTHON_INSTALL)
+    template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
+    template.add_variable("page_script", scripts("projector.js", "page.js"))
     template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)
     side = pn.Column(explorer.share, explorer.controls, sizing_mode="stretch_width", margin=0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import dataclasses
 import logging
 import math
@@ -29,8 +30,9 @@ from bearing_explorer.server.live import good_byes, one_message, send_at_once
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
+from bearing_explorer.state.last_state import LastState
 from bearing_explorer.state.lessons import Fault, Lesson
-from bearing_explorer.state.quantities import Values
+from bearing_explorer.state.quantities import Values, in_page_words
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
@@ -42,8 +44,9 @@ from bearing_explorer.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
-from bearingcore import Scene
+from bearingcore import Limit, Scene
 from bearingcore.plan import CURVES
+from bearingcore.statics.validity import summary
 
 log = logging.getLogger(__name__)
 
@@ -75,6 +78,11 @@ class Section:
         return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
 
     @property
+    def has_motion(self) -> bool:
+        """Whether it shows a simulated motion, in which balls may have mass."""
+        return any(view.needs & {"ball_mass", "late_spectra"} for view in self.views)
+
+    @property
     def has_orbit(self) -> bool:
         """Whether it shows the orbit, which can take long to find."""
         return any("orbit" in view.needs for view in self.views)
@@ -85,8 +93,10 @@ class Inputs:
     """What is to be drawn; `mark` is the number of the newest change it holds.
 
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
-    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, and after a
-    long search where it `seeks_orbit`.
+    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, after a long
+    search where it `seeks_orbit`, and once more after it `compares_balls` with and without mass.
+    Until all is `compiled` some of it cannot be drawn. `before` is the scene before the last
+    change.
     """
 
     scene: Scene
@@ -98,6 +108,9 @@ class Inputs:
     planned: tuple[str, ...] = ()
     pinned: Reference | None = None
     seeks_orbit: bool = False
+    compares_balls: bool = False
+    compiled: bool = True
+    before: Scene | None = None
 
     @property
     def kind(self) -> Hashable:
@@ -129,6 +142,7 @@ class Inputs:
             moving=not self.rested,
             planned=self.planned,
             pinned=self.pinned,
+            before=self.before,
         )
 
 
@@ -147,7 +161,7 @@ class Picture:
 
     drawings: list[Drawing]
     status: dict[str, Any]
-    limits: list[dict[str, Any]] | None
+    limits: tuple[Limit, ...] | None
 
 
 class Explorer:
@@ -182,21 +196,25 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
+        self._last_state = LastState(self.editor.scene)
         self._reporting = False
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
+        self._open_lesson()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
         self.measurement.change_scene = self._asked
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
-        one_line = ["one-line"]
-        self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
+        self.status = StatusLine(
+            folded=True, sizing_mode="stretch_width", margin=0, css_classes=["one-line"]
+        )
         self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
         self._on_screen = ""
         self.tabs = Tabs(
             self._tab_asked,
@@ -225,6 +243,7 @@ class Explorer:
             self.editor.focus,
             self._settings,
             pinned=self.bookmarks.pinned,
+            before=self._last_state.before,
         )
 
     @property
@@ -254,6 +273,7 @@ class Explorer:
 
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""
+        self._last_state.follow(self.scene, self.bookmarks.moving)
         inputs, section = self.inputs, self._sections[self._shown]
         rested = dataclasses.replace(
             inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit
@@ -274,16 +294,26 @@ class Explorer:
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
             and rested.seeks_orbit <= last.seeks_orbit
+            and last.compiled
+            and self._compared(rested)
         )
+
+    def _compared(self, rested: Inputs) -> bool:
+        """Whether there is nothing to be found out about the balls' mass, or it is known."""
+        wanted = self._sections[self._shown].has_motion and rested.scene.shaft_speed > 0.0
+        return not wanted or (self._rested is not None and self._rested.compares_balls)
 
     def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        rested = dataclasses.replace(inputs, planned=planned)
+        compiled = compiling.ready()
+        rested = dataclasses.replace(inputs, planned=planned, compiled=compiled)
         if rested != self._rested:
             self._rested = rested
             self._worker.submit(rested)
-        if not compiling.ready():
+        if not compiled:
             self._idle_task.begin(inputs)  # there will be more to say
+        elif not inputs.compares_balls and not self._compared(rested):
+            self._idle_task.begin(dataclasses.replace(inputs, compares_balls=True))
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -437,11 +467,34 @@ class Explorer:
         for panel in self._panels:
             panel.show(**news)
 
+    def _open_lesson(self) -> None:
+        """The lesson that the address names; with its scene where the address says none."""
+        name = self.bookmarks.lesson
+        if not name:
+            return
+        lesson = self.lesson.begin(name)
+        if lesson is None:
+            self.bookmarks.lesson = ""
+            self.bookmarks.say(f"There is no lesson “{name}” here.")
+            self.share.state = self.bookmarks.state()
+            return
+        self.lesson.open_first = True
+        if not self.bookmarks.has_scene:
+            lesson.begin(self.editor)
+            self.bookmarks.begin_anew(lesson.tab)
+        self.share.state = self.bookmarks.state()
+
     def _lesson_asked(self, message: Any) -> None:
-        """A lesson begins, or a button among its words is pressed."""
+        """A lesson begins, its words are asked for, or a button among them is pressed."""
         if not isinstance(message, dict):
             return
-        lesson = self.lesson.begin(message.get("lesson"))
+        words_only = message.get("words_only") is True
+        lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
+        if lesson is not None or message.get("lesson") == "":
+            self.bookmarks.lesson = "" if lesson is None else lesson.name
+        if words_only or message.get("lesson") == "":
+            self._asked(message)
+            return
         if lesson is not None:
             lesson.begin(self.editor)
             self._show_controls(state=self.editor.state())
@@ -504,7 +557,7 @@ class Explorer:
 
         if quick or not slow:
             inputs, results, picture = await self._scheduler.run(
-                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick, started
+                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick
             )
             await self._assign(results, picture, None if slow else inputs.mark)
         else:
@@ -512,19 +565,19 @@ class Explorer:
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await self._scheduler.run_slow(_picture, results, slow, started, limits)
+            picture = await self._scheduler.run_slow(_picture, results, slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
 
     def _quick_picture(
-        self, inputs: Inputs, views: Sequence[View], started: float
+        self, inputs: Inputs, views: Sequence[View]
     ) -> tuple[Inputs, Results, Picture]:
         """A picture of the newest inputs: others may have waited for their turn too."""
         inputs = self._worker.newest(inputs)
         results = inputs.results
-        return inputs, results, _picture(results, views, started, self._limits_due(inputs))
+        return inputs, results, _picture(results, views, self._limits_due(inputs))
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()
@@ -550,7 +603,7 @@ class Explorer:
             self.status.put(line=picture.status)
             self.plan.show(results, self.tabs.active)
             if picture.limits is not None:
-                self.limits.put(rows=picture.limits)
+                self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 
         await one_message(self._doc, change)
 
@@ -571,21 +624,22 @@ class Explorer:
         await one_message(self._doc, change)
 
 
-def _picture(
-    results: Results, views: Sequence[View], started: float, limits: bool = False
-) -> Picture:
+def _picture(results: Results, views: Sequence[View], limits: bool = False) -> Picture:
     """Compute what the views need and have them say it, and what `limits` of the model say."""
     shown = frozenset[str]().union(*(view.needs for view in views))
+    before = time.thread_time()  # of this thread alone: waiting is no cost
     results.begin(shown)
     drawings = [_drawing(results, view) for view in views]
-    status = status_of(results, time.perf_counter() - started, shown)
-    return Picture(drawings, status, rows_of(results.limits) if limits else None)
+    checked = results.limits if limits else None
+    results.costs.append(time.thread_time() - before)
+    return Picture(drawings, status_of(results, sum(results.costs), shown), checked)
 
 
 def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     """What plans share that cost about the same. Those of motions may take seconds: no kind."""
     curves = all(view in CURVES for view in inputs.planned)
-    return inputs.kind if curves and not inputs.seeks_orbit else None
+    takes_long = inputs.seeks_orbit or inputs.compares_balls
+    return inputs.kind if curves and not takes_long else None
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
@@ -608,6 +662,9 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
             log.exception("planning %s failed", view)
             continue
         made.append(view)
+    if inputs.compares_balls and not overtaken():
+        with contextlib.suppress(ValueError):  # there is no motion to compare
+            results.compare_balls()
     if inputs.seeks_orbit and compiling.ready() and not overtaken():
         try:
             results.seek_orbit(overtaken)
@@ -622,7 +679,7 @@ def _drawing(results: Results, view: View) -> Drawing:
     try:
         return Drawing(view, view.data(results), view.sentence(results))
     except ValueError as error:
-        return Drawing(view, None, f"Not shown for this scene: {error}.")
+        return Drawing(view, None, f"Not shown for this scene: {in_page_words(str(error))}.")
     except Exception:
         log.exception("the view %s failed", view.name)
         return Drawing(view, None, _BROKEN)

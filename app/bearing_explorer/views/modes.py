@@ -13,6 +13,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.common.numbers import span
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -42,9 +43,9 @@ class NaturalFrequencies(View):
     name = "modes"
     title = "Natural frequencies"
     about = (
-        "Each mode as the bearing turns, named after the direction that moves most: blue x, "
-        "orange y. Shaded: the band in which a mode moves. Grey: the bearing without its defect. "
-        "Black: now."
+        "Each natural frequency as the bearing turns: blue x, orange y. A mode is named after the"
+        " direction that moves most. Shaded: the band in which it moves. Grey: the bearing "
+        "without its defect. Black: now."
     )
     needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)
@@ -135,12 +136,12 @@ class NaturalFrequencies(View):
         if not known:
             return "There is no static state to take natural frequencies from."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
-        words = [f"{label} within {_from_to(known[label])}" for label in radial]
+        words = [f"{label} {_from_to(known[label])}" for label in radial]
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
         if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} within {_from_to(healthy[first])}"
+            text += f"; {results.beside_words} {first} {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -166,7 +167,8 @@ class NaturalFrequencies(View):
 
 
 def _from_to(band: tuple[float, float]) -> str:
-    return f"{band[0]:.0f} to {band[1]:.0f} Hz"
+    words = span(*band, "Hz")
+    return f"from {words}" if " to " in words else f"at {words}"
 
 
 def band_rows(modes: Modes) -> dict[str, np.ndarray]:

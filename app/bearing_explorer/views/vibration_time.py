@@ -185,7 +185,7 @@ class VibrationInTime(View):
         if entry and leaving:
             text += (
                 f"; ball {entry.ball + 1} enters the defect and "
-                f"{style.with_prefix(leaving.time - entry.time, 's')} later "
+                f"{style.with_prefix(leaving.time - entry.time, 's', 4)} later "
                 + ("it" if leaving.ball == entry.ball else f"ball {leaving.ball + 1}")
                 + " leaves it"
             )

@@ -11,12 +11,12 @@ from urllib.parse import urlencode
 import panel as pn
 
 import bearingcore
-from bearing_explorer.assets import asset_text
+from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute import compiling
 from bearing_explorer.server.live import on_loop
 from bearing_explorer.server.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
-from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder
+from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
@@ -26,9 +26,12 @@ from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.maps import StiffnessMaps
+from bearing_explorer.views.mass_spectrum import MassInSpectrum
+from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
+from bearing_explorer.views.mechanism import WhichMechanism
 from bearing_explorer.views.model_editor import ModelEditor
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.orbit import SteadyOrbit
@@ -61,6 +64,7 @@ SECTIONS = (
     Section("explore", "Explore", (ExplorePlane,)),
     Section("modes", "Frequencies", (NaturalFrequencies,), "Dynamics"),
     Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+    Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
     Section("bearing", "Bearing", (BearingEditor,), "My machine"),
@@ -97,11 +101,17 @@ TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTI
 """Names of the tabs and of their views, as lessons speak of them."""
 
 
+@cache
+def _for_teachers() -> str:
+    return text_for_teachers(TABS)
+
+
 def page(lessons: Path | None = None) -> PageTemplate:
     """The page of a new session; `lessons` is a folder with somebody's own."""
     compiling.begin()
     known = lessons_in(lessons or own_folder(), TABS)
     explorer = Explorer(SECTIONS, address=address(), lessons=known)
+    explorer.lesson.teachers = _for_teachers()
     template = PageTemplate(asset_text("page.html"))
     template.add_variable("style", asset_text("page.css") + dark_properties())
     template.add_variable("logo", asset_text("logo.svg"))
@@ -109,7 +119,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("theme_script", asset_text("theme.js"))
     template.add_variable("python_install", PYTHON_INSTALL)
     template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
-    template.add_variable("page_script", asset_text("page.js"))
+    template.add_variable("page_script", scripts("projector.js", "page.js"))
     template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)
     side = pn.Column(explorer.share, explorer.controls, sizing_mode="stretch_width", margin=0)

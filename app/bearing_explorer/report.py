@@ -25,7 +25,7 @@ from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
-from bearing_explorer.state.quantities import defects_of, values_of
+from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.bearing_editor import facts_of
@@ -70,7 +70,9 @@ def report(
         try:
             data, sentence = view.data(results), view.sentence(results)
         except ValueError as error:
-            parts.append(_figure(view, [], f"Not shown for this scene: {error}."))
+            parts.append(
+                _figure(view, [], f"Not shown for this scene: {in_page_words(str(error))}.")
+            )
             continue
         except Exception:
             log.exception("the view %s failed in a report", view.name)

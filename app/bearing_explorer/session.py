@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import dataclasses
 import logging
 import math
@@ -31,7 +32,7 @@ from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.last_state import LastState
 from bearing_explorer.state.lessons import Fault, Lesson
-from bearing_explorer.state.quantities import Values
+from bearing_explorer.state.quantities import Values, in_page_words
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
@@ -43,8 +44,9 @@ from bearing_explorer.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
-from bearingcore import Scene
+from bearingcore import Limit, Scene
 from bearingcore.plan import CURVES
+from bearingcore.statics.validity import summary
 
 log = logging.getLogger(__name__)
 
@@ -76,6 +78,11 @@ class Section:
         return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
 
     @property
+    def has_motion(self) -> bool:
+        """Whether it shows a simulated motion, in which balls may have mass."""
+        return any(view.needs & {"ball_mass", "late_spectra"} for view in self.views)
+
+    @property
     def has_orbit(self) -> bool:
         """Whether it shows the orbit, which can take long to find."""
         return any("orbit" in view.needs for view in self.views)
@@ -86,8 +93,10 @@ class Inputs:
     """What is to be drawn; `mark` is the number of the newest change it holds.
 
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
-    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, and after a
-    long search where it `seeks_orbit`. `before` is the scene before the last change.
+    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, after a long
+    search where it `seeks_orbit`, and once more after it `compares_balls` with and without mass.
+    Until all is `compiled` some of it cannot be drawn. `before` is the scene before the last
+    change.
     """
 
     scene: Scene
@@ -100,6 +109,8 @@ class Inputs:
     pinned: Reference | None = None
     seeks_orbit: bool = False
     before: Scene | None = None
+    compares_balls: bool = False
+    compiled: bool = True
 
     @property
     def kind(self) -> Hashable:
@@ -150,7 +161,7 @@ class Picture:
 
     drawings: list[Drawing]
     status: dict[str, Any]
-    limits: list[dict[str, Any]] | None
+    limits: tuple[Limit, ...] | None
 
 
 class Explorer:
@@ -185,13 +196,15 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
-        self._last_state = LastState(self.editor.scene)
         self._reporting = False
+        self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
+        self.lesson = LessonPanel(self._lesson_asked, lessons)
+        self._open_lesson()
+        self._last_state = LastState(self.editor.scene)
         tab = self.bookmarks.tab
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.bookmarks.show(self._shown)  # links always say where one stood
-        self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
-        self.lesson = LessonPanel(self._lesson_asked, lessons)
+        self._show_share()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
@@ -282,16 +295,26 @@ class Explorer:
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
             and rested.seeks_orbit <= last.seeks_orbit
+            and last.compiled
+            and self._compared(rested)
         )
+
+    def _compared(self, rested: Inputs) -> bool:
+        """Whether there is nothing to be found out about the balls' mass, or it is known."""
+        wanted = self._sections[self._shown].has_motion and rested.scene.shaft_speed > 0.0
+        return not wanted or (self._rested is not None and self._rested.compares_balls)
 
     def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        rested = dataclasses.replace(inputs, planned=planned)
+        compiled = compiling.ready()
+        rested = dataclasses.replace(inputs, planned=planned, compiled=compiled)
         if rested != self._rested:
             self._rested = rested
             self._worker.submit(rested)
-        if not compiling.ready():
+        if not compiled:
             self._idle_task.begin(inputs)  # there will be more to say
+        elif not inputs.compares_balls and not self._compared(rested):
+            self._idle_task.begin(dataclasses.replace(inputs, compares_balls=True))
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -445,11 +468,33 @@ class Explorer:
         for panel in self._panels:
             panel.show(**news)
 
+    def _open_lesson(self) -> None:
+        """The lesson that the address names; with its scene where the address says none."""
+        name = self.bookmarks.lesson
+        if not name:
+            return
+        lesson = self.lesson.begin(name)
+        if lesson is None:
+            self.bookmarks.lesson = ""
+            self.bookmarks.say(f"There is no lesson “{name}” here.")
+            return
+        self.lesson.open_first = True
+        if not self.bookmarks.has_scene:
+            lesson.begin(self.editor)
+            self.bookmarks.begin_anew(lesson.tab)
+        self.share.state = self.bookmarks.state()
+
     def _lesson_asked(self, message: Any) -> None:
-        """A lesson begins, or a button among its words is pressed."""
+        """A lesson begins, its words are asked for, or a button among them is pressed."""
         if not isinstance(message, dict):
             return
-        lesson = self.lesson.begin(message.get("lesson"))
+        words_only = message.get("words_only") is True
+        lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
+        if lesson is not None or message.get("lesson") == "":
+            self.bookmarks.lesson = "" if lesson is None else lesson.name
+        if words_only or message.get("lesson") == "":
+            self._asked(message)
+            return
         if lesson is not None:
             lesson.begin(self.editor)
             self._show_controls(state=self.editor.state())
@@ -558,7 +603,7 @@ class Explorer:
             self.status.put(line=picture.status)
             self.plan.show(results, self.tabs.active)
             if picture.limits is not None:
-                self.limits.put(rows=picture.limits)
+                self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 
         await one_message(self._doc, change)
 
@@ -585,7 +630,7 @@ def _picture(results: Results, views: Sequence[View], limits: bool = False) -> P
     before = time.thread_time()  # of this thread alone: waiting is no cost
     results.begin(shown)
     drawings = [_drawing(results, view) for view in views]
-    checked = rows_of(results.limits) if limits else None
+    checked = results.limits if limits else None
     results.costs.append(time.thread_time() - before)
     return Picture(drawings, status_of(results, sum(results.costs), shown), checked)
 
@@ -593,7 +638,8 @@ def _picture(results: Results, views: Sequence[View], limits: bool = False) -> P
 def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     """What plans share that cost about the same. Those of motions may take seconds: no kind."""
     curves = all(view in CURVES for view in inputs.planned)
-    return inputs.kind if curves and not inputs.seeks_orbit else None
+    takes_long = inputs.seeks_orbit or inputs.compares_balls
+    return inputs.kind if curves and not takes_long else None
 
 
 def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
@@ -616,6 +662,9 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
             log.exception("planning %s failed", view)
             continue
         made.append(view)
+    if inputs.compares_balls and not overtaken():
+        with contextlib.suppress(ValueError):  # there is no motion to compare
+            results.compare_balls()
     if inputs.seeks_orbit and compiling.ready() and not overtaken():
         try:
             results.seek_orbit(overtaken)
@@ -630,7 +679,7 @@ def _drawing(results: Results, view: View) -> Drawing:
     try:
         return Drawing(view, view.data(results), view.sentence(results))
     except ValueError as error:
-        return Drawing(view, None, f"Not shown for this scene: {error}.")
+        return Drawing(view, None, f"Not shown for this scene: {in_page_words(str(error))}.")
     except Exception:
         log.exception("the view %s failed", view.name)
         return Drawing(view, None, _BROKEN)

@@ -12,7 +12,7 @@ export function render({ model }) {
     }
     return parts
   }
-  const field = ({ name, label, options }) => {
+  const field = ({ name, label, options, only }) => {
     const id = `job-${name}`
     const input = inputs[name] = options
       ? element("select", { id }, ...grouped(options))
@@ -20,9 +20,18 @@ export function render({ model }) {
     input.value = model.values[name] ?? ""
     input.addEventListener("change", () => {
       fill(name)
+      put_aside()
       if (model.spec.at_once) ask()
     })
-    return element("div", { class: `field field-${name}` }, element("label", { for: id }, label), input)
+    const root = element("div", { class: `field field-${name}` }, element("label", { for: id }, label), input)
+    if (only) bound.push([root, only])
+    return root
+  }
+  // Fields that mean something only with certain choices in others.
+  const bound = []
+  const put_aside = () => {
+    for (const [root, only] of bound)
+      root.hidden = !Object.entries(only).every(([other, values]) => values.includes(inputs[other].value))
   }
   // What is chosen in one field may bring the numbers of others with it.
   const fill = (name) => {
@@ -67,7 +76,9 @@ export function render({ model }) {
   model.on("state", show)
   model.on("values", () => {
     for (const [name, value] of Object.entries(model.values)) inputs[name].value = value
+    put_aside()
   })
   show()
+  put_aside()
   return form
 }

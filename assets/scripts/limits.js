@@ -37,7 +37,6 @@ export function render({ model }) {
   let said = null
   const write = () => {
     const crossed = model.rows.filter(({ state }) => state === "crossed")
-    const known = model.rows.filter(({ state }) => state !== "unknown").length
     const text = crossed.map(({ sentence }) => sentence).join("\n")
     if (text !== said) {
       said = text
@@ -50,8 +49,7 @@ export function render({ model }) {
     strip.dataset.crossed = String(crossed.length)
     // beside the status line where all is well, a line of its own where it is not
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)
-    more.textContent = crossed.length
-      ? `${crossed.length} of ${known} limits crossed` : `${known} limits kept`
+    more.textContent = model.summary
     more.title = list.hidden ? "Show all limits of the model" : "Hide the limits"
     if (!list.hidden) fill()
   }
@@ -67,6 +65,7 @@ export function render({ model }) {
     }
   })
   model.on("rows", write)
+  model.on("summary", write)
   requestAnimationFrame(write)  // when it stands on the page
   return strip
 }

@@ -51,9 +51,10 @@ export function render({ model }) {
   // Simulated measurements, for those who have none.
   const noise = select("measurement-noise", spec.noises)
   const machine = select("measurement-machine", spec.machines)
+  const pit = select("measurement-pit", spec.pits)
   const simulate = element("button", { type: "button", class: "start" }, "Simulate a signal")
   simulate.addEventListener("click", () =>
-    model.send_msg({ simulate: { noise: noise.value, machine: machine.value } }))
+    model.send_msg({ simulate: { noise: noise.value, machine: machine.value, pit: pit.value } }))
 
   const own = element("section", { class: "way own", "aria-label": "A file of your own" },
     element("h3", {}, "A file of your own"),
@@ -63,7 +64,8 @@ export function render({ model }) {
     element("h3", {}, "No file at hand?"),
     element("div", { class: "line" }, simulate,
       labelled("measurement-noise", "Noise below it", noise),
-      labelled("measurement-machine", "Machine", machine)),
+      labelled("measurement-machine", "Machine", machine),
+      labelled("measurement-pit", "Defect", pit)),
     element("p", { class: "note" }, "Of the scene beside: its true extent is known and shown."))
 
   // What the file does not say for sure.

@@ -8,8 +8,9 @@
   lessons.addEventListener("click", () => window.dispatchEvent(new CustomEvent("explorer-lessons")))
   const beside_lesson = (lesson) => {
     lessons.setAttribute("aria-expanded", String(lesson !== null))
+    if (lesson === null && window.explorer_projector.on) window.explorer_projector.turn(false)
     mark(lesson?.watch ?? [])
-    mark_as_they_come()
+    mark_as_they_come(show_marked)
   }
   window.addEventListener("explorer-lesson", (event) => beside_lesson(event.detail))
 
@@ -95,8 +96,21 @@
     return missing.size === 0
   }
   // A tab that is opened for the first time is built on the server: its figures come when they come.
-  const mark_as_they_come = (tries = 200) => {
-    if (!mark(marked) && tries > 0) setTimeout(() => mark_as_they_come(tries - 1), 50)
+  const mark_as_they_come = (then = () => {}, tries = 200) => {
+    if (mark(marked)) requestAnimationFrame(then)
+    else if (tries > 0) setTimeout(() => mark_as_they_come(then, tries - 1), 50)
+  }
+  // The first of the marked figures is brought into view where it is not: its head, if not all of it.
+  const show_marked = () => {
+    const main = document.querySelector("main")
+    const [first] = marked
+    for (const element of inside(main)) {
+      if (!first || !element.classList.contains(`view-${first}`)) continue
+      const box = element.getBoundingClientRect(), room = main.getBoundingClientRect()
+      if (box.height && (box.top < room.top || box.bottom > room.bottom))
+        element.scrollIntoView({ block: box.height < room.height ? "nearest" : "start" })
+      return
+    }
   }
 
   // Space turns the bearing, unless something else has a use for it.
@@ -139,7 +153,7 @@
     window.addEventListener("explorer-tab", (event) => {
       if (shown === event.detail) return
       shown = event.detail
-      requestAnimationFrame(() => mark_as_they_come())
+      requestAnimationFrame(() => mark_as_they_come(show_marked))
     })
   }
   begun()

@@ -25,6 +25,10 @@ STABLE_DECAY = 2.6
 Runge-Kutta steps of order 4."""
 
 
+LIGHTLY = 0.1
+"""Part of the heaviest load from which on a ball counts for the band of contact resonances."""
+
+
 def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
     """1 where balls move in their plane alone (radially), else 2 (radially and axially)."""
     flat = scene.bearing.is_flat and set(dofs) <= set(DOF_NAMES[:2])
@@ -109,6 +113,21 @@ def contact_resonance(scene: Scene) -> float:
     """Frequency sqrt((k_i + k_e)/m_b)/2π [Hz] of the heaviest loaded ball between its contacts."""
     stiffness = sum(contact_stiffness(scene, heaviest_load(scene)))
     return math.sqrt(stiffness / scene.bearing.ball_mass) / (2.0 * math.pi)
+
+
+@lru_cache(maxsize=512)
+def contact_resonance_band(scene: Scene) -> tuple[float, float]:
+    """Contact resonances [Hz] of balls that carry between LIGHTLY of the heaviest load and all.
+
+    A ball's resonance goes with the sixth root of its load (Hertz), so the band is narrow although
+    loads are not. 0 for both where no ball is known to carry load.
+    """
+    heaviest = heaviest_load(scene)
+    low, high = (
+        math.sqrt(sum(contact_stiffness(scene, load)) / scene.bearing.ball_mass) / (2.0 * math.pi)
+        for load in (LIGHTLY * heaviest, heaviest)
+    )
+    return low, high
 
 
 def fastest_decay(scene: Scene) -> float:

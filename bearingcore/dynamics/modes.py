@@ -120,7 +120,8 @@ def modes_at(state: Equilibrium) -> Modes:
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, scene.support.stiffness(dofs))
     C = two_body_matrix(C_b, scene.support.damping(dofs))
-    known = np.isfinite(K).all(axis=(1, 2))
+    # where a direction is free to move the stiffness is known, but not where the ring comes to rest
+    known = state.converged & np.isfinite(K).all(axis=(1, 2))
     n, m = len(K), 2 * nd
     undamped, frequency, ratio = (np.full((n, m), np.nan) for _ in range(3))
     shape = np.full((n, m, m), np.nan)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_motion import (
     ball_start,
@@ -280,8 +281,6 @@ def simulate(
     with_mass = scene.balls == WITH_MASS
     if step_rate is None:
         step_rate = default_step_rate(scene, sample_rate, highest)
-        if with_mass:
-            step_rate = max(ball_step_rate(scene, sample_rate), step_rate)
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     if with_mass and a_step > 1:
         raise checks.refuse(
@@ -306,8 +305,8 @@ def simulate(
             np.float64(math.nan), (n if with_mass else n_steps + 1, 6, len(dofs))
         )
         status = (
-            f"{TOO_MANY_STEPS}: {n_steps:.3g} of {1.0 / step_rate:.3g} s each, allowed are "
-            f"most_steps = {most_steps}"
+            f"{TOO_MANY_STEPS}: {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
+            f"allowed are most_steps = {most_steps}"
         )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
         return Motion(
@@ -339,7 +338,8 @@ def simulate(
             history[done // stride + 1 :] = math.nan
             if place is not None:
                 place[done // stride + 1 :] = math.nan
-            status = f"diverged after {done * h:.3g} s: {step_rate:g} steps a second are too few"
+            rate = thousands(step_rate)
+            status = f"diverged after {number(done * h)} s: {rate} steps a second are too few"
     motion = Motion(
         scene=scene,
         dofs=dofs,
@@ -402,14 +402,19 @@ def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | N
 
 
 def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
-    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do."""
+    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
+
+    Where balls have mass a multiple, see `ball_step_rate`.
+    """
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
     for defect in scene.defects:
         across = defect.extent / abs(1.0 - defect.turn_ratio(scene.bearing))
         needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / across)
+    if scene.balls == WITH_MASS:
+        needed = max(needed, ball_step_rate(scene, sample_rate))
     if needed <= sample_rate:
         return sample_rate / math.floor(sample_rate / needed)
-    return sample_rate * math.ceil(needed / sample_rate)
+    return sample_rate * math.ceil(needed / sample_rate - 1e-9)
 
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
@@ -249,7 +250,7 @@ def orbit(
     steps = max(math.ceil(period * rate), 8)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:
-        cost = f"{steps:.3g} steps a period, allowed are most_steps = {most_steps} in all"
+        cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most_steps} in all"
         return replace(nothing, status=TOO_MANY_STEPS, period=period, cost=cost)
     shooting = _Shooting(scene, dofs, period, steps, give_up, most_steps)
     y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)

@@ -14,7 +14,7 @@ from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import modes
 from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.signals.spectrum import spectrum
 
 SETTLING = 0.5
@@ -86,6 +86,8 @@ def speed_run(
 ) -> SpeedRun:
     """Steady spectra at each shaft speed [rad/s]: of the orbit where it is stable, else marched.
 
+    Balls with mass are marched always: only massless ones have orbits that can be looked for.
+
     Parameters
     ----------
     scene
@@ -131,8 +133,10 @@ def speed_run(
         done += 1
         try:
             at = scene.replace(shaft_speed=float(speeds[i]))
-            found = orbit(at, start=nearby, most_steps=most_steps)
-            if found.stable:
+            found = None
+            if at.balls == MASSLESS:
+                found = orbit(at, start=nearby, most_steps=most_steps)
+            if found is not None and found.stable:
                 density[i] = found.spectrum(sample_rate, resolution, duration).density
                 proven[i] = True
                 nearby = found

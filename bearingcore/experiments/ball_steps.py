@@ -11,7 +11,8 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.balls.motion import INNER, OUTER, lay_out_inner, new_ball_march
+from bearingcore.kernels.balls.motion import lay_out_inner, new_ball_march
+from bearingcore.kernels.balls.structs import INNER, OUTER
 from bearingcore.kernels.compiling import compiled, inlined
 from bearingcore.kernels.contact import contact_load
 from bearingcore.kernels.motion import all_finite

@@ -5,14 +5,9 @@ arguments. `compiling` says how functions are compiled and kept on disk.
 """
 
 from bearingcore.kernels.adaptive import march_adaptive
-from bearingcore.kernels.balls.motion import (
-    BallSystem,
-    Races,
-    ball_motion_rates,
-    march_balls,
-    race_loads,
-)
+from bearingcore.kernels.balls.motion import ball_motion_rates, march_balls, race_loads
 from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
+from bearingcore.kernels.balls.structs import BallSystem, Races
 from bearingcore.kernels.compiling import on_disk
 from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.motion import (

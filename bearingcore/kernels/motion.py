@@ -215,6 +215,18 @@ def all_finite(y):
 
 
 @inlined
+def stage_part(stage, h):
+    """How far [s] into a step the stage lies whose rate leads on from its beginning."""
+    return 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
+
+
+@inlined
+def advance(h, first, second, third, fourth):
+    """What a step of h [s] adds, by the rates of its four stages: classical Runge-Kutta."""
+    return h / 6.0 * (first + 2.0 * (second + third) + fourth)
+
+
+@inlined
 def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
     """Classical Runge-Kutta steps of order 4; Y and tangent may be None. See `march`."""
     rotor = system.rotor
@@ -227,7 +239,6 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
     size = y.size
     planar = rotor.variables == PLANAR
     half_turn = 0.5 * h * rotor.cage_speed
-    sixth = h / 6.0
     for step in range(n_steps + 1):
         i = (2 * step) % BLOCK
         if i == 0:
@@ -240,7 +251,7 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
             )
         for stage in range(4):
             at = i + (stage + 1) // 2
-            part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
+            part = stage_part(stage, h)
             before = max(stage - 1, 0)
             if Y is not None or not planar:
                 for r in range(size):
@@ -274,15 +285,13 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
         if step == n_steps:
             break
         for r in range(size):
-            y[r] += sixth * (k[0, r] + 2.0 * (k[1, r] + k[2, r]) + k[3, r])
+            y[r] += advance(h, k[0, r], k[1, r], k[2, r], k[3, r])
         if Y is not None:
             kY = tangent.k
             for r in range(size):
                 for column in range(Y.shape[1]):
-                    Y[r, column] += sixth * (
-                        kY[0, r, column]
-                        + 2.0 * (kY[1, r, column] + kY[2, r, column])
-                        + kY[3, r, column]
+                    Y[r, column] += advance(
+                        h, kY[0, r, column], kY[1, r, column], kY[2, r, column], kY[3, r, column]
                     )
     return n_steps if all_finite(y) else max(n_steps - BLOCK // 2, 0)
 

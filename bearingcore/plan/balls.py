@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.plan.plans import SETTLED, Plan
@@ -63,7 +64,28 @@ class BallComparison:
             told = f"massless: more than {self.budget:g} dB off from {LOWEST / 1e3:.1f} kHz on"
         else:
             told = f"massless: within {self.budget:g} dB up to {self.massless_up_to / 1e3:.1f} kHz"
-        return f"{told}, with mass {self.seconds / self.massless_seconds:.0f} times the time"
+        times = self.seconds / max(self.massless_seconds, 1e-9)
+        return f"{told}, with mass {times:.0f} times the time"
+
+    def enough_up_to(self, frequency: float) -> bool:
+        """Whether massless balls are within the budget up to a frequency [Hz], or all compared."""
+        return self.massless_up_to >= min(frequency, float(self.edges[-1]))
+
+    def table(self) -> ResultTable:
+        """A row a third octave: its ends, and what mass adds along each direction."""
+        return table_of(
+            ("lowest_frequency", "Hz", self.edges[:-1]),
+            ("highest_frequency", "Hz", self.edges[1:]),
+            *(
+                (f"added_{dof}", "dB", values, f"what the balls' mass adds along {dof}")
+                for dof, values in zip(self.directions, self.added.T, strict=True)
+            ),
+        )
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """Those of x and y in which the housing moves."""
+        return compared_directions(self.scene.active_dofs)
 
 
 @lru_cache(maxsize=64)
@@ -93,9 +115,9 @@ def compare_balls(
     powers, seconds = [], []
     edges = third_octave_edges(sample_rate)
     for balls in (MASSLESS, WITH_MASS):
-        begin = time.perf_counter()
+        begin = time.thread_time()  # others may be using the processor
         motion = simulate(scene.replace(balls=balls), SETTLING + duration, sample_rate)
-        seconds.append((time.perf_counter() - begin) / (SETTLING + duration))
+        seconds.append((time.thread_time() - begin) / (SETTLING + duration))
         if not motion.completed:
             raise checks.refuse("scene", motion.status, f"one that moves with balls {balls}")
         powers.append(band_powers(motion, edges))
@@ -113,9 +135,14 @@ def third_octave_edges(sample_rate: float) -> Array:
     return LOWEST * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
 
 
+def compared_directions(dofs: tuple[str, ...]) -> tuple[str, ...]:
+    """Directions of the housing that are compared: those of sensors."""
+    return tuple(name for name in ("x", "y") if name in dofs)
+
+
 def band_powers(motion: Motion, edges: Array) -> Array:
     """Power (m, d) [(m/s²)²] of the housing's settled acceleration along x and y between edges."""
-    columns = [motion.dofs.index(name) for name in ("x", "y") if name in motion.dofs]
+    columns = [motion.dofs.index(name) for name in compared_directions(motion.dofs)]
     first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
     frequency, density = spectrum(
         motion.outer_acceleration[first:, columns], motion.sample_rate, 0.1 * LOWEST
@@ -159,9 +186,9 @@ def plan_with_mass(
     pilot = min(duration, 0.35) + SETTLING
     edges = third_octave_edges(sample_rate)
     edges = edges[edges <= max(5e3, edges[1])]
-    begin = time.perf_counter()
+    begin = time.thread_time()
     usual = simulate(scene, pilot, sample_rate, step_rate=step_rate)
-    seconds = (time.perf_counter() - begin) / pilot
+    seconds = (time.thread_time() - begin) / pilot
     fine = simulate(scene, pilot, sample_rate, step_rate=2.0 * usual.step_rate)
     error = math.inf
     if usual.completed and fine.completed:

@@ -7,6 +7,7 @@ is proven stable. A plan says what was chosen, the error to expect and what it c
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Iterable
 
@@ -14,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.model.scene import Scene, check_dofs
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene, check_dofs
+from bearingcore.plan.balls import compare_balls
 from bearingcore.plan.cage_angles import CURVES
 from bearingcore.plan.curves import plan_curves
 from bearingcore.plan.motions import plan_motion
@@ -37,6 +39,7 @@ def plan(
     dofs: Iterable[str] | None = None,
     step_rate: float | None = None,
     march: bool = False,
+    up_to: float | None = None,
 ) -> Plan:
     """The cheapest way to compute a view of a scene within an error budget.
 
@@ -51,6 +54,10 @@ def plan(
     dofs, step_rate, march
         overrule the plan: directions, steps a second [Hz], a march where an orbit would do. The
         predicted error is then that of what was asked for.
+    up_to
+        the highest frequency [Hz] that is looked at. Where it is given, motions have massless balls
+        if those are within the budget up to there, and else balls with mass; None: as the scene
+        says.
 
     Raises
     ------
@@ -66,4 +73,11 @@ def plan(
         scene = scene.replace(dofs=check_dofs(dofs))
     if view in CURVES:
         return plan_curves(scene, view, budget, began)
-    return plan_motion(scene, view, budget, began, duration, sample_rate, step_rate, march)
+    note = ""
+    if up_to is not None:
+        up_to = checks.number("up_to", up_to, above=0.0, at_most=0.5 * sample_rate, unit="Hz")
+        comparison = compare_balls(scene.replace(balls=MASSLESS), budget, sample_rate=sample_rate)
+        scene = scene.replace(balls=MASSLESS if comparison.enough_up_to(up_to) else WITH_MASS)
+        note = comparison.sentence if scene.balls == MASSLESS else ""
+    made = plan_motion(scene, view, budget, began, duration, sample_rate, step_rate, march)
+    return dataclasses.replace(made, note="; ".join(filter(None, (made.note, note))))

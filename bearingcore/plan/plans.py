@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.numbers import count, decibels, number, percent, scientific, with_prefix
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit
@@ -130,20 +131,19 @@ class Plan:
         parts = [f"{len(self.dofs)} DOF"]
         if self.cage_angles is not None:
             parts.append(f"{len(self.cage_angles)} cage angles")
-            error = f"error {_short(100.0 * self.predicted_error)} %"
+            error = f"error {percent(self.predicted_error, 2)}"
             full = f"{FULL_ANGLES} equally spaced angles {_duration(self.full_seconds)}"
-            full += f", error {_short(100.0 * self.full_error)} %"
+            full += f", error {percent(self.full_error, 2)}"
         else:
-            fixed = f"{self.step_rate / 1e3:.3g} kHz"
-            adaptive = f"adaptive steps at {self.tolerance:.0e}"
+            fixed = with_prefix(self.step_rate, "Hz")
+            adaptive = f"adaptive steps at {scientific(self.tolerance)}"
             parts.append(adaptive if self.method == "adaptive steps" else fixed)
             if self.orbit is not None:
-                passes = self.orbit.ball_passes
-                parts.append(f"{passes} ball pass{'es' if passes > 1 else ''}")
+                parts.append(count(self.orbit.ball_passes, "ball pass", "ball passes"))
             else:
-                parts.append(f"{self.duration:.3g} s")
-            error = f"error {_short(self.predicted_error)} dB"
-            full = f"full model {_duration(self.full_seconds)}, error {_short(self.full_error)} dB"
+                parts.append(f"{number(self.duration)} s")
+            error = _error(self.predicted_error)
+            full = f"full model {_duration(self.full_seconds)}, {_error(self.full_error)}"
         text = f"this scene: {', '.join(parts)}: {_duration(self.seconds)}, {error}; {full}"
         if not self.met:
             text += "; the budget is not met"
@@ -151,12 +151,12 @@ class Plan:
 
 
 def _duration(seconds: float) -> str:
-    return f"{_short(1e3 * seconds)} ms" if seconds < 1.0 else f"{_short(seconds)} s"
+    return f"{number(1e3 * seconds, 2)} ms" if seconds < 1.0 else f"{number(seconds, 2)} s"
 
 
-def _short(value: float) -> str:
-    """Two digits, and never a power of ten for what has more before the point: 120, 3.4, 0.0051."""
-    return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
+def _error(level: float) -> str:
+    """An error of a spectrum; where a motion did not stay finite there is none to tell."""
+    return f"error {decibels(level)}" if math.isfinite(level) else "error not known"
 
 
 def fewer_directions(dofs: tuple[str, ...]) -> list[tuple[str, ...]]:

@@ -14,7 +14,7 @@ from bearingcore import kernels
 from bearingcore.dynamics.modes import modes
 from bearingcore.dynamics.motion import Motion, march_from, simulate
 from bearingcore.model.bearings.presets import presets
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 from bearingcore.statics.maps import stiffness_maps
 
@@ -130,6 +130,16 @@ def _without_statics(scene: Scene) -> None:
         scene, dofs, 65536.0, 32768.0, True, "completed", 32, np.arange(16) / 65536.0, None, history
     )
     _ = motion.outer_acceleration, motion.ball_loads()
+
+
+def motions_with_mass() -> None:
+    """A little of what balls with mass are moved by, which is not part of `warm`.
+
+    It takes as long to compile as all else together, and nobody's first picture needs it.
+    """
+    for name in ("fan-rig", "liew-lim"):
+        motion = simulate(presets[name].replace(balls=WITH_MASS), 1e-3, ball_loads=True)
+        _ = motion.outer_acceleration
 
 
 def _all_of_a_motion(scene: Scene) -> None:

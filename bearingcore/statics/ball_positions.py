@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
+from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
 from bearingcore.model.scene import DOF_NAMES, Scene
@@ -206,10 +207,10 @@ class CentrifugalEffect:
         if not self.converged:
             return "Centrifugal load: not known, as a cage angle has no static state."
         return (
-            f"Centrifugal load of {self.force:.3g} N a ball changes loads by up to "
-            f"{100.0 * self.load:.2g} % of the heaviest, stiffness by up to "
-            f"{100.0 * self.stiffness:.2g} %, and parts the contact angles of the races by up to "
-            f"{math.degrees(self.contact_angle):.2g}°."
+            f"Centrifugal load of {with_prefix(self.force, 'N')} a ball changes loads by up to "
+            f"{percent(self.load, 2)} of the heaviest, stiffness by up to "
+            f"{percent(self.stiffness, 2)}, and parts the contact angles of the races by up to "
+            f"{number(math.degrees(self.contact_angle), 2)}°."
         )
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import scientific
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
@@ -47,7 +48,7 @@ REASONS = {
     ),
     kernels.FREE_DIRECTION: "the ring can move without resistance along {free}",
     kernels.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
-    kernels.NOT_CONVERGED: "not converged: relative residual {residual:.1e}",
+    kernels.NOT_CONVERGED: "not converged: relative residual {residual}",
 }
 """What each status means."""
 
@@ -149,7 +150,9 @@ class Equilibrium:
         free = [
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
-        return REASONS[code].format(free=", ".join(free), residual=self.residual[i])
+        return REASONS[code].format(
+            free=", ".join(free), residual=scientific(float(self.residual[i]), 2)
+        )
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:

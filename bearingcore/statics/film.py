@@ -32,6 +32,7 @@ import math
 from dataclasses import dataclass
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.scene import Scene
@@ -268,8 +269,9 @@ def _race_film(race: str, load: float, k: float, h: float, sigma: float) -> Race
         standing = f"The shaft stands still and draws no oil between ball and {race} race."
         return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
     sentence = (
-        f"The film on the {race} race is {h * 1e6:.3g} µm thick where a ball carries most "
-        f"({load:.4g} N), {ratio:.3g} times the roughness of the surfaces ({sigma * 1e6:.3g} µm): "
+        f"The film on the {race} race is {with_prefix(h, 'm')} thick where a ball carries most "
+        f"({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
+        f"({with_prefix(sigma, 'm')}): "
         f"{kind} lubrication, {so}."
     )
     return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)

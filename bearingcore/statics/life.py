@@ -37,6 +37,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import number, percent
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
@@ -380,12 +381,12 @@ def _sentence(
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
         return "No ball carries load: nothing tires."
-    told = f"Nine of ten bearings reach {L:.4g} million turns"
+    told = f"Nine of ten bearings reach {number(L, 4)} million turns"
     if math.isnan(hours):
         told += "; the shaft stands still, so there are no hours."
     else:
         rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
-        told += f", {hours:.4g} hours at {rpm:.4g} rpm."
+        told += f", {number(hours, 4)} hours at {number(rpm, 4)} rpm."
     if share > HEAVIEST_SHARE:
         told += (
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
@@ -393,7 +394,7 @@ def _sentence(
         )
     if scene.defects:
         told += (
-            f" That is {100.0 * L / L_healthy:.3g} % of the healthy bearing's {L_healthy:.4g} "
+            f" That is {percent(L / L_healthy)} of the healthy bearing's {number(L_healthy, 4)} "
             f"million. {LEFT_OUT}"
         )
     return told

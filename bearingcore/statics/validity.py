@@ -12,7 +12,8 @@ compression of a ball, distance of the groove centres | δ, A0 | m
 What the model leaves out and what is looked at here:
 
 - plastic flow: contact pressure against 4.2 GPa, the static limit of ISO 76 for ball bearings
-  (a dent of 1/10,000 of the ball diameter). Corners of a defect press harder than this says;
+  (a dent of 1/10,000 of the ball diameter), at rest and, where a motion was simulated, in motion.
+  Corners of a defect press harder than this says;
 - the end of the groove: contact angle and half the contact ellipse against the shoulder;
 - the balls' inertia: centrifugal force against contact load. Gyroscopic moments, which go with it,
   and the shock of a ball that meets the far edge of a defect are left out too;
@@ -35,13 +36,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import count, number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.hertz import in_series
 from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
-from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
 from bearingcore.statics.pressure import heaviest_ball
+
+ANGLES = 361
+"""Cage angles in a ball spacing at which a scene is looked at."""
 
 STATIC_PRESSURE = 4.2e9
 """Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
@@ -105,10 +110,21 @@ def limits_table(found: Sequence[Limit]) -> ResultTable:
     )
 
 
+def looked_at(scene: Scene) -> NDArray[np.float64]:
+    """Cage angles [rad] at which `limits` looks: fine, and the same for everybody who asks.
+
+    A verdict must not depend on how finely somebody draws. A defect that turns with the shaft has
+    a period eight times as long, or more, and a third of the angles for each part of it.
+    """
+    turning = any(defect.race == "inner" for defect in scene.defects)
+    return default_cage_angles(scene, (ANGLES - 1) // 3 + 1 if turning else ANGLES)
+
+
 def limits(
     scene: Scene,
     state: Equilibrium | None = None,
     *,
+    dynamic_load: float | None = None,
     step_rate: float | None = None,
     shoulder_height: float | None = None,
 ) -> tuple[Limit, ...]:
@@ -119,8 +135,11 @@ def limits(
     scene
         what to look at.
     state
-        its static equilibrium, if it is there already; None computes one period of cage angles.
-        Loads and angles are the greatest over its cage angles.
+        its static equilibrium at cage angles of your own; None takes those of `looked_at`, so that
+        one scene has one verdict. Loads and angles are the greatest over the cage angles.
+    dynamic_load
+        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
+        none was simulated: what depends on it is then not known.
     step_rate
         steps a second [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves them out.
     shoulder_height
@@ -130,28 +149,34 @@ def limits(
     Returns
     -------
     tuple of Limit
-        in the order of the list at the head of the module. Steps appear only with a step rate, a
-        defect and a turning shaft.
+        in the order of the list at the head of the module. Loads in motion appear only where the
+        shaft turns; steps only with a step rate, a defect and a turning shaft.
 
     Raises
     ------
     ValueError
-        for a shoulder height or step rate that is not possible, or a `state` of another scene.
+        for a shoulder height, step rate or load that is not possible, or a `state` of another
+        scene.
     """
     if shoulder_height is None:
         shoulder_height = usual_shoulder_height(scene.bearing.contact_angle)
     height = checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:
-        state = equilibrium(scene)
+        state = equilibrium(scene, looked_at(scene))
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     heaviest = heaviest_ball(state).load
+    in_motion = None
+    if dynamic_load is not None:
+        in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
     found = [
         _pressure(scene, "inner", heaviest),
         _pressure(scene, "outer", heaviest),
+        _pressure_in_motion(scene, in_motion),
         _shoulder(scene, state, height),
         *_centrifugal(scene, state, heaviest),
         _compression(scene, heaviest),
+        _compression_in_motion(scene, in_motion),
         _stiffness(scene),
     ]
     if step_rate is not None:
@@ -171,6 +196,7 @@ def _unknown(name: str, limit: float, unit: str, why: str) -> Limit:
 
 NO_DRAWING = "the groove radii of this bearing are not known"
 NO_STATE = "no cage angle has a static equilibrium"
+NO_MOTION = "no motion of this scene has been simulated yet"
 
 
 def _pressure(scene: Scene, race: str, load: float) -> Limit:
@@ -183,9 +209,36 @@ def _pressure(scene: Scene, race: str, load: float) -> Limit:
     p = float(scene.bearing.race_contact(race).greatest_pressure(load))
     crossed = p > STATIC_PRESSURE
     sentence = (
-        f"The most loaded ball presses on the {race} race with {p / 1e9:.2f} GPa (load "
-        f"{load:.4g} N), {'above' if crossed else 'below'} the 4.2 GPa that ISO 76 allows"
-        + (": it dents the race, and elastic contact no longer holds." if crossed else ".")
+        f"The most loaded ball presses on the {race} race with {number(p / 1e9)} GPa (load "
+        f"{with_prefix(load, 'N')}), {_DENTS[crossed]}"
+    )
+    return Limit(name, p, STATIC_PRESSURE, "Pa", crossed, sentence)
+
+
+_DENTS = {
+    False: "below the 4.2 GPa that ISO 76 allows.",
+    True: "above the 4.2 GPa that ISO 76 allows: it dents the race, and elastic contact no longer "
+    "holds.",
+}
+
+
+def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
+    """Greatest pressure of a simulated motion, on the race where it is greater."""
+    if scene.shaft_speed == 0.0:
+        return None
+    name = "contact pressure in motion"
+    if not scene.bearing.is_drawn:
+        return _unknown(name, STATIC_PRESSURE, "Pa", NO_DRAWING)
+    if load is None:
+        return _unknown(name, STATIC_PRESSURE, "Pa", NO_MOTION)
+    p, race = max(
+        (float(scene.bearing.race_contact(race).greatest_pressure(load)), race)
+        for race in ("inner", "outer")
+    )
+    crossed = p > STATIC_PRESSURE
+    sentence = (
+        f"In the simulated motion a ball carries up to {with_prefix(load, 'N')} and presses on the "
+        f"{race} race with {number(p / 1e9)} GPa, {_DENTS[crossed]}"
     )
     return Limit(name, p, STATIC_PRESSURE, "Pa", crossed, sentence)
 
@@ -268,15 +321,11 @@ def _share(which: str, force: float, load: float, limit: float, so_what: str) ->
     share = force / load
     crossed = share > limit
     sentence = (
-        f"A ball's centrifugal force of {force:.3g} N is {_percent(share)} of the "
-        f"{load:.4g} N on the {which}"
-        + (f": {so_what}." if crossed else f", below the {100.0 * limit:.0f} % that matter.")
+        f"A ball's centrifugal force of {with_prefix(force, 'N')} is {percent(share)} of the "
+        f"{with_prefix(load, 'N')} on the {which}"
+        + (f": {so_what}." if crossed else f", less than the {percent(limit)} that matter.")
     )
     return Limit(name, share, limit, "", crossed, sentence)
-
-
-def _percent(share: float) -> str:
-    return "less than 0.01 %" if 0.0 < share < 1e-4 else f"{100.0 * share:.3g} %"
 
 
 def _compression(scene: Scene, load: float) -> Limit:
@@ -284,22 +333,49 @@ def _compression(scene: Scene, load: float) -> Limit:
     name = "compression against groove centre distance"
     if math.isnan(load):
         return _unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
+    return _compressed(scene, name, load, "The most loaded ball is")
+
+
+def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
+    """The same of a simulated motion."""
+    if scene.shaft_speed == 0.0:
+        return None
+    name = "compression in motion"
+    if load is None:
+        return _unknown(name, GREATEST_COMPRESSION, "", NO_MOTION)
+    return _compressed(scene, name, load, "In the simulated motion a ball is")
+
+
+def _compressed(scene: Scene, name: str, load: float, who: str) -> Limit:
     bearing = scene.bearing
     compression = typical_compression(bearing, load)
     share = compression / bearing.groove_center_distance
     crossed = share > GREATEST_COMPRESSION
     sentence = (
-        f"The most loaded ball is compressed by {compression * 1e6:.3g} µm, {_percent(share)} "
-        f"of the {bearing.groove_center_distance * 1e6:.4g} µm between the groove centres"
+        f"{who} compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
+        f"{with_prefix(bearing.groove_center_distance, 'm')} between the groove centres"
         + (
-            f": above {100.0 * GREATEST_COMPRESSION:.0f} % grooves so close around the ball touch "
-            "it far up their sides, and Hertz's small contact no longer holds."
+            f": above {percent(GREATEST_COMPRESSION)} grooves so close around the ball touch it "
+            "far up their sides, and Hertz's small contact no longer holds."
             if crossed
-            else f"; up to {100.0 * GREATEST_COMPRESSION:.0f} % the contact is small beside the "
-            "ball, as Hertz asks."
+            else f"; up to {percent(GREATEST_COMPRESSION)} the contact is small beside the ball, "
+            "as Hertz asks."
         )
     )
     return Limit(name, share, GREATEST_COMPRESSION, "", crossed, sentence)
+
+
+def summary(found: Sequence[Limit]) -> str:
+    """How it stands in a line: "1 limit crossed, 4 kept, 2 not known"."""
+    unknown = sum(math.isnan(one.value) for one in found)
+    crossed = sum(one.crossed for one in found)
+    kept = len(found) - crossed - unknown
+    words = [count(crossed, "limit") + " crossed"] if crossed else []
+    if kept or not crossed:
+        words.append(f"{kept} kept" if crossed else f"{count(kept, 'limit')} kept")
+    if unknown:
+        words.append(f"{unknown} not known")
+    return ", ".join(words)
 
 
 def _stiffness(scene: Scene) -> Limit | None:
@@ -313,8 +389,8 @@ def _stiffness(scene: Scene) -> Limit | None:
     off = abs(bearing.load_deflection_factor / drawn - 1.0)
     crossed = off > STIFFNESS_MISMATCH
     sentence = (
-        f"The load-deflection factor of {bearing.load_deflection_factor / 1e6:.0f} MN/m^1.5 is "
-        f"{_percent(off)} off the {drawn / 1e6:.0f} MN/m^1.5 that the drawing gives"
+        f"The load-deflection factor of {number(bearing.load_deflection_factor / 1e6)} MN/m^1.5 "
+        f"is {percent(off)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
         + (
             ": pressures and contact ellipses belong to the drawing, displacements to the factor."
             if crossed
@@ -336,8 +412,8 @@ def _steps(scene: Scene, step_rate: float) -> Limit | None:
     steps = passing * step_rate
     crossed = steps < STEPS_A_PASSAGE * (1.0 - 1e-9)
     sentence = (
-        f"A ball passes the defect in {passing * 1e3:.3g} ms, which are {steps:.0f} time steps at "
-        f"{step_rate:g} Hz; {STEPS_A_PASSAGE:.0f} or more keep its edges in the motion"
-        + (": here steps can jump over them." if crossed else ".")
+        f"A ball passes the defect in {with_prefix(passing, 's')}, which are {number(steps)} time "
+        f"steps at {number(step_rate, 6)} Hz; {STEPS_A_PASSAGE:.0f} or more keep its edges in the "
+        "motion" + (": here steps can jump over them." if crossed else ".")
     )
     return Limit("time steps in a defect", steps, STEPS_A_PASSAGE, "", crossed, sentence)

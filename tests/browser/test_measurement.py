@@ -105,7 +105,7 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     assert candidates.count() >= 4
     best = page.locator(".view-sizing li.looked")
     expect(best.locator(".extent")).to_have_text(re.compile(r"38\.[4-8]°"))
-    expect(best.locator(".percent")).to_have_text("> 99 %")
+    expect(best.locator(".percent")).to_have_text("above 99 %")
     assert page.locator(".view-sizing .truth").count() == 0
     settle(page)
     assert len(source(page, "measurement_events")["time"]) >= 7

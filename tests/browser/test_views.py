@@ -29,7 +29,8 @@ def test_numbers_are_written_alike_in_sentences_and_in_figures(
 ) -> None:
     page, _ = watch
     open_explorer(page, explorer)
-    values = [m * 10.0**e for m in (1.0, 2.0616, 5.0, -9.9949) for e in range(-9, 9)] + [0.0]
+    values = [m * 10.0**e for m in (1.0, 2.0616, 5.0, -9.9949) for e in range(-20, 20)]
+    values += [0.0, 999.96, -7.94e-24, 1e21]
     code = f"(values) => {{ {style.JS_PREFIX}; return values.map(v => si(v, 'N')) }}"
     written = [text.replace("\u00a0", " ") for text in page.evaluate(code, values)]
     assert written == [style.with_prefix(value, "N") for value in values]

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from bearing_explorer.compute import compiling
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.state.quantities import refusal
 from bearingcore import Scene
@@ -18,6 +19,7 @@ from bearingcore.experiments import (
     stability_chart,
     statics_experiment,
 )
+from bearingcore.experiments.balls import balls_experiment
 from bearingcore.experiments.integrators import METHODS
 
 STIFF = ("scipy DOP853", "scipy Radau", "scipy BDF")
@@ -49,6 +51,7 @@ TRIALS = {
             scene, duration=0.1, progress=job.progress, cancelled=job.cancelled
         ),
     ),
+    "balls": Trial("Motion: balls with mass", lambda scene, job: _balls(scene, job)),
     "models": Trial(
         "Models",
         lambda scene, job: models_experiment(
@@ -75,6 +78,18 @@ class Found:
 
     scene: Scene
     result: Experiment | StabilityChart
+
+
+def _balls(scene: Scene, job: Work) -> Experiment:
+    if not compiling.ready():
+        raise ValueError("balls with mass are still being compiled; allowed: another half minute")
+    return balls_experiment(
+        scene,
+        duration=0.25,
+        steps=(2, 3, 4, 8),
+        progress=job.progress,
+        cancelled=job.cancelled,
+    )
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:

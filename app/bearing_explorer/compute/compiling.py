@@ -1,4 +1,4 @@
-"""What plans and orbits are made with, compiled before anybody waits for it.
+"""What plans, orbits and balls with mass are made with, compiled before anybody waits for it.
 
 That takes longer than a first start should, and a compiler in this process would hold up every
 page. So another process does it, once the first page is asked for, and leaves the machine code on
@@ -13,8 +13,10 @@ import subprocess
 import threading
 
 from bearingcore import kernels, presets
+from bearingcore.experiments.ball_steps import march_implicit_balls
+from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
-from bearingcore.plan.warm_up import start_python
+from bearingcore.plan.warm_up import motions_with_mass, start_python
 
 _NICE = 10
 _lock = threading.Lock()
@@ -45,17 +47,24 @@ def ready() -> bool:
 
 
 def compile_all() -> None:
-    """Plan what calls every kernel that planning and orbits need."""
+    """Move balls with mass, and plan what calls every kernel that planning and orbits need."""
     if hasattr(os, "nice"):
         os.nice(_NICE)
+    motions_with_mass()
     for name in ("fan-rig", "liew-lim"):
         for law in ("published", "no tension"):
             plan(presets[name].replace(contact_law=law), SETTLED, duration=0.1)
+    balls_experiment(presets["fan-rig"], duration=0.05, steps=(2,))
 
 
 def _slowest() -> tuple[object, ...]:
-    """The kernels that take longest; they are compiled last."""
-    return (kernels.march_with_tangent,)
+    """The kernels that take longest or are compiled last."""
+    return (
+        kernels.march_with_tangent,
+        kernels.march_balls,
+        kernels.race_loads,
+        march_implicit_balls,
+    )
 
 
 def _end() -> None:

@@ -29,7 +29,9 @@ from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
 from bearingcore.common.table import SUFFIXES
 from bearingcore.diagnosis.size.sizing_error import extent_error
+from bearingcore.dynamics.motion import MOST_STEPS as CORE_MOST_STEPS
 from bearingcore.dynamics.orbit import common_ball_passes
+from bearingcore.model.scene import WITH_MASS
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
     MASS,
@@ -58,9 +60,14 @@ AT_ONCE = 0.3
 BUDGET = 120.0
 """[s] that a map may take."""
 
+LOWEST_BAND, NARROWEST_BAND = 100.0, 1.1
+"""[Hz] at which a band begins at the lowest, and how many times its beginning its end is at least:
+a few lines of a spectrum."""
+
 _SIZING = "sizing"
 _SECONDS = {**SECONDS, _SIZING: 0.6}
 _MANY_DIRECTIONS = 10.0  # times the cost, for all but statics
+_WITH_MASS = 10.0  # times the cost of a motion
 _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
@@ -71,7 +78,8 @@ _REASONS = {
     "load_not_carried": "no contact can carry this load",
     "static_state_not_converged": "no static state was found",
     "computation_refused": "this cannot be computed here: the shaft must turn, mass, stiffness "
-    "and damping be known in each direction that moves, and for life and pressure the groove radii",
+    "and damping be known in each direction that moves, for life and pressure the groove radii, "
+    "and balls be massless for orbits",
     "no_static_start": "there is no static state to start from",
     "motion_diverged": "the motion does not stay finite",
     "orbit_not_converged": "no orbit was found",
@@ -83,6 +91,7 @@ _REASONS = {
 """Why there is no number, by the status of a sweep."""
 NOT_COMPUTED = "not computed"
 _TOO_LONG_MOTION = "the defect is passed so fast that the motion takes too many steps"
+_TOO_LONG_WITH_MASS = "balls swing so fast between their races that it takes too many steps"
 _TOO_LONG_ORBIT = f"the motion repeats only after more than {LONGEST_ORBIT} ball passes"
 
 
@@ -91,7 +100,8 @@ class MapOutput:
     """Something that can be mapped.
 
     `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, empty where it is none of them; `mode`
-    the mode that it is of. `unit_si`: how much one `unit` is in SI.
+    the mode that it is of. `unit_si`: how much one `unit` is in SI. `band` [Hz] is that of powers
+    where it can be chosen, None where it cannot.
     """
 
     name: str
@@ -102,6 +112,25 @@ class MapOutput:
     in_sweep: str = ""
     mode: str = ""
     unit_si: float = 1.0
+    band: tuple[float, float] | None = None
+
+    @property
+    def settings(self) -> Settings:
+        """How it is computed."""
+        if self.band is None:
+            return _SETTINGS
+        return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
+
+    def in_band(self, low: float, high: float) -> MapOutput:
+        """The same between two frequencies [Hz]; ValueError with a sentence for others."""
+        most = 0.5 * _SETTINGS.sample_rate
+        if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
+            raise ValueError(
+                f"A band goes from {LOWEST_BAND / 1e3:g} kHz or more to {most / 1e3:.4g} kHz or "
+                f"less, and ends at {NARROWEST_BAND:g} times its beginning or above."
+            )
+        label = f"{self.label}, {low / 1e3:g} to {high / 1e3:g} kHz"
+        return dataclasses.replace(self, label=label, band=(low, high))
 
     @property
     def column(self) -> str:
@@ -112,7 +141,9 @@ class MapOutput:
     def seconds(self, scene: Scene) -> float:
         """Rough cost of a scene [s]."""
         many = len(scene.active_dofs) > 2 and self.needs != STATICS
-        return _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
+        seconds = _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
+        heavy = scene.balls == WITH_MASS and self.needs == MOTION
+        return seconds * (_WITH_MASS if heavy else 1.0)
 
 
 def _all_outputs() -> dict[str, MapOutput]:
@@ -122,7 +153,10 @@ def _all_outputs() -> dict[str, MapOutput]:
         for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
             label = output.label.format(mode_symbol(mode)) if mode else output.label
             key = f"{name}:{mode}" if mode else name
-            made.append(MapOutput(key, output.group, label, unit, output.needs, name, mode))
+            band = (_SETTINGS.band_low, _SETTINGS.band_high) if output.needs == MASS else None
+            made.append(
+                MapOutput(key, output.group, label, unit, output.needs, name, mode, band=band)
+            )
     made.append(
         MapOutput(
             "extent_error",
@@ -175,7 +209,10 @@ class Question:
     def grid(self) -> Grid:
         """The finest scenes; ValueError where none can be. Not for what a sweep cannot give."""
         return Grid.of(
-            self.scene, dict([self.x.in_si, self.y.in_si]), [self.output.in_sweep], _SETTINGS
+            self.scene,
+            dict([self.x.in_si, self.y.in_si]),
+            [self.output.in_sweep],
+            self.output.settings,
         )
 
     @cached_property
@@ -437,11 +474,16 @@ class Survey:
             scene = self._scene(row, column)
             if self.question.output.needs == ORBIT:
                 return _TOO_LONG_ORBIT if (common_ball_passes(scene) or 0) > LONGEST_ORBIT else ""
+            if self.question.output.needs == MASS:
+                scene = scene.replace(balls=WITH_MASS)
             rate = step_rates(scene, _SETTINGS.sample_rate)
         except ValueError:
             return ""  # whoever computes it says why not
-        too_long = rate is not None and rate * _SETTINGS.duration > MOST_STEPS
-        return _TOO_LONG_MOTION if too_long else ""
+        with_mass = scene.balls == WITH_MASS
+        most = CORE_MOST_STEPS if with_mass else MOST_STEPS
+        if rate is None or rate * _SETTINGS.duration <= most:
+            return ""
+        return _TOO_LONG_WITH_MASS if with_mass else _TOO_LONG_MOTION
 
     def _size(self, row: int, column: int, job: Job | None) -> tuple[float, str]:
         """Error of a sizing, or why there is none."""

@@ -12,6 +12,7 @@ import numpy as np
 from bearing_explorer.state.settings import MotionPlanning, Settings
 from bearingcore import Scene, orbit
 from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.model.scene import WITH_MASS
 from bearingcore.plan import BUDGETS, CURVES, SETTLED, Plan, plan
 from bearingcore.plan.motions import ORBIT_SAFETY
 from bearingcore.plan.pilot import BAND, PILOT, spectra_apart
@@ -32,12 +33,16 @@ def plan_for(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
         sample_rate=how.sample_rate,
         step_rate=how.step_rate,
         march=how.steady == "march",
+        up_to=how.up_to,
     )
     return _with_orbit(made, how) if how.steady == "orbit" and made.orbit is None else made
 
 
 def _with_orbit(made: Plan, how: MotionPlanning) -> Plan:
     """The plan with the orbit that was asked for by hand, held against one in half the steps."""
+    if made.scene.balls == WITH_MASS:
+        note = "marched, as an orbit is looked for with massless balls only"
+        return dataclasses.replace(made, note="; ".join(filter(None, (note, made.note))))
     found = orbit(made.scene, step_rate=how.step_rate)
     if not found.stable:
         return dataclasses.replace(made, note=f"marched, as there is no orbit: {found.status}")
@@ -84,6 +89,16 @@ CHOICES: dict[str, tuple[str, dict[str, str]]] = {
         "Settled vibration",
         {"auto": "automatic", "orbit": "periodic orbit", "march": "marched motion"},
     ),
+    "balls_up_to": (
+        "Balls of settled vibration",
+        {
+            "": "as the scene has them",
+            **{
+                str(int(f)): f"with mass if asked for below {f / 1e3:g} kHz"
+                for f in (2500.0, 5e3, 1e4, 2e4)
+            },
+        },
+    ),
 }
 """What can be chosen by hand, as the browser shows it: {name: (label, {value: words})}."""
 
@@ -93,6 +108,7 @@ _USUAL = {
     "vibration_budget": f"{BUDGETS[SETTLED]:g}",
     "step_rate": "",
     "steady": "auto",
+    "balls_up_to": "",
 }
 
 
@@ -105,6 +121,7 @@ def chosen(settings: Settings) -> dict[str, str]:
         "vibration_budget": _USUAL["vibration_budget"] if vibration is None else f"{vibration:g}",
         "step_rate": "" if settings.step_rate is None else f"{settings.step_rate:.0f}",
         "steady": settings.steady,
+        "balls_up_to": "" if settings.balls_up_to is None else f"{settings.balls_up_to:.0f}",
     }
 
 
@@ -118,6 +135,7 @@ def with_choices(settings: Settings, message: Mapping[Any, Any]) -> Settings:
             steady="auto",
             curve_budget=None,
             vibration_budget=None,
+            balls_up_to=None,
         )
     fields: dict[str, Any] = {}
     for name, (_, options) in CHOICES.items():
@@ -146,6 +164,8 @@ def by_hand(settings: Settings) -> list[str]:
         words.append(f"{CHOICES['steady'][1][settings.steady]} set by hand")
     if settings.step_rate is not None:
         words.append(steps_by_hand(settings.step_rate))
+    if settings.balls_up_to is not None:
+        words.append(f"balls {CHOICES['balls_up_to'][1][f'{settings.balls_up_to:.0f}']}")
     return words
 
 

@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import bearingcore as core
+from bearing_explorer.compute import compiling
+from bearing_explorer.compute.ball_mass import BallMass, ball_mass
 from bearing_explorer.compute.chain import Chain, chain
 from bearing_explorer.compute.dof_comparison import (
     DofComparison,
@@ -35,6 +37,7 @@ from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
+from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate
@@ -42,7 +45,9 @@ from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
 from bearingcore.dynamics.repeated import repeated
 from bearingcore.model.defect import RACES
 from bearingcore.model.packing import is_planar
+from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.plan import CURVES, SETTLED
+from bearingcore.plan.balls import BallComparison, compare_balls
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import ball_drop
 
@@ -88,6 +93,8 @@ def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int)
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
 shorter, or somebody's drag would fill the memory of everybody's server."""
+MOST_STEPS_WITH_MASS = 1_600_000
+"""The same of balls with mass, of which samples are kept and not steps: about a second."""
 COARSE_STEPS = 0.45
 """Part of the usual steps that is taken while a slider moves, where all of them take too long."""
 SHORTEST = 0.1
@@ -105,7 +112,14 @@ How = Marching | MotionPlanning
 """How a motion comes about: marched from rest, or as a plan has it."""
 
 
+STILL_COMPILING = (
+    "balls with mass are still being compiled, once, which takes half a minute: then they are drawn"
+)
+
+
 def _motion(scene: Scene, how: How) -> Moved:
+    if scene.balls == WITH_MASS and not compiling.ready():
+        raise ValueError(STILL_COMPILING)  # here it would hold up every page
     return _marched(scene, how) if isinstance(how, Marching) else _planned(scene, how)
 
 
@@ -114,10 +128,12 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
     if by_hand is None and how.coarse:
         rate = _coarse_step_rate(scene, how.sample_rate)
-    duration = how.duration
+    duration = quick_duration(scene, how)
     if rate is not None:
-        duration = _affordable(duration, rate, by_hand is not None)
-    motion = core.simulate(scene, duration, how.sample_rate, step_rate=rate)
+        duration = _affordable(scene, duration, rate, by_hand is not None)
+    motion = core.simulate(
+        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
+    )
     return Moved(motion, 0.5 * duration)
 
 
@@ -136,17 +152,21 @@ def _hasty_orbit(scene: Scene, how: Marching) -> Orbit:
     return _orbit(scene, how, lambda: next(periods) >= HASTY_PERIODS)
 
 
-def _affordable(duration: float, rate: float, by_hand: bool) -> float:
-    """`duration` [s], or as much of it as MOST_STEPS steps make."""
-    if duration * rate <= MOST_STEPS:
+def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> float:
+    """`duration` [s], or as much of it as the steps that are allowed make."""
+    with_mass = scene.balls == WITH_MASS
+    most = MOST_STEPS_WITH_MASS if with_mass else MOST_STEPS
+    if duration * rate <= most:
         return duration
-    if SHORTEST * rate > MOST_STEPS:
-        why = "set by hand," if by_hand else "the defect is passed so fast that"
+    if SHORTEST * rate > most:
+        why = "the defect is passed so fast that"
+        if with_mass:
+            why = "balls swing so fast between their races that"
         raise ValueError(
-            f"{why} a motion takes {rate:.2g} steps a second; "
-            f"allowed here: {MOST_STEPS / SHORTEST:.2g}"
+            f"{'set by hand,' if by_hand else why} a motion takes {thousands(rate)} steps a "
+            f"second; allowed here: {thousands(most / SHORTEST)}"
         )
-    return MOST_STEPS / rate
+    return most / rate
 
 
 def _planned(scene: Scene, how: MotionPlanning) -> Moved:
@@ -157,6 +177,7 @@ def _planned(scene: Scene, how: MotionPlanning) -> Moved:
     seen at another beat the drawing would change though the motion is the same.
     """
     plan = motion_plans(scene, SETTLED, how)
+    scene = scene.replace(balls=plan.scene.balls)  # which may have been the plan's to choose
     record = 0.5 * how.duration
     drop = 0.0 if plan.orbit is not None else plan.drop
     a_pass = scene.bearing.ball_spacing / scene.cage_speed
@@ -165,14 +186,17 @@ def _planned(scene: Scene, how: MotionPlanning) -> Moved:
     else:
         since = max(drop, record)
     rate = how.sample_rate if math.isnan(plan.step_rate) else plan.step_rate
-    duration = _affordable(since + record, rate, how.step_rate is not None)
+    duration = _affordable(scene, since + record, rate, how.step_rate is not None)
     since = min(since, 0.5 * duration) if duration < since + record else since
     if plan.orbit is not None:
         return Moved(repeated(plan.orbit, duration, how.sample_rate), since)
     if plan.method == "adaptive steps":
         motion = simulate_adaptive(scene, duration, how.sample_rate, tolerance=plan.tolerance)
         return Moved(motion, since)
-    return Moved(core.simulate(scene, duration, how.sample_rate, step_rate=rate), since)
+    motion = core.simulate(
+        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
+    )
+    return Moved(motion, since)
 
 
 def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
@@ -181,14 +205,34 @@ def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
         rate = step_rates(scene, sample_rate) or 0.0
     except ValueError:
         return False  # there is no motion
-    touched = duration * rate * scene.bearing.n_balls
-    return touched * (1.0 if is_planar(scene) else GENERAL_COST) > MOST_TOUCHED
+    return duration * rate * _step_cost(scene) > MOST_TOUCHED
+
+
+def _step_cost(scene: Scene) -> float:
+    """What a step costs in steps of a contact of a flat bearing whose balls have no mass."""
+    cost = scene.bearing.n_balls * (1.0 if is_planar(scene) else GENERAL_COST)
+    return cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
 
 
 GENERAL_COST = 4.0
 """What a contact costs where it is not that of a flat bearing, over what it costs there."""
+MASS_COST = 2.5
+"""What a ball costs that has mass, and so two contacts and a motion of its own."""
 MOST_TOUCHED = 2.0e6
 """Contacts, a step each, of a flat bearing that are marched while a slider moves: about 40 ms."""
+
+
+def quick_duration(scene: Scene, how: Marching) -> float:
+    """Duration [s] of a coarse motion: balls with mass cannot take fewer steps, but less time."""
+    if scene.balls == MASSLESS or not how.coarse:
+        return how.duration
+    try:
+        rate = how.step_rate or step_rates(scene, how.sample_rate) or 0.0
+    except ValueError:
+        return how.duration  # there is no motion
+    if rate == 0.0:
+        return how.duration
+    return min(how.duration, max(MOST_TOUCHED / (rate * _step_cost(scene)), SHORTEST))
 
 
 def _excerpt(scene: Scene, how: How) -> Excerpt:
@@ -217,6 +261,28 @@ def _spectra_of(motion: Motion, first: int) -> dict[str, Spectrum]:
     return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(motion.dofs)}
 
 
+def _ball_mass(scene: Scene, how: Marching) -> BallMass:
+    heavy = scene.replace(balls=WITH_MASS)
+    # both over the same time, or their spectra would differ by that
+    alike = dataclasses.replace(how, duration=quick_duration(heavy, how))
+    moved = motions(heavy, alike)
+    massless = motions(scene.replace(balls=MASSLESS), alike)
+    return ball_mass(massless.motion, moved.motion, moved.since)
+
+
+def _dynamic_load(scene: Scene, how: How) -> float:
+    """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
+    motion, since = motions(scene, how)
+    if not motion.completed:
+        return math.nan
+    loads = motion.ball_loads(math.ceil(since * motion.sample_rate - 1e-6))
+    return float(loads.max(initial=0.0))
+
+
+def _limits(scene: Scene, step_rate: float | None, dynamic_load: float | None) -> tuple[Limit, ...]:
+    return core.limits(scene, dynamic_load=dynamic_load, step_rate=step_rate)
+
+
 def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
     return plan_for(scene, view, how)
 
@@ -229,9 +295,13 @@ planned_modes = SingleFlightCache(_modes_over_nodes, 64)
 maps = SingleFlightCache(_maps, 16)  # about 2 MB each
 motions = SingleFlightCache(_motion, 8)  # about 20 MB each
 step_rates = SingleFlightCache(_step_rate, 512)
+dynamic_loads = SingleFlightCache(_dynamic_load, 512)
+limits_of = SingleFlightCache(_limits, 512)
 excerpts = SingleFlightCache(_excerpt, 64)
 spectra = SingleFlightCache(_spectra, 64)
 late_spectra = SingleFlightCache(_late_spectra, 64)
+ball_masses = SingleFlightCache(_ball_mass, 32)
+ball_comparisons = SingleFlightCache(compare_balls, 128)
 orbits = SingleFlightCache(_orbit, 256)
 hasty_orbits = SingleFlightCache(_hasty_orbit, 256)
 plans = SingleFlightCache(_plan, 256)
@@ -259,6 +329,8 @@ class Results:
     excerpt: some ball passes of the settled motion
     spectra: {dof: Spectrum} of the housing's acceleration from rest on
     late_spectra, healthy_late_spectra: the same of the settled motion
+    ball_mass: the motions without and with the balls' mass, compared
+    ball_comparison: up to which frequency massless balls will do; None until it was looked for
     ball_passes: after how many of them the scene is as before; None where it never is
     orbit: the motion that repeats itself; None where it takes too many ball passes to look for
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
@@ -275,6 +347,7 @@ class Results:
         {
             "motion",
             "healthy_motion",
+            "ball_mass",
             "excerpt",
             "spectra",
             "late_spectra",
@@ -289,7 +362,16 @@ class Results:
 
     #: attributes that are made of a simulated motion
     moving_ones = frozenset(
-        {"motion", "excerpt", "spectra", "late_spectra", "orbit", "dof_comparison", "chain"}
+        {
+            "motion",
+            "ball_mass",
+            "excerpt",
+            "spectra",
+            "late_spectra",
+            "orbit",
+            "dof_comparison",
+            "chain",
+        }
     )
 
     def __init__(
@@ -545,7 +627,17 @@ class Results:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
         if "dof_comparison" in shown and self.coarse_comparison:
             return True
+        if "ball_mass" in shown and self._ball_marching.coarse:
+            return True
         return bool(shown & self.moving_ones) and self.coarse
+
+    def coarse_words(self, shown: frozenset[str]) -> str:
+        """How what is shown is coarse, where it is."""
+        scene = self.scene if "ball_mass" not in shown else self.scene.replace(balls=WITH_MASS)
+        if scene.balls == MASSLESS:
+            return "coarse while it moves: half the motion in half the steps"
+        seconds = quick_duration(scene, self.settings.coarse_marching)
+        return f"coarse while it moves: {seconds:.2g} s of motion"
 
     def _is_coarse(self, scene: Scene) -> bool:
         settings = self.settings
@@ -619,6 +711,33 @@ class Results:
             raise ValueError(words) from None
 
     @property
+    def _ball_marching(self) -> Marching:
+        heavy = self.scene.replace(balls=WITH_MASS)
+        coarse = self._is_coarse(heavy)
+        return self.settings.coarse_marching if coarse else self.settings.marching
+
+    @cached_property
+    def ball_mass(self) -> BallMass:
+        """The motions without and with the balls' mass, marched alike; whatever the scene has."""
+        return ball_masses(self.scene.replace(balls=MASSLESS), self._ball_marching)
+
+    @property
+    def ball_comparison(self) -> BallComparison | None:
+        """Up to which frequency massless balls will do, where `compare_balls` has found it."""
+        key = self._compared_balls
+        return ball_comparisons(*key) if ball_comparisons.knows(*key) else None
+
+    @property
+    def _compared_balls(self) -> tuple[Scene, float]:
+        how = self.settings.planning(SETTLED)
+        assert isinstance(how, MotionPlanning)
+        return self.scene.replace(balls=MASSLESS), how.budget
+
+    def compare_balls(self) -> BallComparison:
+        """Find `ball_comparison`; ValueError where there is no motion to compare."""
+        return ball_comparisons(*self._compared_balls)
+
+    @property
     def ball_passes(self) -> int | None:
         """After how many ball passes all is as before; None where it never is."""
         return common_ball_passes(self.scene)
@@ -632,17 +751,22 @@ class Results:
         found = self._hasty_orbit
         if found is None or self.moving or found.status != NOT_CONVERGED:
             return found
-        return orbits(self.scene, self._marching)
+        return orbits(*self._orbital)
 
     @cached_property
     def _hasty_orbit(self) -> Orbit | None:
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
-        return hasty_orbits(self.scene, self._marching)
+        return hasty_orbits(*self._orbital)
+
+    @property
+    def _orbital(self) -> tuple[Scene, Marching]:
+        """What an orbit is looked for with: balls without mass, whatever the scene has."""
+        return self.scene.replace(balls=MASSLESS), self._marching
 
     def seek_orbit(self, give_up: Callable[[], bool]) -> None:
         """Look for the orbit so that it is known afterwards, unless `give_up` says so before."""
-        key = self.scene, self._marching
+        key = self._orbital
         found = self._hasty_orbit
         if found is None or found.status != NOT_CONVERGED or orbits.knows(*key):
             return
@@ -668,14 +792,30 @@ class Results:
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """What the model leaves out of the scene, also of a simulated motion where it moves."""
+        """What the model leaves out of the scene, with what is known of it in motion.
+
+        The same whatever is on screen: looked at over cage angles of its own, and with the motion
+        that any view has had simulated.
+        """
         step_rate = self.settings.step_rate
         if step_rate is None:
             try:
                 step_rate = step_rates(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return core.limits(self.scene, self.equilibrium, step_rate=step_rate)
+        return limits_of(self.scene, step_rate, self._dynamic_load)
+
+    @property
+    def _dynamic_load(self) -> float | None:
+        """Greatest ball load [N] of the settled motion, where one has been simulated."""
+        planning = self.settings.planning(SETTLED)
+        assert isinstance(planning, MotionPlanning)
+        for how in (planning, self.settings.marching):
+            key = self.scene, how
+            if dynamic_loads.knows(*key) or (not self.moving and motions.knows(*key)):
+                load = dynamic_loads(*key)
+                return load if math.isfinite(load) else None
+        return None
 
     @cached_property
     def chain(self) -> Chain:

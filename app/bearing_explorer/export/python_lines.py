@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
 from bearingcore.dynamics.orbit import Orbit
@@ -113,8 +114,12 @@ def _motion(script: Script, results: Results) -> None:
         )
     else:
         script.core("simulate")
+        moving = "scene"
+        if motion.scene.balls != results.scene.balls:  # as the plan chose them
+            moving = "moving"
+            script.add(f'moving = scene.replace(balls="{motion.scene.balls}")')
         script.add(
-            f"motion = simulate(scene, {duration}, {rate}, step_rate={short(motion.step_rate)})"
+            f"motion = simulate({moving}, {duration}, {rate}, step_rate={short(motion.step_rate)})"
         )
 
 
@@ -564,6 +569,9 @@ _MAKERS: dict[str, Callable[[Script, Results, Any], None]] = {
     "modes": _modes,
     "vibration-time": _vibration_time,
     "vibration-spectrum": _vibration_spectrum,
+    "mass-time": mass_time,
+    "mass-spectrum": mass_spectrum,
+    "mechanism": mechanism,
     "orbit": _orbit,
     "stability-map": _stability_map,
     "explore": _explore,

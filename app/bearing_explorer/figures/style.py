@@ -28,6 +28,10 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
+from bearingcore.common.numbers import PREFIXES, prefix_power
+from bearingcore.common.numbers import number as number
+from bearingcore.common.numbers import with_prefix as with_prefix
+
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""
 HEALTHY = "#8E93A3"
@@ -68,19 +72,29 @@ BUTTONS = f"""
 """Style of Bokeh's own buttons and boxes to tick, light and dark."""
 SMALL_TEXT_SIZE = "11px"
 
-_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
-
-# `power` gives the power of ten of the prefix for a greatest value: the rule of `_power` below.
+# How numbers are written, as `bearingcore.common.numbers` does in sentences.
 JS_PREFIX = """
 const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
 const power = (top) => !(top > 0) || !isFinite(top) ? 0 :
   Math.max(-12, Math.min(12, 3*Math.floor(Math.log10(top*1.0000001)/3)))
 const minus = (text) => text.replace('-', '\u2212')
-const rounded = (value, digits) => minus(Math.abs(value) >= 10**(digits - 1)
-  ? value.toFixed(0) : String(Number(value.toPrecision(digits))))
+const raised = (e) => [...String(e)].map(c => c == '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]).join('')
+const scientific = (value, digits) => {
+  const [mantissa, e] = value.toExponential(digits - 1).split('e')
+  return minus(Number(mantissa) + '·10' + raised(Number(e)))
+}
+const wide = (value) => value !== 0 && !(Math.abs(value) >= 1e-4 && Math.abs(value) < 1e7)
+const rounded = (value, digits) => !isFinite(value) ? 'no value'
+  : wide(value) ? scientific(value, digits)
+  : minus(Math.abs(value) >= 10**(digits - 1)
+    ? value.toFixed(0) : String(Number(value.toPrecision(digits))))
 const si = (value, unit, digits = 3) => {
-  const e = power(Math.abs(value))
-  return rounded(value/10**e, digits) + '\u00a0' + names[e] + unit
+  if (!isFinite(value)) return 'no value'
+  let e = power(Math.abs(value))
+  let scaled = Number((value/10**e).toPrecision(digits))
+  if (Math.abs(scaled) >= 1000 && e < 12) { e += 3; scaled /= 1000 }
+  return wide(scaled) ? scientific(value, digits) + '\u00a0' + unit
+    : rounded(scaled, digits) + '\u00a0' + names[e] + unit
 }
 """
 
@@ -106,7 +120,7 @@ class AxisQuantity:
 
     def label(self, top: float = 1.0) -> str:
         """Text of the axis for a range whose greatest absolute value is `top` [unit]."""
-        prefix = _PREFIXES[_power(top)] if self.prefixed else ""
+        prefix = PREFIXES[prefix_power(top)] if self.prefixed else ""
         unit = f"{prefix}{self.unit}"
         return f"{self.words} ({unit})" if unit else self.words
 
@@ -247,9 +261,8 @@ def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
 if (unit) return si(tick, unit)
 if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
 const e = Math.floor(Math.log10(tick*1.0000001))
-const raised = [...String(e)].map(c => c == '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]).join('')
 const m = Number((tick/10**e).toPrecision(2))
-return (m == 1 ? '' : m + '·') + '10' + raised
+return (m == 1 ? '' : m + '·') + '10' + raised(e)
 """,
     )
 
@@ -289,38 +302,6 @@ return texts
 def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:
     """The upright line at the current cage angle; the same look in every figure."""
     return plot.vspan(x=column, source=source, line_color=INK, line_width=1.2, line_alpha=0.75)
-
-
-def _power(top: float) -> int:
-    """Power of ten of the SI prefix for numbers up to `top`."""
-    if not (top > 0.0 and math.isfinite(top)):
-        return 0
-    return max(-12, min(12, 3 * math.floor(math.log10(top * 1.0000001) / 3)))
-
-
-def number(value: float, digits: int = 3) -> str:
-    """`value` to `digits` significant digits, never in powers of ten, with a true minus sign.
-
-    Zeros at the end are left away, as in the browser: 50 and not 50.0.
-    """
-    if not math.isfinite(value):
-        return "no value"
-    if value == 0.0:
-        return "0"
-    places = max(0, digits - 1 - math.floor(math.log10(abs(value))))
-    text = f"{value:.{places}f}"
-    return (text.rstrip("0").rstrip(".") if places else text).replace("-", "−")
-
-
-def with_prefix(value: float, unit: str, digits: int = 3) -> str:
-    """`value` [unit] for a sentence: ``with_prefix(2061.6, "N")`` is "2.06 kN"."""
-    if not math.isfinite(value):
-        return "no value"
-    power = _power(abs(value))
-    scaled = float(f"{value / 10.0**power:.{digits}g}")
-    if abs(scaled) >= 1000.0 and power < 12:  # 999.96 N is 1.00 kN
-        power, scaled = power + 3, scaled / 1000.0
-    return f"{number(scaled, digits)} {_PREFIXES[power]}{unit}"
 
 
 def in_degrees(angle: float, digits: int = 1) -> str:

@@ -37,9 +37,11 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.simulated_signals import MACHINES, NOISES
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
+from bearingcore.diagnosis.simulated import pit
 from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.model.scene import WITH_MASS
 
 log = logging.getLogger(__name__)
 
@@ -283,7 +285,8 @@ class Measurement:
 
     def _simulate(self, wish: Mapping[Any, Any]) -> None:
         noise, machine = str(wish.get("noise")), str(wish.get("machine"))
-        if noise not in NOISES or machine not in MACHINES:
+        pit_name = str(wish.get("pit", "scene"))
+        if noise not in NOISES or machine not in MACHINES or pit_name not in PITS:
             return
         self._upload = None
         self._latest += 1
@@ -292,7 +295,9 @@ class Measurement:
         self._tell(words="Simulating a measurement.", bad=False, busy=True)
 
         def make() -> Measured:
-            return simulated(scene, NOISES[noise], machine == "different", seed)
+            return simulated(
+                with_pit(scene, PITS[pit_name]), NOISES[noise], machine == "different", seed
+            )
 
         self._in_background(make, self._take_simulated, "The scene")
 
@@ -426,6 +431,21 @@ def _thousands(number: int) -> str:
     return f"{number:,}".replace(",", "\u202f")
 
 
+def with_pit(scene: Scene, length: float | None) -> Scene:
+    """The scene with a small pit so long [m] in place of its defects, and balls with mass.
+
+    On the race of its first defect, or the outer one, under the load. None leaves it as it is;
+    ValueError with a sentence where there can be no such pit.
+    """
+    if length is None:
+        return scene
+    race = scene.defects[0].race if scene.defects else "outer"
+    try:
+        return scene.replace(defect=pit(scene, length, race), balls=WITH_MASS)
+    except ValueError as error:
+        raise ValueError(refusal(error)) from None
+
+
 def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
     """A measurement of a scene as a sensor with noise would make it, its extent known.
 
@@ -464,7 +484,8 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         raise ValueError("Not possible: the simulated housing does not move along x or y.")
     level = noise_level(truth, signal, columns, noise_db, settings)
     noisy = signal + level * rng.standard_normal(signal.shape)
-    name = "Simulated" + (f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else "")
+    name = "Simulated" + (", balls with mass" if scene.balls == WITH_MASS else "")
+    name += f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else ""
     directions = tuple(motion.dofs[index] for index in columns)
     try:
         recording = Recording(noisy, motion.sample_rate, directions, name)

@@ -17,10 +17,11 @@ The rules of version 1, which later versions go on reading:
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.
-- `race`, `edge`, `law`, `dofs` (``auto`` or names with dots between) are words. `floor` is
+- `race`, `edge`, `law`, `balls`, `dofs` (``auto`` or names with dots between) are words. `floor` is
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.
-- `tab` and `cage_angle_deg` are where and when one looks.
+- `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
+  open; alone it stands for the scene that the lesson begins with.
 - `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
   whose first bytes all come first, then all second ones: neighbours have their first bytes alike.
 
@@ -174,6 +175,18 @@ def holds_scene(text: str) -> bool:
         return read(text) is not None
     except ValueError:
         return False
+
+
+_LESSON = re.compile(r"(?:^|&)lesson=([a-z0-9-]{1,60})(?=&|$)")
+
+
+def lesson_in(text: str) -> tuple[str, str]:
+    """The lesson that an address names, or "", and the address without it."""
+    text = text.removeprefix("?")
+    found = _LESSON.search(text) if len(text) <= LONGEST_TEXT else None
+    if found is None:
+        return "", text
+    return found[1], (text[: found.start()] + text[found.end() :]).removeprefix("&")
 
 
 def place_of(editor: SceneEditor, tab: str = "") -> Place:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
+from urllib.parse import urlencode
 
 from bearing_explorer.state.address import (
     LONGEST_LINK,
@@ -18,6 +19,7 @@ from bearing_explorer.state.address import (
     Place,
     holds_scene,
     leaves_out,
+    lesson_in,
     opened,
     place_of,
     read,
@@ -81,11 +83,20 @@ class Bookmarks:
     def __init__(self, editor: SceneEditor, address: str = "") -> None:
         """`address`: what stood behind the question mark as the page was opened."""
         self._editor = editor
+        #: the lesson that is open, by its name; empty without one
+        self.lesson, address = lesson_in(address)
+        #: whether the address said which scene to show
+        self.has_scene = bool(address)
         place = opened(address, editor)
         self._tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
         self.pinned: Reference | None = None
+
+    def begin_anew(self, tab: str) -> None:
+        """The scene that the editor has now is the one to begin with."""
+        self._tab = tab
+        self._history = History(self._editor.snapshot())
 
     @property
     def tab(self) -> str:
@@ -179,6 +190,8 @@ class Bookmarks:
     def state(self) -> dict[str, Any]:
         """What the browser needs to know."""
         address = write(place_of(self._editor, self._tab), LONGEST_LINK)
+        if self.lesson:
+            address += "&" + urlencode({"lesson": self.lesson})
         return {
             "address": address,
             "whole": not leaves_out(address),

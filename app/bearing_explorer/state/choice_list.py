@@ -216,6 +216,31 @@ LAW = Choice(
     said="Contact law: {}",
 )
 
+BALLS = Choice(
+    "balls",
+    "Balls",
+    "Turning",
+    (
+        Option(
+            "massless",
+            "Massless",
+            "Each ball is a spring between the rings, as in the paper. Exact at low frequencies; "
+            "how far up that goes the line at the foot of the page says.",
+        ),
+        Option(
+            "with mass",
+            "With mass",
+            "Each ball has its own place, its inertia, centrifugal load and weight, and a contact "
+            "with each race: it flies, and strikes. Of simulated motions; statics stay as they "
+            "are.",
+        ),
+    ),
+    of="scene",
+    field="balls",
+    said="Balls: {}",
+    beside_words=True,
+)
+
 NUMBERS = Choice(
     "numbers",
     "Given as",
@@ -239,7 +264,7 @@ NUMBERS = Choice(
     not_in_lessons=frozenset({"direct", "drawing"}),
 )
 
-CHOICE_LIST: tuple[Choice, ...] = (PRESET, RACE, EDGE, FLOOR, LAW, NUMBERS)
+CHOICE_LIST: tuple[Choice, ...] = (PRESET, RACE, EDGE, FLOOR, LAW, BALLS, NUMBERS)
 """All choices, in the order in which several are taken."""
 
 CHOICES: Mapping[str, Choice] = {choice.name: choice for choice in CHOICE_LIST}

@@ -12,16 +12,24 @@ A lesson is a text file in Markdown with a head in TOML::
     [scene]                            # ... and what is changed in it
     extent_deg = 0
     edge = "chord"
+
+    [predict]                          # asked before the answer; may be left out
+    ask = "Which ball carries most?"
+    choose = ["the first", "the lowest", "all the same"]
+    right = 2                          # counted from 1
     +++
     ## Question
     Which ball carries most?
     ## Answer
     The last part is hidden until it is asked for.
 
+A prediction can be a number instead: ``unit``, ``right`` and ``within`` in place of ``choose``.
+
 Parts begin with ``##``. Formulas stand between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
 that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
-says how, and simulates a measurement of it. Files are read in the order of their names.
+says how, and simulates a measurement of it. Files are read in the order of their names; without
+its leading number the name of a file is the lesson's own, by which the page's address calls it.
 
 Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
 loaded, and formulas become MathML of known elements. What is wrong with a file is said with its
@@ -33,13 +41,14 @@ from __future__ import annotations
 import difflib
 import html
 import json
+import math
 import os
 import re
 import stat
 import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cache, lru_cache
 from itertools import islice
 from pathlib import Path
@@ -57,7 +66,7 @@ from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.quantities import QUANTITIES
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
-from bearing_explorer.state.simulated_signals import MACHINES, NOISES
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import presets
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
@@ -73,7 +82,9 @@ MOST_OF = {"](": 40, "$": 120, "[": 300, "|": 800, "*": 800, "`": 400, "\n": 800
 """How often signs may stand in a lesson that take more than their share of time to read."""
 MOST_DOTS = 100
 """Dots in a head: names in parts take time as the square of their number."""
-_LONGEST_TITLE = 90  # characters
+LONGEST_NAME = 60  # characters
+_LONGEST_TITLE = 90
+_LONGEST_QUESTION = 200
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
@@ -88,7 +99,15 @@ DRAGGED = (
 """The controls that can stand beside the words."""
 
 _FENCE = "+++"
-_HEAD = {"title": str, "tab": str, "preset": str, "drag": list, "watch": list, "scene": dict}
+_HEAD = {
+    "title": str,
+    "tab": str,
+    "preset": str,
+    "drag": list,
+    "watch": list,
+    "scene": dict,
+    "predict": dict,
+}
 _NEEDED = ("title", "tab", "preset")
 _KINDS = {str: "a text in quotes", list: "a list of texts", dict: "a table"}
 _MATHML_ELEMENTS = (
@@ -119,8 +138,26 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Prediction:
+    """What is asked before the answer is shown.
+
+    Either out of `choices`, of which number `right` is right, counted from 0; or, without choices,
+    a number of `unit`, right from `right` − `within` to `right` + `within`.
+    """
+
+    ask: str
+    choices: tuple[str, ...]
+    right: float
+    unit: str = ""
+    within: float = 0.0
+
+
+@dataclass(frozen=True)
 class Lesson:
-    """One lesson. `values` and `choices` change the scene of `preset`, by names of the page."""
+    """One lesson. `values` and `choices` change the scene of `preset`, by names of the page.
+
+    `name` is what the page's address calls it.
+    """
 
     title: str
     tab: str
@@ -130,6 +167,8 @@ class Lesson:
     drag: tuple[str, ...]
     watch: tuple[str, ...]
     parts: tuple[Part, ...]
+    predict: Prediction | None = None
+    name: str = ""
 
     def begin(self, editor: SceneEditor) -> None:
         """Set the scene that it begins with."""
@@ -145,6 +184,8 @@ class Lesson:
             "drag": list(self.drag),
             "watch": list(self.watch),
             "parts": [asdict(part) for part in self.parts],
+            "predict": None if self.predict is None else asdict(self.predict),
+            "name": self.name,
         }
 
 
@@ -202,9 +243,41 @@ def _fault(name: str, why: str) -> Fault:
 def _from_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
     """The lesson in a file; the time and size of its last change are part of the cache's key."""
     try:
-        return read_lesson(_decoded(_content(path)), tabs)
+        lesson = read_lesson(_decoded(_content(path)), tabs)
+        return replace(lesson, name=_name_of(path))
     except LessonError as error:
         return Fault(path.name, f"{path.name}, line {error.line}: {error}.")
+
+
+def _name_of(path: Path) -> str:
+    """The name of a lesson: that of its file without a leading number, in plain signs."""
+    plain = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-")
+    return (re.sub(r"^\d+-", "", plain) or plain)[:LONGEST_NAME]
+
+
+def text_for_teachers(tabs: Tabs) -> str:
+    """The page for teachers as safe HTML."""
+    tokens = _markdown().parse(asset_path("docs/TEACHING.md").read_text(encoding="utf-8"))
+    head = _Head(['title = "-"', 'tab = "load"', f'preset = "{next(iter(presets))}"'], tabs)
+    for token in tokens:
+        if token.type in ("heading_open", "heading_close"):
+            _lower(token)
+        if token.children:
+            _without_links_to_files(token.children)
+            _mend(token.children, 1, head, tabs)
+    return str(_markdown().renderer.render(tokens, _markdown().options, {}))
+
+
+def _without_links_to_files(tokens: list[Token]) -> None:
+    """Links that lead somewhere in the repository only become their words."""
+    inside = False
+    for token in tokens:
+        if token.type == "link_open" and ":" not in str(token.attrGet("href") or ""):
+            inside = True
+            token.type, token.content, token.nesting = "text", "", 0
+        elif token.type == "link_close" and inside:
+            inside = False
+            token.type, token.content, token.nesting = "text", "", 0
 
 
 def _content(path: Path) -> bytes:
@@ -251,6 +324,7 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
         drag=head.names("drag", DRAGGED, "a control beside the figures"),
         watch=head.names("watch", dict(tabs)[head.text["tab"]], "a figure of this tab"),
         parts=parts,
+        predict=head.prediction(),
     )
 
 
@@ -311,6 +385,33 @@ class _Head:
             return _changes(SceneEditor(self.text["preset"]), changes)
         except _RefusedError as refused:
             raise self.error(refused.name, str(refused)) from None
+
+    def prediction(self) -> Prediction | None:
+        """What is asked before the answer, judged."""
+        given = self._table.get("predict")
+        if given is None:
+            return None
+        kinds = {"ask": str, "choose": list, "right": (int, float), "unit": str,
+                 "within": (int, float)}  # fmt: skip
+        for name, value in given.items():
+            if name not in kinds:
+                raise self.error(name, f"“{name}” is not known; {_near(name, list(kinds))}")
+            if isinstance(value, bool) or not isinstance(value, kinds[name]):  # type: ignore[arg-type]
+                kind = {"choose": "a list of texts", "ask": "a text", "unit": "a text"}
+                raise self.error(name, f"{name} should be {kind.get(name, 'a number')}")
+        ask, right = " ".join(given.get("ask", "").split()), given.get("right")
+        if not ask or right is None or len(ask) > _LONGEST_QUESTION:
+            raise self.error("predict", f"a prediction has ask, of at most {_LONGEST_QUESTION} "
+                             "characters, and right")  # fmt: skip
+        if "choose" not in given:
+            unit, within = given.get("unit", ""), float(given.get("within", 0.0))
+            if len(unit) > 20 or not (math.isfinite(right) and 0.0 <= within < math.inf):
+                raise self.error("predict", "right and within are numbers, within not below 0")
+            return Prediction(ask, (), float(right), unit, within)
+        choices = tuple(str(text)[:_LONGEST_QUESTION] for text in given["choose"])
+        if not (2 <= len(choices) <= 6 and right in range(1, len(choices) + 1)):
+            raise self.error("right", "right counts the choices from 1, of which there are 2 to 6")
+        return Prediction(ask, choices, float(right) - 1.0)
 
     def editor(self) -> SceneEditor:
         """The scene that the lesson begins with; the same editor each time, set back."""
@@ -426,9 +527,11 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
         elif token.type == "link_open":
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
-            if scheme in ("set", "show", "simulate"):
+            if scheme in ("set", "show", "simulate", "lesson"):
                 if scheme == "show":
                     asks = _show(rest, line, tabs)
+                elif scheme == "lesson":
+                    asks = _ask({"lesson": unquote(rest)[:LONGEST_NAME]})
                 else:
                     asks = (_set if scheme == "set" else _simulate)(rest, line, head)
                 token.type, closing = "html_inline", "</button>"
@@ -440,7 +543,7 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
                 raise LessonError(
                     line,
                     f"a link goes to “{address[:60]}”; "
-                    "links go to set:, show:, simulate: or https:",
+                    "links go to set:, show:, simulate:, lesson: or https:",
                 )
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
@@ -455,11 +558,16 @@ def _set(rest: str, line: int, head: _Head) -> str:
 
 def _simulate(rest: str, line: int, head: _Head) -> str:
     changes = dict(parse_qsl(rest, keep_blank_values=True))
-    noise, machine = changes.pop("noise", "20"), changes.pop("machine", MACHINES[0])
-    for name, word, known in (("noise", noise, list(NOISES)), ("machine", machine, MACHINES)):
+    wish = {}
+    for name, known, usual in (
+        ("noise", list(NOISES), "20"),
+        ("machine", list(MACHINES), MACHINES[0]),
+        ("pit", list(PITS), "scene"),
+    ):
+        wish[name] = word = changes.pop(name, usual)
         if word not in known:
             raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
-    return _ask({**_changed(changes, line, head), "simulate": {"noise": noise, "machine": machine}})
+    return _ask({**_changed(changes, line, head), "simulate": wish})
 
 
 def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
+from bearing_explorer.state.quantity_list import CAGE_ANGLE, DEGREE, QUANTITY_LIST, Quantity
 from bearingcore import Bearing, Defect, Load, RoughFloor, Scene, Support
+from bearingcore.common.numbers import number
 from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
 
 Values = dict[str, float]
@@ -214,10 +215,47 @@ def check_values(values: Mapping[str, float], limits: Mapping[str, Limits]) -> N
 
 def refusal(error: ValueError) -> str:
     """What the core refuses, as a sentence for the page: fields by the names they have there."""
-    text = re.sub(
-        r"[a-z]+(?:_[a-z]+)*", lambda word: _FIELD_WORDS.get(word[0], word[0]), str(error)
-    )
-    return f"Not possible: {text}."
+    return f"Not possible: {in_page_words(str(error))}."
+
+
+def in_page_words(text: str) -> str:
+    """A sentence of the core with the names and the units of the page.
+
+    "shaft_speed is 0; allowed: above 0 [rad/s]" comes out as "shaft speed is 0 Hz; allowed:
+    above 0 Hz": a number without a unit of its own is of the field that the sentence begins with.
+    """
+    about = _FIELD.match(text)
+    quantity = _BY_FIELD.get(about[1]) if about is not None else None
+    if about is not None and quantity is not None and (si := _SI.get(quantity.unit)):
+        of_field = f"{about[2]} {si}"
+        text = f"{about[1]} is {of_field}; {about[3]}"
+        text = _BOUND.sub(rf"\1 \2 {si}", text.removesuffix(f" [{si}]"))
+    text = _WITH_UNIT.sub(lambda found: _told(found, quantity), text)
+    return _WORD.sub(lambda word: _FIELD_WORDS.get(word[0], word[0]), text)
+
+
+def _told(found: re.Match[str], quantity: Quantity | None) -> str:
+    """A number in SI in the unit of a quantity, or in one that people read."""
+    unit, factor = _READ[found[2]]
+    if quantity is not None and _SI.get(quantity.unit) == found[2]:
+        unit, factor = quantity.unit, quantity.unit_si
+    return number(float(found[1]) / factor, 5) + _unit(unit)
+
+
+_SI = {"mm": "m", "µm": "m", "°": "rad", "Hz": "rad/s", "GPa": "Pa"}
+"""The core's unit for each of the page's that differs from it."""
+_READ = {
+    "m": ("mm", 1e-3),
+    "rad": ("°", DEGREE),
+    "rad/s": ("Hz", 2.0 * math.pi),
+    "Pa": ("GPa", 1e9),
+}
+_BY_FIELD = {quantity.last_name: quantity for quantity in QUANTITY_LIST if quantity.field}
+_SIGNED = r"([-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
+_FIELD = re.compile(rf"([a-z]+(?:_[a-z]+)*) is {_SIGNED}; (.*)", re.DOTALL)
+_BOUND = re.compile(rf"(above|below|at least|at most) {_SIGNED}(?![\w.]| (?:m|rad|Pa|of)\b)")
+_WITH_UNIT = re.compile(rf"{_SIGNED} (rad/s|rad|Pa|m)(?![\w/^·³²])")
+_WORD = re.compile(r"[a-z]+(?:_[a-z]+)*")
 
 
 def _named(quantity: Quantity) -> str:

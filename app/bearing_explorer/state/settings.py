@@ -32,7 +32,8 @@ class MotionPlanning:
     """What a plan for a settled motion depends on, beside the scene.
 
     `budget` [dB], `duration` [s] of the motion that the plan replaces, of which the second half
-    counts, `sample_rate` and `step_rate` [Hz], and `steady` out of STEADY.
+    counts, `sample_rate` and `step_rate` [Hz], and `steady` out of STEADY. Balls have mass where
+    the budget asks for it below `up_to` [Hz], or with None where the scene says so.
     """
 
     budget: float
@@ -40,6 +41,7 @@ class MotionPlanning:
     sample_rate: float
     step_rate: float | None
     steady: str
+    up_to: float | None = None
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,8 @@ class Settings:
     `n_cage_angles` to a ball spacing and across maps, `n_extents` of maps; `duration` [s] and
     `sample_rate` [Hz] of motions. What follows overrules the program where it is not None or
     "auto": `cage_angles` to a ball spacing, `step_rate` [Hz] of motions, `steady` out of STEADY,
-    and error budgets of curves (over their swing) and of spectra [dB].
+    error budgets of curves (over their swing) and of spectra [dB], and the frequency [Hz] below
+    which the second decides whether balls have mass, where else the scene does.
     """
 
     n_cage_angles: int = 121
@@ -61,6 +64,7 @@ class Settings:
     steady: str = "auto"
     curve_budget: float | None = None
     vibration_budget: float | None = None
+    balls_up_to: float | None = None
 
     @property
     def marching(self) -> Marching:
@@ -82,4 +86,5 @@ class Settings:
             self.sample_rate,
             self.step_rate,
             self.steady,
+            self.balls_up_to,
         )

@@ -10,3 +10,7 @@ NOISES: Mapping[str, float] = {"40": 40.0, "20": 20.0, "10": 10.0, "none": math.
 
 MACHINES = ("same", "different")
 """Whether the measured machine has the numbers of the scene, or only about those."""
+
+PITS: Mapping[str, float | None] = {"scene": None, "0.2": 2e-4, "0.3": 3e-4, "0.5": 5e-4}
+"""What the measured race has: the scene's own defect, or a small pit so long [m], with the edges
+that geometry asks for and balls that have mass: as pits that are seeded on test rigs."""

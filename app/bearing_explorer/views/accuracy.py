@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import math
+import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -31,9 +32,10 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.widgets.status import scientific
 from bearing_explorer.widgets.step_choice import StepChoice
+from bearingcore.common.numbers import scientific
 from bearingcore.experiments import Experiment, Point, StabilityChart
+from bearingcore.experiments.balls import BALL_METHODS, BANDS
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.models import MODELS
 from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
@@ -44,9 +46,10 @@ if TYPE_CHECKING:
 
 HEIGHT = 430
 COSTS = ("seconds", "evaluations")
-NAMES = tuple(dict.fromkeys((*METHODS, *SOLVERS, *PLACINGS, *MODELS)))
+_KINDS = (METHODS, SOLVERS, PLACINGS, MODELS, BALL_METHODS)
+NAMES = tuple(dict.fromkeys(name for kind in _KINDS for name in kind))
 """Every name that a point can have: the packed source carries their numbers."""
-MOST_METHODS = max(len(METHODS), len(SOLVERS), len(PLACINGS), len(MODELS))
+MOST_METHODS = max(len(kind) for kind in _KINDS)
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#20262D")
 """Okabe and Ito's, which colour-blind people can distinguish."""
@@ -65,9 +68,10 @@ AXES = {
     "spectrum": "Error of the spectrum (dB)",
     "stiffness": "Error of the stiffness, over the term",
     "trace": "Error of the curves, over their swing",
+    next(iter(BANDS)): f"Error of third octaves, {next(iter(BANDS))} (dB)",
 }
 """The error that each experiment draws."""
-UNITS = {"spectrum": "_db", "level": "_db"}
+UNITS = {"spectrum": "_db", "level": "_db", **dict.fromkeys(BANDS, "_db")}
 
 NEAR = 0.04
 """Part of the figure within which a click means a point."""
@@ -373,7 +377,7 @@ class Accuracy(JobView[Found]):
             "method": np.array([p.method for p in points]),
             "setting": np.array([p.setting for p in points]),
             **{
-                f"{name}_error{UNITS.get(name, '')}": np.array(
+                f"{_column(name)}_error{UNITS.get(name, '')}": np.array(
                     [p.errors.get(name, math.nan) for p in points]
                 )
                 for name in result.errors
@@ -423,6 +427,16 @@ def look(slot: int) -> tuple[str, str]:
 def _usable(point: Point) -> bool:
     """Whether the scene's motion can be marched with a point's steps."""
     return point.method == "RK4" and "step_rate" in point.settings and not point.failed
+
+
+def _column(name: str) -> str:
+    """An error's name in a table."""
+    return re.sub(r"\W+", "_", name).lower()
+
+
+def _said(name: str) -> str:
+    """An error's name in a sentence."""
+    return f"power in third octaves of {name}" if name in BANDS else name
 
 
 def _drawn(result: Experiment) -> str:
@@ -494,7 +508,7 @@ def _agreement(result: Experiment | StabilityChart) -> str:
     unit = " dB" if name in UNITS else ""
     verdict = "agree" if worst.trusted else "do not agree, so small errors mean little"
     words = f"Reference: {worst.families[0]} and {worst.families[1]} {verdict}"
-    words += f"; their {name} is apart by {scientific(worst.agreement[name])}{unit}."
+    words += f"; their {_said(name)} is apart by {scientific(worst.agreement[name])}{unit}."
     return f"{words} {worst.note}." if worst.note else words
 
 

@@ -14,8 +14,9 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
-from bearing_explorer.widgets.status import scientific
 from bearingcore import DOF_NAMES
+from bearingcore.common.numbers import decibels as in_decibels
+from bearingcore.common.numbers import percent, scientific
 from bearingcore.model.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
@@ -129,14 +130,14 @@ def share(value: float) -> str:
         return "no answer"
     if value < 1e-6:
         return scientific(value)
-    return f"{style.number(100.0 * value, 2)} %"
+    return percent(value, 2)
 
 
 def decibels(value: float) -> str:
     """A difference of levels in words."""
     if not math.isfinite(value):
         return "no answer"
-    return "less than 0.01 dB" if value < 0.01 else f"{style.number(value, 2)} dB"
+    return "below 0.01 dB" if value < 0.01 else in_decibels(value)
 
 
 def _listed(dofs: tuple[str, ...]) -> str:

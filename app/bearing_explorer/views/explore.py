@@ -33,6 +33,7 @@ from bearing_explorer.compute.jobs import JobState, Work
 from bearing_explorer.figures import style
 from bearing_explorer.figures.heat_map import Places, Side, going, ring_this_scene
 from bearing_explorer.figures.style import AxisQuantity
+from bearing_explorer.measurement.form import number_of
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
@@ -51,6 +52,14 @@ PAUSE = 2.0
 """Between two drawings while sliders move, in drawing times: the event loop is everybody's."""
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
+_WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
+_FIRST_BAND = dict(
+    zip(
+        ("band_from", "band_to"),
+        (f"{edge / 1e3:g}" for edge in MAP_OUTPUTS["mass_share"].band or ()),
+        strict=True,
+    )
+)
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
 _FADED = 0.65
 
@@ -126,11 +135,15 @@ class ExplorePlane(JobView[Plane]):
             {"name": "output", "label": "Map of", "options": outputs},
             *plane_fields(headings=True),
             {"name": "grid", "label": "Points", "options": _GRIDS},
+            *(
+                {"name": name, "label": label, "only": {"output": _WITH_BAND}}
+                for name, label in (("band_from", "Band from (kHz)"), ("band_to", "to (kHz)"))
+            ),
         ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         fills = plane_fills(editor.limits)
-        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
+        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]], **_FIRST_BAND}
         # loads that point down, as weights do: without a load there is nothing to map
         values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}"
         if self._asking is None:
@@ -144,7 +157,16 @@ class ExplorePlane(JobView[Plane]):
         if given["grid"] not in [value for value, _ in _GRIDS]:
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
-        return Asked(x, y, MAP_OUTPUTS[given["output"]], int(given["grid"]))
+        output = MAP_OUTPUTS[given["output"]]
+        if output.band is not None:
+            output = output.in_band(
+                *(
+                    1e3
+                    * number_of(given.get(name, ""), f"The {end} of the band", "kHz", 0.01, 100.0)
+                    for name, end in (("band_from", "beginning"), ("band_to", "end"))
+                )
+            )
+        return Asked(x, y, output, int(given["grid"]))
 
     def _asked(self, message: Any) -> None:
         if not isinstance(message, dict) or self._jobs is None:

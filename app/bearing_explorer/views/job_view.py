@@ -26,7 +26,8 @@ class JobPanel(LiveComponent):
 
     #: {"start": words of the button, "fields": [{"name", "label", "options": [[value, words]]}]};
     #: a field without options is one to type into, a third part of an option its heading in the
-    #: list; with "at_once" a changed field starts the job as the button does
+    #: list; one with "only": {other field: [values]} is shown with those alone; with "at_once" a
+    #: changed field starts the job as the button does
     spec = param.Dict(default={})
     #: {field: what stands in it}
     values = param.Dict(default={})

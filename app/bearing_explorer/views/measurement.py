@@ -19,8 +19,9 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
+from bearing_explorer.server.bokeh_private import send_message
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.state.simulated_signals import MACHINES, NOISES
+from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
@@ -78,7 +79,7 @@ class MeasurementPanel(JSComponent):
 
     def want(self, begin: int, of: int) -> None:
         """Ask for the piece of the file that begins at this byte; `of` comes back with it."""
-        self._send_msg({"want": begin, "of": of})
+        send_message(self, {"want": begin, "of": of})
 
 
 class MeasuredSignal(MeasuredView):
@@ -223,6 +224,10 @@ def spec() -> dict[str, Any]:
         ),
         "noises": [["20", "20 dB"], *[noise for noise in noises if noise[0] != "20"]],
         "machines": [[name, _MACHINE_WORDS[name]] for name in MACHINES],
+        "pits": [
+            [name, "the scene's" if length is None else f"pit of {name} mm, balls with mass"]
+            for name, length in PITS.items()
+        ],
         "units": [[unit, unit] for unit in UNITS],
     }
 

@@ -13,6 +13,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.common.numbers import span
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -135,12 +136,12 @@ class NaturalFrequencies(View):
         if not known:
             return "There is no static state to take natural frequencies from."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
-        words = [f"{label} within {_from_to(known[label])}" for label in radial]
+        words = [f"{label} at {_from_to(known[label])}" for label in radial]
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
         if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} within {_from_to(healthy[first])}"
+            text += f"; {results.beside_words} {first} at {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -166,7 +167,7 @@ class NaturalFrequencies(View):
 
 
 def _from_to(band: tuple[float, float]) -> str:
-    return f"{band[0]:.0f} to {band[1]:.0f} Hz"
+    return span(*band, "Hz")
 
 
 def band_rows(modes: Modes) -> dict[str, np.ndarray]:

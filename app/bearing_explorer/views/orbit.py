@@ -11,6 +11,7 @@ from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.compute.verdict import of_orbit
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
@@ -24,9 +25,11 @@ from bearing_explorer.views.vibration_spectrum import (
     decibels,
     drawn_levels,
 )
-from bearing_explorer.widgets.status import StatusLine, scientific
+from bearing_explorer.widgets.status import StatusLine
+from bearingcore.common.numbers import count, scientific
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
+from bearingcore.model.scene import MASSLESS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -40,11 +43,6 @@ MARCHED_PASSES = 8
 FAR_APART = 3.0
 """[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
 
-_LOST = {
-    "-1": "Unstable: the period doubles",
-    "pair": "Unstable: a second frequency is added",
-    "+1": "Unstable: the motion goes to another orbit",
-}
 _LOST_LONG = {
     "-1": (
         "Every ball pass alike is possible but does not last: the machine settles to a motion that "
@@ -187,6 +185,12 @@ class SteadyOrbit(View):
         )
 
     def sentence(self, results: Results) -> str:
+        words = self._orbit_words(results)
+        if results.scene.balls == MASSLESS:
+            return words
+        return f"{words} Orbits are looked for with massless balls; grey moves with their mass."
+
+    def _orbit_words(self, results: Results) -> str:
         orbit = results.orbit
         if orbit is None:
             return (
@@ -246,21 +250,17 @@ class SteadyOrbit(View):
 
 def orbit_status(results: Results) -> dict[str, Any]:
     """The orbit's status in words and colour, with what it took to find it."""
-    orbit = results.orbit
-    if orbit is None:
-        return {"mood": "bad", "words": "No orbit looked for", "details": []}
-    if not orbit.multipliers.size:
-        words = {NO_PERIOD: "No common period", NO_START: "No static state"}
-        none = "No orbit found yet" if results.moving else "No orbit found"
-        return {"mood": "bad", "words": words.get(orbit.status, none), "details": []}
-    passes = "1 ball pass" if orbit.ball_passes == 1 else f"{orbit.ball_passes} ball passes"
+    orbit, (mood, words) = results.orbit, of_orbit(results)
+    if orbit is None or not orbit.multipliers.size:
+        return {"mood": mood, "words": words, "details": []}
+    passes = count(orbit.ball_passes, "ball pass", "ball passes")
     return {
-        "mood": "good" if orbit.stable else "bad",
-        "words": "Stable orbit" if orbit.stable else _LOST[orbit.through],
+        "mood": mood,
+        "words": words,
         "details": [
             f"largest multiplier |μ| = {style.number(orbit.largest_multiplier, 3)}",
             f"period {style.with_prefix(orbit.period, 's')}: {passes}",
-            f"{orbit.iterations} Newton steps",
+            count(orbit.iterations, "Newton step"),
             f"misses its beginning by {scientific(orbit.residual)} of its size",
         ],
     }

@@ -9,6 +9,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.measurement.diagnoses import SLIP, Question
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
 from bearingcore import Diagnosis
+from bearingcore.common.numbers import probability
 from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
 
 LIKELY = 0.9
@@ -48,9 +49,7 @@ def headline(found: Diagnosis) -> str:
 
 def percent(share: float) -> str:
     """A probability in words: nothing is quite certain."""
-    if share > 0.985:
-        return "above 98 %"
-    return f"{100.0 * share:.0f} %" if share >= 0.005 else "below 1 %"
+    return probability(share)
 
 
 def plain(found: Diagnosis) -> str:

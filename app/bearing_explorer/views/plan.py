@@ -16,7 +16,7 @@ from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.plan_choice import TITLES
-from bearing_explorer.widgets.status import scientific
+from bearingcore.common.numbers import count, decibels, percent, scientific
 from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.plan import CURVES, SETTLED
 
@@ -180,8 +180,7 @@ def how_of(plan: Plan) -> str:
     if plan.cage_angles is not None:
         return f"{plan.cage_angles.size} cage angles"
     if plan.orbit is not None:
-        passes = plan.orbit.ball_passes
-        length = "1 ball pass" if passes == 1 else f"{passes} ball passes"
+        length = count(plan.orbit.ball_passes, "ball pass", "ball passes")
         return f"stable orbit of {length}, {style.with_prefix(plan.step_rate, 'Hz')}"
     steps = (
         f"steps by a tolerance of {scientific(plan.tolerance)}"
@@ -196,8 +195,8 @@ def error_of(plan: Plan, error: float) -> str:
     if not math.isfinite(error):
         return "not known"
     if plan.cage_angles is not None:
-        return f"{style.number(100.0 * error, 2)} %"
-    return f"{style.number(error, 2)} dB"
+        return percent(error, 2)
+    return decibels(error)
 
 
 def remarks_of(plan: Plan) -> list[str]:

@@ -379,8 +379,15 @@ def status(sized: Sized) -> dict[str, Any]:
     off_by = events.time_uncertainty
     known = math.isfinite(off_by) and off_by < 0.5 * events.time_difference
     details = [
-        f"entry to exit Δt = {style.number(1e3 * events.time_difference, 3)}"
-        f"{f' ± {style.number(1e3 * off_by, 1)}' if known else ''} ms",
+        f"entry to exit Δt = {style.with_prefix(sizing.time_difference, 's')}",
+        *(
+            [
+                f"knocks in the signal {style.number(1e3 * events.time_difference)} ± "
+                f"{style.number(1e3 * off_by, 1)} ms apart"
+            ]
+            if known
+            else []
+        ),
         f"ball spacing {style.number(spacing, 3)}°",
         f"{passes.n_passes} ball passes at {style.number(passes.frequency, 4)} Hz"
         + (f", {abs(off):.2f} % {side} BPFO" if abs(off) >= 0.01 else ""),

@@ -31,6 +31,7 @@ from bearing_explorer.state.value_range import SWEEPABLE, Sweep, alike_but_for, 
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
 from bearingcore.dynamics.stability_map import OUTCOMES, StabilityMap, regions, stability_map
+from bearingcore.model.scene import MASSLESS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -187,7 +188,7 @@ class OrbitStability(JobView[Found]):
             return sources | {"stability_border": empty, "stability_mark": mark}, {}
         x, y = found.x, found.y
         sides = self._sides[x.quantity.name], self._sides[y.quantity.name]
-        scene = focused(results.scene, results.focus)
+        scene = focused(results.scene.replace(balls=MASSLESS), results.focus)
         codes = codes_of(found.map)
         own = alike_but_for(scene, found.map.scene, (x, y))
         sources = {
@@ -210,7 +211,7 @@ class OrbitStability(JobView[Found]):
         if found is None:
             return "There is no map yet."
         words = " ".join(regions(found.map))
-        scene = focused(results.scene, results.focus)
+        scene = focused(results.scene.replace(balls=MASSLESS), results.focus)
         if not alike_but_for(scene, found.map.scene, (found.x, found.y)):
             return f"Faint, as the scene has changed since this was computed. Then: {words}"
         missing = found.map.count("not computed")
@@ -240,7 +241,7 @@ def compute(job: Work, scene: Any, x: Sweep, y: Sweep, n: int) -> str:
     for (x_level, y_level), size in zip(levels, sizes, strict=True):
         try:
             found = stability_map(
-                scene,
+                scene.replace(balls=MASSLESS),  # only they have orbits that can be looked for
                 x_level.in_si,
                 y_level.in_si,
                 progress=job.within(done / sum(sizes), (done + size) / sum(sizes)),

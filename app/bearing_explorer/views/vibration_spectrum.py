@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,8 +14,12 @@ from numpy.typing import NDArray
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.views.measured_view import LookPanel
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
+from bearing_explorer.views.wide_spectrum import WideSpectra
+from bearingcore.dynamics.ball_motion import contact_resonance_band
+from bearingcore.model.scene import WITH_MASS
 from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
@@ -27,6 +32,14 @@ HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
 LABEL_WIDTH = 0.17  # of the width of the figure
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
+
+AXIS: dict[str, Any] = {
+    "kind": "one",
+    "name": "axis",
+    "label": "Frequency",
+    "options": [["linear", "where rotor and housing ring"], ["logarithmic", "all, logarithmic"]],
+}
+"""The switch above the figures."""
 
 _PASS_WORDS = "return `${row.inner ? 'BPFI' : 'BPFO'} ${rounded(row.frequency, 4)} Hz`"
 
@@ -43,6 +56,13 @@ class VibrationSpectra(View):
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "band_modes"})
     plans = (SETTLED,)
+    #: whether it goes up to half the sample rate, on a logarithmic frequency axis
+    wide = False
+    _draw: Callable[[], None] | None = None
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self._draw = parts.draw
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
@@ -90,7 +110,46 @@ class VibrationSpectra(View):
                 code="for (const mark of marks) mark.visible = cb_obj.active.length > 0",
             ),
         )
-        return pn.Column(toggle, *plots, sizing_mode="stretch_width", margin=0)
+        self._narrow_plots = plots
+        self._wide = WideSpectra(packed, "spectrum_wide", {})
+        self._axis = LookPanel(
+            self._asked, spec={"name": "spectrum", "fields": [AXIS]}, values={"axis": "linear"}
+        )
+        self._show_axis()
+        return pn.Column(
+            self._axis, toggle, *plots, *self._wide.plots, sizing_mode="stretch_width", margin=0
+        )
+
+    def _asked(self, message: Any) -> None:
+        look = message.get("look") if isinstance(message, dict) else None
+        axis = look.get("axis") if isinstance(look, dict) else None
+        if axis in ("linear", "logarithmic"):
+            self.wide = axis == "logarithmic"
+            if self._draw is not None:
+                self._draw()
+
+    def _show_axis(self) -> None:
+        """The figures of the axis that was chosen."""
+        for plot in self._narrow_plots:
+            plot.visible = not self.wide
+        for plot in self._wide.plots:
+            plot.visible = self.wide
+        self._axis.values = {"axis": "logarithmic" if self.wide else "linear"}
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        self._show_axis()
+
+    def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
+        """Up to half the sample rate, where that was asked for."""
+        if not self.wide:
+            return self._wide.nothing(), {}
+        band = (0.0, 0.0)
+        if results.scene.balls == WITH_MASS:
+            band = contact_resonance_band(results.scene)
+        return self._wide.data(
+            results.late_spectra, results.healthy_late_spectra, band, results.motion.sample_rate
+        )
 
     def _shade_bands(self, plot: figure, packed: PackedSource, dof: str, color: str) -> None:
         bands = packed.source(
@@ -152,7 +211,9 @@ class VibrationSpectra(View):
                 middle = 0.5 * (own["low"] + own["high"])
                 own["label_at"] = spread(middle, LABEL_WIDTH * top, 0.0, top)
                 sources[f"spectrum_bands_{dof}"] = own
-        return sources, {"spectrum_frequency": (0.0, top), "spectrum_level": (low, high)}
+        wide, ranges = self._wide_data(results)
+        ranges |= {"spectrum_frequency": (0.0, top), "spectrum_level": (low, high)}
+        return sources | wide, ranges
 
     def sentence(self, results: Results) -> str:
         words = []

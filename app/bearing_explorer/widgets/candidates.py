@@ -12,6 +12,7 @@ from panel.custom import JSComponent
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.measurement.session import Sized
 from bearingcore import Candidate
+from bearingcore.common.numbers import probability
 
 
 class CandidateList(JSComponent):
@@ -42,7 +43,7 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
             "extent_deg": round(math.degrees(candidate.extent), 2),
             "made_of": made_of(candidate, spacing),
             "probability": candidate.probability,
-            "percent": percent(candidate.probability),
+            "percent": probability(candidate.probability),
             "explains": "explains "
             f"{100.0 * max(1.0 - float(candidate.waveform_misfit.mean()), 0.0):.0f} % of the mean "
             "ball pass",
@@ -68,13 +69,6 @@ def fitted(candidate: Candidate) -> str:
         if abs(factor - 1.0) >= 0.005
     ]
     return ", ".join(parts) if parts else "the scene's numbers as they are"
-
-
-def percent(probability: float) -> str:
-    """A probability for people: nothing is quite certain."""
-    if probability > 0.995:
-        return "> 99 %"
-    return f"{100.0 * probability:.0f} %" if probability >= 0.005 else "< 1 %"
 
 
 def in_degrees(angle: float) -> str:

@@ -13,15 +13,22 @@ from bearing_explorer.state.lessons import Fault, Lesson
 
 
 class LessonPanel(JSComponent):
-    """Hidden until somebody asks for lessons; then it asks for one by its number.
+    """Hidden until somebody asks for lessons; then a list of them, or the one that was open.
+
+    Nothing replaces a scene unasked: it is set when a lesson is begun, and not when its words are
+    shown again.
 
     `asked` gets messages of the browser as they come, from strangers too: judge them.
     """
 
-    #: [title, what is wrong with the file or ""] of each
+    #: [title, what is wrong with the file or "", name] of each
     titles = param.List(default=[])
     #: of `Lesson.for_browser`; empty before the first
     lesson = param.Dict(default={})
+    #: whether it stands open as the page comes
+    open_first = param.Boolean(default=False)
+    #: the page for teachers, as safe HTML
+    teachers = param.String()
 
     _esm = scripts("element.js", "lesson.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]
@@ -30,20 +37,35 @@ class LessonPanel(JSComponent):
         self, asked: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
     ) -> None:
         titles = [
-            [lesson.title, lesson.sentence if isinstance(lesson, Fault) else ""]
+            [lesson.title, lesson.sentence, ""]
+            if isinstance(lesson, Fault)
+            else [lesson.title, "", lesson.name]
             for lesson in lessons
         ]
         super().__init__(titles=titles, margin=0, sizing_mode="stretch_width", **params)
         self._lessons = lessons
+        self._begun = 0
         self.on_msg(lambda event: asked(event.data))
 
-    def begin(self, number: object) -> Lesson | None:
-        """Show the lesson with this number and return it; None where there is none."""
-        if not isinstance(number, int) or not 0 <= number < len(self._lessons):
+    def begin(self, which: object, *, again: bool = True) -> Lesson | None:
+        """Show the lesson with this number or name and return it; None where there is none.
+
+        One that is shown already begins `again`, or stays as it is.
+        """
+        number = self._number(which)
+        if number is None:
             return None
         lesson = self._lessons[number]
         if isinstance(lesson, Fault):
             return None
-        # a new object each time: the same lesson begun again is shown from its beginning
-        self.lesson = lesson.for_browser(number)
+        if again or self.lesson.get("number") != number:
+            # counted, or the same lesson begun again would be no news to the browser
+            self._begun += 1
+            self.lesson = {**lesson.for_browser(number), "begun": self._begun}
         return lesson
+
+    def _number(self, which: object) -> int | None:
+        if isinstance(which, int):
+            return which if 0 <= which < len(self._lessons) else None
+        names = [lesson.name if isinstance(lesson, Lesson) else "" for lesson in self._lessons]
+        return names.index(which) if isinstance(which, str) and which and which in names else None

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_path, asset_text
-from bearing_explorer.figures import style
 from bearing_explorer.server.live_component import LiveComponent
+from bearingcore.common import numbers
 
 if TYPE_CHECKING:
     from bearingcore import Limit
@@ -20,6 +20,8 @@ class LimitsStrip(LiveComponent):
 
     #: rows of `rows_of`
     rows = param.List(default=[])
+    #: how it stands in a line
+    summary = param.String()
 
     _esm = asset_path("limits.js")
     _stylesheets: ClassVar[list[str]] = [
@@ -52,7 +54,7 @@ def _number(value: float, unit: str) -> str:
     if math.isnan(value):
         return "not known"
     if unit == "rad":
-        return f"{style.number(math.degrees(value), 3)}°"
+        return f"{numbers.number(math.degrees(value))}°"
     if unit:
-        return style.with_prefix(value, unit)
-    return style.number(value, 3) if value >= 1e-4 or value == 0.0 else "below 0.0001"
+        return numbers.with_prefix(value, unit)
+    return numbers.number(value) if value >= 1e-4 or value == 0.0 else "below 0.0001"

@@ -11,7 +11,9 @@ import param
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.planning import by_hand
 from bearing_explorer.compute.results import Results
+from bearing_explorer.compute.verdict import verdict
 from bearing_explorer.server.live_component import LiveComponent
+from bearingcore.common.numbers import count, scientific
 from bearingcore.model.scene import DOF_SYMBOLS
 
 
@@ -54,39 +56,29 @@ def status_of(
     """
     found = results.equilibrium
     n_angles = found.converged.size
-    bad = np.flatnonzero(~found.converged)
-    if bad.size == 0:
-        mood, words = "good", "Converged"
-    elif bad.size == n_angles:
-        mood, words = "bad", f"No answer: {found.reason(int(bad[0]))}"
-    else:
-        reason = found.reason(int(bad[0]))
-        mood = "bad"
-        words = f"No answer at {bad.size} of {n_angles} cage angles: {reason}"
+    mood, words = verdict(results, shown)
     details = []
     finite = found.residual[found.converged & np.isfinite(found.residual)]
     if finite.size:
         details.append(f"residual at most {scientific(float(finite.max()))}")
+    if "ball_mass" in shown or "late_spectra" in shown:
+        details += about_mass(results)
     overruled = by_hand(results.settings)
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
     if (plan := results.plan) is not None:
         planned = plan.sentence().replace(" DOF", f" DOF ({symbols})", 1)
         return {"mood": mood, "words": words, "details": [*overruled, planned, *details]}
-    plural = "" if len(found.dofs) == 1 else "s"
-    details.append(f"{len(found.dofs)} degree{plural} of freedom: {symbols}")
-    details.append(f"{n_angles} cage angles")
+    freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
+    details.append(f"{freedom}: {symbols}")
+    details.append(count(n_angles, "cage angle"))
     if results.is_coarse(shown):
-        details.append("coarse while it moves: half the motion in half the steps")
+        details.append(results.coarse_words(shown))
     details = [*overruled, *details, f"{1e3 * seconds:.1f} ms of computing"]
     return {"mood": mood, "words": words, "details": details}
 
 
-def scientific(value: float) -> str:
-    """`value` as people write it: 3·10⁻¹²."""
-    if value == 0.0:
-        return "0"
-    mantissa, exponent = f"{value:.0e}".split("e")
-    return f"{mantissa}·10" + str(int(exponent)).translate(_RAISED)
-
-
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+def about_mass(results: Results) -> list[str]:
+    """Up to which frequency massless balls will do, and what mass costs, where that is known."""
+    comparison = results.ball_comparison
+    said = results.plan is not None and "massless:" in results.plan.note
+    return [] if comparison is None or said else [comparison.sentence]

@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import probability
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
@@ -46,7 +47,7 @@ from bearingcore.diagnosis.size.synthesis import Band, Target, comparison_band
 from bearingcore.diagnosis.size.variants import Tolerances
 from bearingcore.dynamics.modes import modes
 from bearingcore.model.defect import Defect
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.passes import crossings
@@ -206,6 +207,18 @@ class Sizing:
         )
 
     @property
+    def time_difference(self) -> float:
+        """Δt [s] from a ball entering to the next that leaves, by the most probable candidate.
+
+        What its extent leaves over whole ball spacings, at the speed of the measured cage. The
+        knocks in the signal stand closer together (`events`): a ball loses its load a little inside
+        the edge and takes it up again before the other.
+        """
+        best = self.best
+        spacing = best.scene.bearing.ball_spacing
+        return (best.extent - best.turns * spacing) / (spacing * self.passes.frequency)
+
+    @property
     def best(self) -> Candidate:
         """The most probable candidate. ValueError, with the status, where there is none."""
         if not self.candidates:
@@ -255,7 +268,8 @@ def size_defect(
         acceleration of the housing along y, or x and y: two directions tell more.
     scene
         bearing, load, support and shaft speed of the machine, and a defect whose centre and
-        nominal depth are taken as known; its extent is not looked at.
+        nominal depth are taken as known; its extent is not looked at. Balls are taken to be
+        massless: what is compared lies far below their resonances.
     fault
         "outer race" where that is known from elsewhere: then the diagnosis is not asked. None: it
         is.
@@ -271,7 +285,7 @@ def size_defect(
     ValueError
         for a scene that is not fit for it, or a signal too short or sampled too slowly.
     """
-    scene, columns = _prepared(scene, recording.directions)
+    scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
     if fault is not None:
@@ -428,7 +442,7 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
     if best.probability < CLEAR:
         likely = [c for c in sized.candidates if c.probability >= 0.05]
         told = ", ".join(
-            f"{math.degrees(c.extent):.1f}° ({100.0 * c.probability:.0f} %)" for c in likely
+            f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
         )
         return False, "", f"The signal cannot tell these apart: {told}."
     if best.extent - LEAST_EXTENT < max(2.0 * spread, EXTENT_STEP):
@@ -449,11 +463,6 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
         "",
         (
             f"The defect extends over {size}, {best.turns} whole ball spacings and a rest; "
-            f"probability {percent(best.probability)}."
+            f"probability {probability(best.probability)}."
         ),
     )
-
-
-def percent(probability: float) -> str:
-    """A probability in words; nothing is ever certain."""
-    return "above 99 %" if probability > 0.99 else f"{100.0 * probability:.0f} %"

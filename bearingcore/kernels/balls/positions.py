@@ -24,7 +24,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearingcore.kernels.balls.motion import INNER, OUTER, Races, race_touch, ring_at_ball
+from bearingcore.kernels.balls.contacts import race_touch, ring_at_ball
+from bearingcore.kernels.balls.structs import INNER, OUTER, Races
 from bearingcore.kernels.compiling import borrowing, compiled, inlined
 from bearingcore.kernels.contact import components, compression_under, contact_load, tilting
 from bearingcore.kernels.path import ball_circle, lay_out_drops, turn_balls

@@ -69,6 +69,14 @@ def _7208(contact_angle_deg: float, thrust: float) -> Scene:
     )
 
 
+class UnknownPresetError(KeyError):
+    """A name that no preset has; its words name those that there are."""
+
+    def __str__(self) -> str:
+        """The words themselves: a KeyError would put them in quotes."""
+        return str(self.args[0])
+
+
 class _Presets(Mapping[str, Scene]):
     """Scenes by name, each made when it is first asked for.
 
@@ -81,6 +89,9 @@ class _Presets(Mapping[str, Scene]):
         self._made: dict[str, Scene] = {}
 
     def __getitem__(self, name: str) -> Scene:
+        if name not in self._makers:
+            known = ", ".join(self._makers)
+            raise UnknownPresetError(f"there is no preset {name!r}; there are {known}")
         if name not in self._made:
             self._made[name] = self._makers[name]()
         return self._made[name]

@@ -18,6 +18,7 @@ from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import CONTACT_LAWS, EDGES, RACES, Defect, RoughFloor, presets
+from bearingcore.model.scene import BALLS
 
 FAN_RIG = presets["fan-rig"]
 
@@ -26,6 +27,7 @@ def test_every_option_of_the_core_can_be_chosen() -> None:
     assert CHOICES["race"].names == RACES
     assert CHOICES["edge"].names == EDGES
     assert CHOICES["law"].names == CONTACT_LAWS
+    assert CHOICES["balls"].names == BALLS
     assert CHOICES["preset"].names == tuple(presets)
 
 
@@ -65,6 +67,7 @@ def test_a_scene_has_what_it_was_made_with() -> None:
         "edge": "exact",
         "floor": "rough",
         "law": "no tension",
+        "balls": "massless",
         "numbers": "direct",
     }
     assert chosen_of(scene)["race"] == "outer"

@@ -1,6 +1,7 @@
 """From what a person gives to a Scene, and what is refused on the way."""
 
 import math
+import re
 
 import pytest
 from bearing_explorer.state.quantities import (
@@ -8,6 +9,7 @@ from bearing_explorer.state.quantities import (
     in_si,
     limits_of,
     read,
+    refusal,
     scene_with_fields,
     values_of,
 )
@@ -72,9 +74,9 @@ def test_a_true_minus_sign_is_a_minus_sign() -> None:
     ],
 )
 def test_what_is_refused_gets_a_sentence(given: object, sentence: str) -> None:
-    with pytest.raises(ValueError, match=r"extent goes from") as refusal:
+    with pytest.raises(ValueError, match=r"extent goes from") as found:
         read("extent_deg", given, limits_of(presets["fan-rig"]))
-    assert str(refusal.value) == sentence
+    assert str(found.value) == sentence
 
 
 def test_units_stand_where_they_belong() -> None:
@@ -94,3 +96,26 @@ def test_limits_hold_numbers_that_computers_hardly_hold(value: float) -> None:
     editor = SceneEditor("fan-rig")
     editor.set({"shaft_speed_hz": value, "poisson": value})
     assert all(limits.least < limits.most for limits in editor.limits.values())
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"shaft_speed": -1.0}, ("shaft speed is −0.15915 Hz", "0 Hz")),
+        ({"depth": 0.01}, ("depth is 10000 µm", "µm", "the ball radius")),
+        ({"extent": 7.0}, ("extent is 401.07°", "360°")),
+        ({"radial_clearance": -1e-6}, ("radial clearance is −1 µm", "0 µm")),
+        ({"pitch_diameter": 1e-3}, ("pitch diameter", "mm")),
+        ({"outer_groove_radius": 3e-3}, ("outer groove radius is 3 mm", "mm")),
+    ],
+)
+def test_what_the_core_refuses_is_said_in_the_units_of_the_page(
+    change: dict[str, float], words: tuple[str, ...]
+) -> None:
+    with pytest.raises(ValueError, match=" is ") as refused:
+        presets["6205"].replace(**change)
+    said = refusal(refused.value)
+    for part in words:
+        assert part in said, said
+    assert not re.search(r"\d ?(m|rad|rad/s)\b", said), said
+    assert "_" not in said

@@ -184,7 +184,7 @@ def test_too_quiet_a_simulation_is_called_so():
 @pytest.mark.parametrize(
     ("words", "value", "said"),
     [
-        (part_words.percent, 0.99, "above 98 %"),
+        (part_words.percent, 0.98, "98 %"),
         (part_words.percent, 0.93, "93 %"),
         (part_words.percent, 0.001, "below 1 %"),
         (part_words.chance, 1e-9, "below 0.01 %"),

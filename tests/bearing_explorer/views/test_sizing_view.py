@@ -32,7 +32,7 @@ from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
 from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, status, told
-from bearing_explorer.widgets.candidates import percent, rows
+from bearing_explorer.widgets.candidates import rows
 from scipy.io import wavfile
 
 from bearingcore import Recording, Spectrum, presets
@@ -260,9 +260,6 @@ def test_candidates_are_listed_with_the_truth_at_the_nearest(sized):
     best = max(listed, key=lambda row: row["probability"])
     assert best["truth"] == "12.9°"
     assert re.fullmatch(r"0 × 25\.7° \+ 12\.[89]°|0 × 25\.7° \+ 13\.0°", best["made_of"])
-    assert percent(0.9999) == "> 99 %"
-    assert percent(0.001) == "< 1 %"
-    assert percent(0.25) == "25 %"
 
 
 def test_what_was_measured_stays_put_while_candidates_are_looked_at(sized):

@@ -1,8 +1,20 @@
 """The line under the page: how the newest answer went."""
 
+import math
+import re
+
+import numpy as np
 import pytest
 from bearing_explorer.compute.results import Results
-from bearing_explorer.widgets.status import scientific, status_of
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.bearing import BearingDrawing
+from bearing_explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.views.maps import StiffnessMaps
+from bearing_explorer.views.modes import NaturalFrequencies
+from bearing_explorer.views.orbit import SteadyOrbit
+from bearing_explorer.views.stiffness import Stiffness
+from bearing_explorer.widgets.status import status_of
 
 from bearingcore import presets
 
@@ -22,7 +34,32 @@ def test_the_status_line_says_what_happened() -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(0.0, "0"), (3.2e-12, "3·10⁻¹²"), (1e-6, "1·10⁻⁶"), (4e3, "4·10³")]
+    ("hertz", "mood", "words"),
+    [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: the period doubles")],
 )
-def test_small_numbers_are_written_as_people_write_them(value: float, text: str) -> None:
-    assert scientific(value) == text
+def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words: str) -> None:
+    """An orbit that no machine stays on is not "Converged", though its static states are."""
+    rig = presets["fan-rig"].replace(contact_damping=130.0, shaft_speed=2.0 * math.pi * hertz)
+    results = Results(rig)
+    line = status_of(results, 0.0, SteadyOrbit.needs)
+    assert (line["mood"], line["words"]) == (mood, words)
+    assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Converged"
+
+
+def test_a_motion_that_breaks_off_is_not_converged() -> None:
+    by_hand = Results(presets["fan-rig"], settings=Settings(step_rate=1024.0, duration=0.2))
+    line = status_of(by_hand, 0.0, frozenset({"motion"}))
+    assert line["mood"] == "bad"
+    assert "diverged after" in line["words"]
+
+
+def test_two_balls_have_the_same_answer_everywhere() -> None:
+    """Where the ring is free to move aside no view names a state, nor frequencies of one."""
+    scene = presets["fan-rig"].replace(n_balls=2)
+    results = Results(scene, 0.3)
+    assert not results.equilibrium.converged.any()
+    assert not np.isfinite(results.modes.frequency).any()
+    for view in (BearingDrawing, LoadDistribution, Stiffness, NaturalFrequencies, StiffnessMaps):
+        words = view(PackedSource()).sentence(results).lower()
+        assert re.search("no (static|equilibrium|load distribution|answer)|not", words), words
+        assert status_of(results, 0.0, view.needs)["words"].startswith("No answer")

@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Limit, Scene, equilibrium, limits, presets, simulate
-from bearingcore.statics.validity import STATIC_PRESSURE, centrifugal_force, usual_shoulder_height
+from bearingcore.statics.validity import (
+    STATIC_PRESSURE,
+    centrifugal_force,
+    looked_at,
+    summary,
+    usual_shoulder_height,
+)
 
 HEALTHY_6205 = presets["6205"].healthy()
 TURN = np.linspace(0.0, 2.0 * math.pi, 181)
@@ -150,6 +156,46 @@ def test_overload_is_told_in_pressure_and_in_compression() -> None:
     assert {INNER, OUTER, "compression against groove centre distance"} <= crossed
 
 
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_the_verdict_is_that_of_a_much_finer_look(race: str) -> None:
+    """Twice as fine changes no verdict and no number by more than a hundredth."""
+    scene = presets["6205"].replace(race=race, extent=0.5)
+    angles = looked_at(scene)
+    finer = np.linspace(angles[0], angles[-1], 2 * angles.size - 1)
+    for one, other in zip(limits(scene), limits(scene, equilibrium(scene, finer)), strict=True):
+        assert one.crossed == other.crossed
+        if not math.isnan(one.value):
+            assert one.value == pytest.approx(other.value, rel=0.01)
+
+
+def test_loads_in_motion_count_where_they_are_known() -> None:
+    names = ("contact pressure in motion", "compression in motion")
+    scene = presets["6205"]
+    for name in names:
+        unknown = found(scene, name)
+        assert math.isnan(unknown.value)
+        assert "no motion of this scene has been simulated" in unknown.sentence
+    still = scene.replace(shaft_speed=0.0)
+    assert not {one.name for one in limits(still)} & set(names)
+    motion = simulate(scene, duration=0.1)
+    load = float(motion.ball_loads().max())
+    moving = found(scene, names[0], dynamic_load=load)
+    expected = float(scene.bearing.race_contact("inner").greatest_pressure(load))
+    assert moving.value == pytest.approx(expected)
+    assert found(scene, names[0], dynamic_load=50e3).crossed
+    assert found(scene, names[1], dynamic_load=50e3).crossed
+
+
+def test_the_summary_counts_all_three_kinds() -> None:
+    known = limits(presets["6205"], dynamic_load=1.0)
+    assert summary(known) == f"{len(known)} limits kept"
+    assert summary(limits(presets["6205"])) == f"{len(known) - 2} limits kept, 2 not known"
+    assert summary(known[:1]) == "1 limit kept"
+    heavy = limits(HEALTHY_6205.replace(fy=-40e3))
+    crossed = sum(limit.crossed for limit in heavy)
+    assert summary(heavy).startswith(f"{crossed} limits crossed, ")
+
+
 def test_tight_grooves_of_the_published_bearing_are_told() -> None:
     """50 µm between the groove centres of a 6 mm ball: 1.4 kN press it up the sides."""
     limit = found(presets["liew-lim"], "compression against groove centre distance")
@@ -230,7 +276,7 @@ def test_each_sentence_holds_its_number(name: str) -> None:
 
 def test_a_state_at_hand_gives_the_same() -> None:
     scene = presets["6206"]
-    assert limits(scene, equilibrium(scene)) == limits(scene)
+    assert limits(scene, equilibrium(scene, looked_at(scene))) == limits(scene)
     with pytest.raises(ValueError, match="equilibrium of another scene"):
         limits(scene, equilibrium(scene.healthy()))
 

@@ -1,0 +1,69 @@
+"""Spectra of the housing without and with the mass of the balls, up to half the sample rate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.wide_spectrum import WideSpectra
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+
+class MassInSpectrum(View):
+    """Power spectral densities along x and y, with the band of the contact resonances."""
+
+    name = "mass-spectrum"
+    title = "Spectrum without and with the mass of the balls"
+    about = (
+        "In colour with the mass of the balls, thin without. Power spectral density of the "
+        "housing's acceleration up to half the sample rate. Shaded: where loaded balls resonate "
+        "between their two contacts. In free flight balls are sensitive to anything: look at "
+        "bands, not at single lines."
+    )
+    needs = frozenset({"ball_mass"})
+
+    def build(self, packed: PackedSource) -> Any:
+        self._spectra = WideSpectra(
+            packed, "mass_spectrum", {"line_color": style.INK, "line_width": 1.0}, True
+        )
+        plots = reversed(self._spectra.plots)
+        return pn.Column(*plots, sizing_mode="stretch_width", margin=0)
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        found = results.ball_mass
+        return self._spectra.data(
+            found.spectra, found.massless_spectra, found.resonances, found.sample_rate
+        )
+
+    def sentence(self, results: Results) -> str:
+        found = results.ball_mass
+        if not found.spectra:
+            return "The simulated motion did not stay finite: there is no spectrum of it."
+        low, high = found.resonances
+        resonance = "No ball carries load, so none resonates between its contacts. "
+        if high > 0.0:
+            above = "" if low < 0.5 * found.sample_rate else ", above what is drawn"
+            resonance = (
+                f"Loaded balls resonate between their contacts at {style.with_prefix(low, 'Hz')} "
+                f"to {style.with_prefix(high, 'Hz')}{above}. "
+            )
+        comparison = results.ball_comparison
+        if comparison is None:
+            return resonance + "Up to which frequency massless balls will do is being looked for."
+        return f"{resonance}{comparison.sentence[0].upper()}{comparison.sentence[1:]}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        found = results.ball_mass
+        table: dict[str, np.ndarray] = {}
+        for name, spectra in (("massless", found.massless_spectra), ("with_mass", found.spectra)):
+            for dof, (frequency, density) in spectra.items():
+                table.setdefault("frequency_hz", frequency)
+                table[f"{name}_density_{dof}_m2_per_s4_per_hz"] = density
+        return table

@@ -1,0 +1,143 @@
+"""Two spectra over each other up to half the sample rate, on a logarithmic frequency axis."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.models import Range1d
+from bokeh.plotting import figure
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources
+
+if TYPE_CHECKING:
+    from bearingcore import Spectrum
+
+FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz", prefixed=True)
+SHOWN = ("x", "y")
+LOWEST = 100.0  # [Hz]
+DEPTH_OF_VIEW = 90.0  # [dB] below the loudest line
+LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
+HEIGHT = 270
+
+_BAND_WORDS = (
+    "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above what is drawn' : ''}`"
+)
+
+
+class WideSpectra:
+    """A figure along x and one along y: one spectrum as a colored line, another beneath or above.
+
+    Parameters
+    ----------
+    packed
+        sends the numbers.
+    name
+        of the sources and ranges.
+    other
+        look of the other line.
+    other_on_top
+        whether it is drawn over the colored one.
+    """
+
+    def __init__(
+        self, packed: PackedSource, name: str, other: dict[str, Any], other_on_top: bool = False
+    ) -> None:
+        self._name = name
+        self._levels = StickyRange(-120.0, -20.0, least_span=60.0)
+        frequency = packed.range(f"{name}_frequency", LOWEST, 32768.0)
+        level = packed.range(f"{name}_level", -120.0, -20.0)
+        lines = packed.source(f"{name}_lines", "frequency", *SHOWN)
+        others = packed.source(f"{name}_others", "frequency", *SHOWN)
+        band = packed.source(f"{name}_resonance", "low", "high", "above", "label_at")
+        #: along x and along y
+        self.plots: list[figure] = []
+        for dof in SHOWN:
+            plot = style.house_figure(
+                FREQUENCY,
+                style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+                frequency,
+                level,
+                height=HEIGHT,
+                x_axis_type="log",
+                name=f"{name}_{dof}",
+            )
+            plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
+            plot.xaxis[0].axis_label = FREQUENCY.words
+            plot.xgrid[0].minor_grid_line_color = style.GRID
+            plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
+            plot.vstrip("low", "high", source=band, fill_color=style.DEFECT, fill_alpha=0.22,
+                        line_color=None)  # fmt: skip
+            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+            both = [
+                (others, {"line_color": style.HEALTHY, "line_width": 1.5, **other}),
+                (lines, {"line_color": color, "line_width": 1.6}),
+            ]
+            for source, look in reversed(both) if other_on_top else both:
+                plot.line("frequency", dof, source=source, **look)
+            plot.text(
+                "label_at", 0.06, y_range_name="rows", text=style.words_of(band, _BAND_WORDS),
+                source=band, text_align="right", text_baseline="middle",
+                text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
+                text_color=style.INK, background_fill_color="white", background_fill_alpha=0.85,
+                level="annotation",
+            )  # fmt: skip
+            self.plots.append(plot)
+
+    def nothing(self) -> Sources:
+        """Columns while nobody sees the figures."""
+        empty = np.zeros(0)
+        lines = dict.fromkeys(("frequency", *SHOWN), empty)
+        band = dict.fromkeys(("low", "high", "above", "label_at"), empty)
+        name = self._name
+        return {f"{name}_lines": lines, f"{name}_others": lines, f"{name}_resonance": band}
+
+    def data(
+        self,
+        spectra: dict[str, Spectrum],
+        others: dict[str, Spectrum],
+        resonances: tuple[float, float],
+        sample_rate: float,
+    ) -> tuple[Sources, Ranges]:
+        """What to send: spectra by direction, and the band of the contact resonances [Hz]."""
+        top = 0.5 * sample_rate
+        sources = self.nothing()
+        name = self._name
+        sources[f"{name}_lines"] = wide_levels(spectra, top)
+        sources[f"{name}_others"] = wide_levels(others, top)
+        low, high = resonances
+        if high > 0.0:
+            above = low >= top
+            sources[f"{name}_resonance"] = {
+                "low": np.array([low]),
+                "high": np.array([high]),
+                "above": np.array([float(above)]),
+                "label_at": np.array([0.97 * min(low, top)]),
+            }
+        drawn = [sources[f"{name}_{which}"] for which in ("lines", "others")]
+        levels = np.concatenate([lines[dof] for lines in drawn for dof in SHOWN])
+        loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))
+        fitted = self._levels.fit(np.maximum(levels, loudest - DEPTH_OF_VIEW), loudest + 6.0)
+        return sources, {f"{name}_frequency": (LOWEST, top), f"{name}_level": fitted}
+
+
+def wide_levels(spectra: dict[str, Spectrum], top: float) -> dict[str, np.ndarray]:
+    """Levels [dB] of the directions from LOWEST to `top` [Hz]; NaN for one that is not free."""
+    if not spectra:
+        return {name: np.zeros(0) for name in ("frequency", *SHOWN)}
+    frequency = next(iter(spectra.values())).frequency
+    # the last line is that of half the sample rate, of which a spectrum has half
+    kept = (frequency >= LOWEST) & (frequency < top)
+    missing = np.full(int(kept.sum()), np.nan)
+    return {
+        "frequency": frequency[kept],
+        **{
+            dof: 10.0 * np.log10(np.maximum(spectra[dof].density[kept], 1e-20))
+            if dof in spectra
+            else missing
+            for dof in SHOWN
+        },
+    }

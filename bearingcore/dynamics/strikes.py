@@ -1,0 +1,76 @@
+"""Balls with mass between their races: when they fly free, and when and how hard they strike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A ball that touches neither race from `begin` to `end` [s], counted from 0."""
+
+    ball: int
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Strike:
+    """A ball that comes down onto a race it did not touch.
+
+    `time` [s] is that of the first touch, `load` [N] the greatest of the contact until it opens
+    again, `peak` [s] when that is reached.
+    """
+
+    ball: int
+    race: str
+    time: float
+    load: float
+    peak: float
+
+
+def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
+    """Free flights of balls with loads (2, n, N_b) [N] at inner and outer race, times (n,) [s].
+
+    As `Motion.race_loads` gives them. A flight that is under way at an end is cut there.
+    """
+    free = np.asarray((loads <= 0.0).all(axis=0))
+    return tuple(
+        Flight(ball, float(time[first]), float(time[last]))
+        for ball in range(free.shape[1])
+        for first, last in _stretches(free[:, ball])
+    )
+
+
+def strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
+    """All strikes of balls with such loads, in the order of time.
+
+    A contact that is closed at the first time has not been seen to strike.
+    """
+    found = []
+    for index, race in enumerate(RACES_OF_LOADS):
+        for ball in range(loads.shape[2]):
+            load = loads[index, :, ball]
+            for first, last in _stretches(load > 0.0):
+                if first == 0:
+                    continue
+                peak = first + int(np.argmax(load[first : last + 1]))
+                found.append(
+                    Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
+                )
+    return tuple(sorted(found, key=lambda strike: (strike.time, strike.ball)))
+
+
+RACES_OF_LOADS = ("inner", "outer")
+"""In the order in which loads stand."""
+
+
+def _stretches(which: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and last index of each run of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], which.astype(np.int8), [0]])))
+    return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]

@@ -206,14 +206,15 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
-        self._last_state = LastState(self.editor.scene)
         self._reporting = False
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
-        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self._open_lesson()
+        self._last_state = LastState(self.editor.scene)
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
+        self._show_share()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )

@@ -395,9 +395,11 @@ def test_the_projector_has_large_type_and_fewer_controls(
     page.goto(f"{explorer.url}?lesson=what-a-ball-carries")
     page.wait_for_function("window.__frames >= 1")
     settle(page)
-    size = "getComputedStyle(document.querySelector('.lesson-place')).getPropertyValue('--lesson-type')"
+    size = """() => getComputedStyle(document.querySelector(".lesson-place"))
+      .getPropertyValue("--lesson-type")"""
     assert page.evaluate(size) == ""
-    labels = """() => [...Bokeh.documents[0]._all_models.values()].filter(m => m.type == "LinearAxis")
+    labels = """() => [...Bokeh.documents[0]._all_models.values()]
+      .filter(m => m.type == "LinearAxis")
       .map(m => parseFloat(m.axis_label_text_font_size))"""
     before = page.evaluate(labels)
     page.get_by_role("button", name="Projector").click()

@@ -117,7 +117,7 @@ _TURNING = (
         "Hz",
         2.0 * math.pi,
         "Turning",
-        "Scheduler of the shaft a second. Static answers do not depend on it.",
+        "Turns of the shaft a second. Static answers do not depend on it.",
     ),
     Quantity(
         CAGE_ANGLE,

@@ -115,8 +115,8 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             hertz(bearing.bpfi(speed)),
             "How often a point of the inner race meets a ball.",
         ),
-        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Scheduler of the cage a second."),
-        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Scheduler of a ball about itself."),
+        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
+        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Turns of a ball about itself a second."),
         (
             "Free contact angle",
             "α<sub>f</sub>",

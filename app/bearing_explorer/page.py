@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import logging
 from functools import cache
 from pathlib import Path
@@ -34,6 +35,11 @@ from bearing_explorer.views.mechanism import WhichMechanism
 from bearing_explorer.views.model_editor import ModelEditor
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.orbit import SteadyOrbit
+from bearing_explorer.views.overview.bands import OverviewBands
+from bearing_explorer.views.overview.bearing import OverviewBearing
+from bearing_explorer.views.overview.change import LastChange
+from bearing_explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.views.overview.stiffness import OverviewStiffness
 from bearing_explorer.views.plan import PlanInFull
 from bearing_explorer.views.sizing import DefectSize
 from bearing_explorer.views.speed_run import SpeedRunSpectra
@@ -46,23 +52,29 @@ from bearing_explorer.views.vibration_time import VibrationInTime
 log = logging.getLogger(__name__)
 
 SECTIONS = (
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile), "At rest"),
+    Section(
+        "overview",
+        "Overview",
+        (OverviewBearing, LastChange, OverviewStiffness, OverviewBands, OverviewSpectrum),
+        "Understand",
+    ),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
-    Section("modes", "Natural frequencies", (NaturalFrequencies,)),
-    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra), "In motion"),
+    Section("explore", "Explore", (ExplorePlane,)),
+    Section("modes", "Frequencies", (NaturalFrequencies,), "Dynamics"),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
     Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("explore", "Explore", (ExplorePlane,), "Tools"),
+    Section("bearing", "Bearing", (BearingEditor,), "My machine"),
+    Section("model", "Model", (ModelEditor, DofDifferences)),
     Section(
         "diagnosis",
         "Diagnosis",
         (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
     ),
-    Section("accuracy", "Accuracy", (PlanInFull, Accuracy)),
-    Section("bearing", "Bearing", (BearingEditor,), "Numbers"),
-    Section("model", "Model", (ModelEditor, DofDifferences)),
+    Section("accuracy", "Accuracy", (PlanInFull, Accuracy), "How sure"),
 )
 """The tabs; a group goes on until the next begins.
 
@@ -81,6 +93,9 @@ def address() -> str:
     given = pn.state.session_args or {}
     return urlencode([(name, value) for name, values in given.items() for value in values])
 
+
+PYTHON_INSTALL = "pip install ."
+"""What the page says of how to install it."""
 
 TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
 """Names of the tabs and of their views, as lessons speak of them."""
@@ -102,6 +117,8 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())
     template.add_variable("theme_script", asset_text("theme.js"))
+    template.add_variable("python_install", PYTHON_INSTALL)
+    template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
     template.add_variable("page_script", scripts("projector.js", "page.js"))
     template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)

@@ -30,6 +30,7 @@ from bearing_explorer.server.live import good_byes, one_message, send_at_once
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
+from bearing_explorer.state.last_state import LastState
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.quantities import Values, in_page_words
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
@@ -94,7 +95,8 @@ class Inputs:
     `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
     computed. When the hand has `rested` it is drawn by the plans of what is `planned`, after a long
     search where it `seeks_orbit`, and once more after it `compares_balls` with and without mass.
-    Until all is `compiled` some of it cannot be drawn.
+    Until all is `compiled` some of it cannot be drawn. `before` is the scene before the last
+    change.
     """
 
     scene: Scene
@@ -108,6 +110,7 @@ class Inputs:
     seeks_orbit: bool = False
     compares_balls: bool = False
     compiled: bool = True
+    before: Scene | None = None
 
     @property
     def kind(self) -> Hashable:
@@ -139,6 +142,7 @@ class Inputs:
             moving=not self.rested,
             planned=self.planned,
             pinned=self.pinned,
+            before=self.before,
         )
 
 
@@ -192,7 +196,11 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
+        self._last_state = LastState(self.editor.scene)
         self._reporting = False
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self._open_lesson()
@@ -202,12 +210,11 @@ class Explorer:
         self.measurement.change_scene = self._asked
         self.controls = Controls(self._asked, state=self.editor.state())
         self._panels: list[Rows] = [self.controls]
-        one_line = ["one-line"]
-        self.status = StatusLine(sizing_mode="stretch_width", margin=0, css_classes=one_line)
+        self.status = StatusLine(
+            folded=True, sizing_mode="stretch_width", margin=0, css_classes=["one-line"]
+        )
         self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
         self._on_screen = ""
         self.tabs = Tabs(
             self._tab_asked,
@@ -236,6 +243,7 @@ class Explorer:
             self.editor.focus,
             self._settings,
             pinned=self.bookmarks.pinned,
+            before=self._last_state.before,
         )
 
     @property
@@ -265,6 +273,7 @@ class Explorer:
 
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""
+        self._last_state.follow(self.scene, self.bookmarks.moving)
         inputs, section = self.inputs, self._sections[self._shown]
         rested = dataclasses.replace(
             inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit
@@ -548,7 +557,7 @@ class Explorer:
 
         if quick or not slow:
             inputs, results, picture = await self._scheduler.run(
-                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick, started
+                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick
             )
             await self._assign(results, picture, None if slow else inputs.mark)
         else:
@@ -556,19 +565,19 @@ class Explorer:
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await self._scheduler.run_slow(_picture, results, slow, started, limits)
+            picture = await self._scheduler.run_slow(_picture, results, slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
 
     def _quick_picture(
-        self, inputs: Inputs, views: Sequence[View], started: float
+        self, inputs: Inputs, views: Sequence[View]
     ) -> tuple[Inputs, Results, Picture]:
         """A picture of the newest inputs: others may have waited for their turn too."""
         inputs = self._worker.newest(inputs)
         results = inputs.results
-        return inputs, results, _picture(results, views, started, self._limits_due(inputs))
+        return inputs, results, _picture(results, views, self._limits_due(inputs))
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()
@@ -615,15 +624,15 @@ class Explorer:
         await one_message(self._doc, change)
 
 
-def _picture(
-    results: Results, views: Sequence[View], started: float, limits: bool = False
-) -> Picture:
+def _picture(results: Results, views: Sequence[View], limits: bool = False) -> Picture:
     """Compute what the views need and have them say it, and what `limits` of the model say."""
     shown = frozenset[str]().union(*(view.needs for view in views))
+    before = time.thread_time()  # of this thread alone: waiting is no cost
     results.begin(shown)
     drawings = [_drawing(results, view) for view in views]
-    status = status_of(results, time.perf_counter() - started, shown)
-    return Picture(drawings, status, results.limits if limits else None)
+    checked = results.limits if limits else None
+    results.costs.append(time.thread_time() - before)
+    return Picture(drawings, status_of(results, sum(results.costs), shown), checked)
 
 
 def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:

@@ -1,5 +1,5 @@
-// Head of a view: title, what it shows, and the figure as files: pictures, numbers, Python; the
-// numbers as a table to read, too.
+// Head of a view: title, what it shows in a line and the rest behind "?", and a menu to take the figure
+// along: pictures, numbers, Python; the numbers as a table to read, too.
 
 const MOST_ROWS = 300  // of a table on the page; the file has all
 const UNITS = [
@@ -31,21 +31,20 @@ const csv_rows = (text) => text.trimEnd().split("\n").map((line) =>
 
 export function render({ model }) {
   const file = (ending) => `bearing-${model.name_of_files}.${ending}`
-  const button = (words, what, act) => {
-    const made = element("button", { type: "button", class: `save-${words.toLowerCase()}`, title: what,
-                                  "aria-label": `“${model.title}”: ${what}` }, words)
+  const item = (name, words, act) => {
+    const made = element("button", { type: "button", class: `save-${name}` }, words)
     made.addEventListener("click", act)
     return made
   }
   // Bokeh's figures, or the drawing that the view has instead.
   const views = () => model.picture
-    ? [drawing_of(find_deep(files.getRootNode().host.getRootNode(), "svg.picture"))]
+    ? [drawing_of(find_deep(opener.getRootNode().host.getRootNode(), "svg.picture"))]
     : figures_on_screen(model.figures)
   const failed = (error) => console.warn("the figure could not be saved", error)
   const pictures = [
-    button("PNG", `save the picture (${file("png")})`, () =>
+    item("png", "Picture (PNG)", () =>
       figures_as_png(views()).then((blob) => save_file(file("png"), blob), failed)),
-    button("SVG", `save the picture as a drawing (${file("svg")})`, () =>
+    item("svg", "Drawing (SVG)", () =>
       save_file(file("svg"), figures_as_svg(views(), model.title), "image/svg+xml")),
   ]
   const offer = () => { for (const one of pictures) one.hidden = !(model.figures.length || model.picture) }
@@ -56,9 +55,12 @@ export function render({ model }) {
     wanted = what
     model.send_msg("csv")
   }
-  const numbers = button("CSV", `save the numbers (${file("csv")})`, () => ask("file"))
-  const table = button("Table", "show the numbers", () => ask("table"))
-  const python = button("Python", "show the lines of Python that make it", () => model.send_msg("python"))
+  const numbers = item("csv", "Numbers (CSV)", () => ask("file"))
+  const table = item("table", "Numbers as a table", () => ask("table"))
+  const has_numbers = () => { for (const one of [numbers, table]) one.disabled = model.empty }
+  model.on("empty", has_numbers)
+  has_numbers()
+  const python = item("python", "Lines of Python", () => model.send_msg("python"))
 
   // The lines, to be copied or saved
   const code = element("pre", { tabindex: "0", "aria-label": "Lines of Python" })
@@ -114,8 +116,6 @@ export function render({ model }) {
       copy.focus()
     }
   })
-  const files = element("div", { class: "files", role: "group", "aria-label": `“${model.title}” as files` },
-    ...pictures, numbers, table, python)
   const grey = element("p", { class: "grey" })
   const show_pinned = () => {
     grey.hidden = !model.pinned
@@ -123,7 +123,35 @@ export function render({ model }) {
   }
   model.on("pinned", show_pinned)
   show_pinned()
-  const words = element("div", { class: "words" }, element("h2", {}, model.title),
-    element("p", {}, model.about), grey)
-  return element("header", {}, words, files, dialog, table_dialog)
+
+  const rest = element("p", { class: "rest", id: "rest" }, model.rest)
+  const help = element("button", { type: "button", class: "help", "aria-controls": "rest",
+                                   "aria-label": `More about “${model.title}”` }, "?")
+  const explain = (shown) => {
+    rest.hidden = !shown
+    help.setAttribute("aria-expanded", String(shown))
+  }
+  help.addEventListener("click", () => explain(rest.hidden))
+  help.hidden = !model.rest
+  explain(false)
+  const title = element("h2", {}, model.title)
+  if (model.leads_to) {
+    const lead = element("button", { type: "button", class: "lead", title: "Open it in full" }, model.title)
+    lead.addEventListener("click", () =>
+      window.dispatchEvent(new CustomEvent("explorer-show", { detail: model.leads_to })))
+    title.replaceChildren(lead)
+  }
+  const head = element("div", { class: "title" }, title, help)
+  if (model.compact) {  // all there is to say is behind the "?"
+    rest.textContent = `${model.line} ${model.rest}`
+    help.hidden = false
+    return element("header", { class: "compact" }, element("div", { class: "words" }, head, rest, grey))
+  }
+  const words = element("div", { class: "words" }, head, element("p", { class: "line" }, model.line), rest, grey)
+
+  const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
+                                     "aria-label": `Export “${model.title}”` }, "Export")
+  const menu = menu_of([...pictures, numbers, table, python], { class: "menu", "aria-label": `Export “${model.title}”` })
+  opens_below(opener, menu, 190)
+  return element("header", {}, words, opener, menu, dialog, table_dialog)
 }

@@ -23,6 +23,62 @@
   window.addEventListener("explorer-theme", show_theme)
   show_theme()
 
+  // The first visit: what this is, and three ways in. Whoever has closed it finds it behind "?".
+  const main = document.querySelector("main")
+  const welcome = document.getElementById("welcome")
+  const what = document.getElementById("welcome-button")
+  const python = document.getElementById("python-door")
+  const WELCOMED = "bearing-explorer.welcomed"
+  const welcomed = () => { try { return localStorage.getItem(WELCOMED) !== null } catch { return false } }
+  let greet = !welcomed()
+  const room = () => {
+    const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.offsetHeight + 10)
+    root.style.setProperty("--room", `${height}px`)
+  }
+  const show_welcome = () => {
+    welcome.hidden = !greet || root.dataset.tab !== "overview"
+    what.setAttribute("aria-expanded", String(!welcome.hidden))
+    room()
+  }
+  const end_welcome = () => {
+    greet = false
+    try { localStorage.setItem(WELCOMED, "1") } catch { /* for this page only */ }
+    show_welcome()
+  }
+  const doors = {
+    close: () => { end_welcome(); what.focus() },
+    lessons: () => {
+      end_welcome()
+      window.dispatchEvent(new CustomEvent("explorer-lessons", { detail: "first" }))
+    },
+    bearing: () => { end_welcome(); window.dispatchEvent(new CustomEvent("explorer-show", { detail: "bearing" })) },
+    python: () => python.showModal(),
+  }
+  for (const door of welcome.querySelectorAll("[data-door]"))
+    door.addEventListener("click", doors[door.dataset.door])
+  what.addEventListener("click", () => {
+    if (!welcome.hidden) return doors.close()
+    greet = true
+    if (root.dataset.tab === "overview") show_welcome()
+    else window.dispatchEvent(new CustomEvent("explorer-show", { detail: "overview" }))
+  })
+  python.querySelector(".close").addEventListener("click", () => python.close())
+  python.addEventListener("click", (event) => { if (event.target === python) python.close() })
+  window.addEventListener("explorer-tab", show_welcome)
+  new ResizeObserver(room).observe(main)
+  new ResizeObserver(room).observe(welcome)
+
+  // A tab that is asked for is built on the server, which may take a while: say so at once.
+  const waiting = document.getElementById("waiting")
+  const wait_for = (words) => {
+    main.toggleAttribute("data-waiting", words !== "")
+    main.setAttribute("aria-busy", String(words !== ""))
+    waiting.textContent = words
+  }
+  window.addEventListener("explorer-asked", (event) => wait_for(`${event.detail} is being built …`))
+  window.addEventListener("explorer-tab", () => wait_for("Computing …"))
+  window.addEventListener("explorer-drawn", () => { if (main.hasAttribute("data-waiting")) wait_for("") })
+
   // Figures come and go with their tabs, each inside the shadow of another.
   const inside = function* (where) {
     for (const element of where.querySelectorAll("*")) {
@@ -96,6 +152,7 @@
     keep_styles()
     follow()
     let shown = root.dataset.tab
+    show_welcome()
     window.addEventListener("explorer-tab", (event) => {
       if (shown === event.detail) return
       shown = event.detail

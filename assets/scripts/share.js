@@ -41,24 +41,8 @@ export function render({ model }) {
     const panel = element("div", { class: `menu menu-${name}`, popover: "auto", id: `share-${name}`,
                                 role: "dialog", "aria-label": title }, ...children)
     const opener = button(words, title, null,
-                          { class: "opener", "aria-haspopup": "dialog", "aria-expanded": "false" })
-    opener.addEventListener("click", () => panel.togglePopover({ source: opener }))
-    panel.addEventListener("beforetoggle", (event) => {
-      opener.setAttribute("aria-expanded", String(event.newState === "open"))
-      if (event.newState !== "open") return
-      const box = opener.getBoundingClientRect()
-      const width = Math.min(340, innerWidth - 16)
-      panel.style.width = `${width}px`
-      panel.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`
-      const below = innerHeight - box.bottom > 320 || box.top < innerHeight / 2
-      panel.style.top = below ? `${box.bottom + 6}px` : "auto"
-      panel.style.bottom = below ? "auto" : `${innerHeight - box.top + 6}px`
-      panel.style.maxHeight = `${(below ? innerHeight - box.bottom : box.top) - 20}px`
-    })
-    panel.addEventListener("toggle", (event) => {
-      if (event.newState === "open") panel.querySelector("input, button")?.focus()
-      else if (panel.contains(root.getRootNode().activeElement)) opener.focus()
-    })
+                          { class: "opener", "aria-haspopup": "dialog" })
+    opens_below(opener, panel, 340)
     return { opener, panel }
   }
 
@@ -144,7 +128,7 @@ export function render({ model }) {
   const download = menu("Download", "Save and load files", "download", report, toml,
     element("label", { for: "share-file" }, "Load a scene from a TOML file"), file,
     element("p", { class: "note" },
-         "Above each figure are its picture (PNG, SVG), its numbers (CSV) and its lines of Python."))
+         "“Export” above each figure has its picture (PNG, SVG), its numbers (CSV) and its lines of Python."))
 
   // What happened, in a sentence
   const words = element("p", { role: "status" })

@@ -1,17 +1,35 @@
-// The status line. The chip says in words what its colour says.
+// The status line. The chip says in words what its colour says; where the line is folded, all else
+// opens above it when asked for.
 export function render({ model }) {
-  const line = document.createElement("div")
-  const chip = document.createElement("strong")
-  const rest = document.createElement("span")
-  line.setAttribute("role", "status")
-  line.className = "line"
-  line.append(chip, rest)
+  const chip = element("strong")
+  const rest = element("span")
+  const more = element("button", { type: "button", class: "more", "aria-expanded": "false",
+                                   "aria-controls": "status-list" }, "Details")
+  const list = element("ul", { id: "status-list", class: "list", "aria-label": "How it was computed" })
+  list.hidden = true
+  // of a folded line only the chip is live: nobody wants to hear each residual
+  const line = model.folded ? element("div", { class: "line" }, chip, more, list)
+    : element("div", { class: "line", role: "status" }, chip, rest)
+  if (model.folded) chip.setAttribute("role", "status")
+  const open = (shown) => {
+    list.hidden = !shown
+    more.setAttribute("aria-expanded", String(shown))
+  }
+  more.addEventListener("click", () => open(list.hidden))
+  line.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !list.hidden) {
+      open(false)
+      more.focus()
+    }
+  })
   const write = () => {
     const { mood, words, details } = model.line
     line.dataset.mood = mood
     if (chip.textContent !== words) chip.textContent = words
-    rest.textContent = details.join("  ·  ")
-    rest.title = rest.textContent  // where the line is cut short
+    more.hidden = !details.length
+    if (!details.length) open(false)
+    if (model.folded) list.replaceChildren(...details.map((detail) => element("li", {}, detail)))
+    else rest.textContent = details.join("  ·  ")
   }
   model.on("line", write)
   write()

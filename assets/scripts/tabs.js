@@ -1,5 +1,7 @@
 // Tabs in groups, as many rows as they need; where there is little room, a list to choose from.
-// Arrow keys move between tabs, as people who use the keyboard expect.
+// Arrow keys move between tabs, as people who use the keyboard expect. Other scripts ask for a tab by
+// the event "explorer-show" on the window, with its name; "explorer-asked" says that one is on its
+// way, with its title, and "explorer-tab" that it stands.
 export function render({ model }) {
   const show = (name, ask) => {
     for (const tab of tabs) {
@@ -8,8 +10,12 @@ export function render({ model }) {
       tab.tabIndex = chosen ? 0 : -1
     }
     select.value = name
-    if (ask) model.send_msg({ show: name })
+    if (!ask) return
+    model.send_msg({ show: name })
+    if (name !== model.active)
+      window.dispatchEvent(new CustomEvent("explorer-asked", { detail: titles.get(name) }))
   }
+  const titles = new Map(model.names)
   const groups = []
   for (const [name, title, group = ""] of model.names) {
     if (!groups.length || (group && group !== groups.at(-1).group)) groups.push({ group, entries: [] })
@@ -17,7 +23,8 @@ export function render({ model }) {
   }
   const tabs = []
   const list = element("div", { class: "list", role: "tablist", "aria-label": "What to look at" },
-    ...groups.map(({ entries }) => element("div", { class: "group", role: "presentation" },
+    ...groups.map(({ group, entries }) => element("div", { class: "group", role: "presentation" },
+      element("span", { class: "name", "aria-hidden": "true" }, group),
       ...entries.map(([name, title]) => {
         const tab = element("button", { type: "button", class: `tab-${name}`, role: "tab" }, title)
         tab.dataset.name = name
@@ -41,10 +48,18 @@ export function render({ model }) {
     next.focus()
     next.click()
   })
-  model.on("active", () => {
+  const root = document.documentElement
+  const stands = () => {
     show(model.active, false)
+    root.dataset.tab = model.active
     window.dispatchEvent(new CustomEvent("explorer-tab", { detail: model.active }))
-  })
-  show(model.active, false)
+  }
+  model.on("active", stands)
+  const asked = (event) => {
+    if (!list.isConnected) window.removeEventListener("explorer-show", asked)
+    else if (titles.has(event.detail)) show(event.detail, true)
+  }
+  window.addEventListener("explorer-show", asked)
+  stands()
   return element("div", {}, list, select)
 }

@@ -26,6 +26,9 @@ BUDGET = 0.1
 LOWEST = 300.0
 """[Hz] of the lowest third octave that is compared, the lower end of the paper's band."""
 
+QUIET = 1e-4
+"""Power over the greatest of all bands and directions below which a band does not count."""
+
 SETTLING = 0.12
 """[s] of motion that is left out, several times the slowest mode's decay."""
 
@@ -43,8 +46,8 @@ class BallComparison:
     added : (m, d) [dB]
         what mass adds to the power of the housing's acceleration in each, along x and y.
     massless_up_to
-        [Hz] frequency up to which massless balls are within the budget, in all directions; NaN
-        where they are not even in the lowest third octave.
+        [Hz] frequency up to which massless balls are within the budget wherever there is more power
+        than QUIET of the greatest; NaN where they are not even in the lowest third octave.
     massless_seconds, seconds
         [s] a second of motion takes without and with mass.
     """
@@ -122,7 +125,9 @@ def compare_balls(
             raise checks.refuse("scene", motion.status, f"one that moves with balls {balls}")
         powers.append(band_powers(motion, edges))
     added = 10.0 * np.log10(powers[1] / powers[0])
-    within = np.abs(added).max(axis=1) <= budget
+    loudest = max(float(power.max(initial=0.0)) for power in powers)
+    counts = np.maximum(*powers) > QUIET * loudest
+    within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
     good = len(within) if within.all() else int(np.argmin(within))
     return BallComparison(
         scene, budget, edges, added, float(edges[good]) if good else math.nan, *seconds

@@ -11,7 +11,7 @@ from bearing_explorer.measurement.diagnoses import answered
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.session import _BROKEN, _drawing
-from bearing_explorer.views.base import View
+from bearing_explorer.views.base import View, first_sentence
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.job_view import JobView
@@ -37,6 +37,20 @@ SCENES = {
 def test_names_are_one_per_page() -> None:
     for names in ([s.name for s in SECTIONS], [view.name for view in VIEWS]):
         assert len(set(names)) == len(names)
+
+
+def test_captions_fit_one_line() -> None:
+    """Of half a laptop's screen; all else is shown when asked for."""
+    lines = {view.name: first_sentence(view.about)[0] for view in VIEWS}
+    assert {name: line for name, line in lines.items() if not 8 < len(line) <= 75} == {}
+
+
+def test_a_caption_is_the_first_sentence() -> None:
+    assert first_sentence("One, 0.5 of it. Two: re 1 (m/s²)². “Three”.") == (
+        "One, 0.5 of it.",
+        "Two: re 1 (m/s²)². “Three”.",
+    )
+    assert first_sentence("Only one.") == ("Only one.", "")
 
 
 @pytest.mark.parametrize("view", VIEWS, ids=lambda view: view.name)

@@ -165,13 +165,13 @@ def differences(notes: Notes) -> int:
     from bearing_explorer.state.scene_editor import SceneEditor
 
     packed = PackedSource()
-    views = [view(packed) for view in SECTIONS[0].views]
+    views = [view(packed) for s in SECTIONS if s.name == "load" for view in s.views]
     wrong = 0
     for values, shown in notes.compared:
         editor = SceneEditor("fan-rig")
         for name, value in values.items():
             editor.set({name: value})
-        picture = _picture(Results(editor.scene, 0.0), views, 0.0)
+        picture = _picture(Results(editor.scene, 0.0), views)
         for drawing in picture.drawings:
             assert drawing.data is not None
             for source, columns in drawing.data[0].items():

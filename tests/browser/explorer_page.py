@@ -112,6 +112,19 @@ def words(page: Page, view: str) -> Locator:
     return page.locator(f".view-{view} form .words")
 
 
+def status(page: Page) -> Locator:
+    """The status line with its details, which are in a list that need not be open."""
+    return page.locator("footer .status .line")
+
+
+def export(view: Locator, what: str) -> Locator:
+    """What takes a view along, ready to be clicked: png, svg, csv, table or python."""
+    item = view.locator(f".save-{what}")
+    if not item.is_visible():
+        view.locator("header .opener").click()
+    return item
+
+
 def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
     """Wait until it is so."""
     end = time.monotonic() + seconds

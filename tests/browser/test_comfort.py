@@ -14,7 +14,7 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.theme import DARK_COLORS
 from playwright.sync_api import Page, ViewportSize, expect
 
-from tests.browser.explorer_page import rest, settle, slider, value
+from tests.browser.explorer_page import export, rest, settle, slider, status, value
 from tests.browser.helpers import Server, Watch, choose_tab
 
 NAMES = [section.name for section in SECTIONS]
@@ -280,7 +280,7 @@ def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer:
     open_page(page, explorer)
     settle(page)
     view = page.locator(".view-bearing")
-    view.get_by_role("button", name="show the numbers").click()
+    export(view, "table").click()
     dialog = view.get_by_role("dialog", name="Numbers of “The bearing”")
     expect(dialog).to_be_visible()
     expect(dialog.locator("thead th")).to_have_text(
@@ -293,7 +293,7 @@ def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer:
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()
     long = page.locator(".view-load-distribution")
-    long.get_by_role("button", name="show the numbers").click()
+    export(long, "table").click()
     expect(long.get_by_role("dialog").locator(".bar span")).to_contain_text("Rows 1 to 300 of")
 
 
@@ -471,7 +471,7 @@ def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server)
             expect(sentence).to_contain_text("Fewest balls carry load at an extent of 63°")
         if number == 8:
             panel.get_by_role("button", name="No load at all").click()
-            expect(page.locator("footer .status [role=status]")).to_contain_text("No answer")
+            expect(status(page)).to_contain_text("No answer")
         if number < len(lessons) - 1:
             panel.get_by_role("button", name="Next lesson").click()
     expect(panel.get_by_role("button", name="Next lesson")).to_be_disabled()

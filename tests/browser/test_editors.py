@@ -18,6 +18,7 @@ from tests.browser.explorer_page import (
     show,
     slider,
     source,
+    status,
 )
 from tests.browser.helpers import Server, Watch, choose_tab, drag
 
@@ -241,7 +242,7 @@ def test_a_floor_from_a_file(watch: tuple[Page, Watch], explorer: Server) -> Non
         expect(words).to_have_class("note bad")
     rest(page)
     assert pixels(page, "depth-profile") == before
-    expect(page.locator("footer .status")).to_contain_text("Converged")
+    expect(status(page)).to_contain_text("Converged")
 
 
 def test_support_and_contact_are_edited(watch: tuple[Page, Watch], explorer: Server) -> None:
@@ -284,7 +285,7 @@ def test_directions_are_forced_and_the_error_shown(
             page.keyboard.press("Space")
             expect(box).not_to_be_checked()
             settle(page)
-    expect(page.locator("footer .status")).to_contain_text("2 degrees of freedom: x y")
+    expect(status(page)).to_contain_text("2 degrees of freedom: x y")
     expect(sentence).to_contain_text("forced on the scene")
     expect(fact(page, "Stiffness up and down")).to_contain_text("%")
     page.get_by_role("button", name="As the scene needs").click()

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.explorer_page import open_page, settle, slider, source, value
+from tests.browser.explorer_page import export, open_page, settle, slider, source, value
 from tests.browser.helpers import Server, Watch, drag
 
 _FIGURES = """
@@ -156,14 +156,14 @@ def test_a_plane_is_explored(watch: tuple[Page, Watch], explorer: Server) -> Non
     expect(page.locator(".view-explore")).to_contain_text("acceleration along y, RMS: least")
 
     with page.expect_download() as saving:
-        page.locator(".view-explore .save-csv").click()
+        export(page.locator(".view-explore"), "csv").click()
     table = saving.value.path().read_text().splitlines()
     assert table[0] == (
         "extent_deg,radial_clearance_um,acceleration_rms_y_m_per_s2,no_answer_because"
     )
 
     with page.expect_download() as saving:
-        page.locator(".view-explore .save-svg").click()
+        export(page.locator(".view-explore"), "svg").click()
     assert saving.value.path().read_text().count("<svg") == 5
 
     # what cannot be is refused in a sentence, and the map stays

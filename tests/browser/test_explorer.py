@@ -22,6 +22,7 @@ from tests.browser.explorer_page import (
     show,
     slider,
     source,
+    status,
     value,
     wait,
 )
@@ -219,18 +220,18 @@ def test_a_load_nothing_can_carry_is_said_in_words(
 ) -> None:
     page, _ = watch
     open_page(page, explorer, "stiffness")
-    status = page.locator("footer .status [role=status]")
-    expect(status).to_contain_text("Converged")
+    line = status(page)
+    expect(line).to_contain_text("Converged")
     # while it moves, and when it rests
-    expect(status).to_have_text(re.compile(r"2 (degrees of freedom: x y|DOF \(x y\))"))
-    expect(status).to_have_text(re.compile(r"residual at most .*10⁻"))
-    expect(status).to_have_text(re.compile(r"\d ms"))
+    expect(line).to_have_text(re.compile(r"2 (degrees of freedom: x y|DOF \(x y\))"))
+    expect(line).to_have_text(re.compile(r"residual at most .*10⁻"))
+    expect(line).to_have_text(re.compile(r"\d ms"))
     number(page, "fy_n").fill("0")
     number(page, "fy_n").press("Enter")
-    expect(status).to_contain_text("No answer")
+    expect(line).to_contain_text("No answer")
     number(page, "fz_n").fill("50")
     number(page, "fz_n").press("Enter")
-    expect(status).to_have_text(
+    expect(line).to_have_text(
         re.compile(r"5 (degrees of freedom: x y z θx θy|DOF \(x y z θx θy\))")
     )
 

@@ -15,7 +15,7 @@ from playwright.sync_api import Page, expect
 
 from bearingcore import STIFFNESS_TERMS, Maps, presets
 from bearingcore.statics.equilibrium import TERM_UNITS
-from tests.browser.explorer_page import open_page, pixels, rest, settle, slider, source
+from tests.browser.explorer_page import export, open_page, pixels, rest, settle, slider, source
 from tests.browser.helpers import Server, Watch, drag, move
 
 LIEW_LIM = presets["liew-lim"]
@@ -166,7 +166,7 @@ def test_the_maps_are_saved_as_numbers(watch: tuple[Page, Watch], explorer: Serv
     page, _ = watch
     open_maps(page, explorer)
     with page.expect_download() as download:
-        page.locator(".view-maps .save-csv").click()
+        export(page.locator(".view-maps"), "csv").click()
     lines = download.value.path().read_text(encoding="utf-8").splitlines()
     assert len(lines) == 1 + 91 * 121
     assert lines[0].startswith("extent_deg,cage_angle_deg,loaded_balls,")

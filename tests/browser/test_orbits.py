@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import (
+    export,
     number,
     open_page,
     pixels,
@@ -88,7 +89,7 @@ def test_a_map_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Se
     assert mark["y"] == [7.5]
 
     with page.expect_download() as saving:
-        page.get_by_role("button", name="“Where the orbit is stable”: save the numbers").click()
+        export(page.locator(".view-stability-map"), "csv").click()
     table = saving.value.path().read_text().splitlines()
     assert table[0] == "shaft_speed_hz,extent_deg,largest_multiplier,outcome,through"
     assert len(table) == 1 + 13 * 13

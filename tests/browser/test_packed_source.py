@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.explorer_page import export
 from tests.browser.helpers import PAGES, Server, Watch, page_server, serving
 
 
@@ -49,6 +50,6 @@ def test_the_numbers_of_a_figure_can_be_saved(
     page.goto(packed_source_page.url)
     page.wait_for_function("window.__mark == 40")
     with page.expect_download() as saving:
-        page.get_by_role("button", name="“A line”: save the numbers").click()
+        export(page.locator(".view-line"), "csv").click()
     assert saving.value.suggested_filename == "bearing-line.csv"
     assert saving.value.path().read_text() == "height_m\n40\n2.5\n"

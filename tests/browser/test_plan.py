@@ -6,7 +6,7 @@ import re
 
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import open_page, rest, settle, show, slider, source, wait
+from tests.browser.explorer_page import open_page, rest, settle, show, slider, source, status, wait
 from tests.browser.helpers import Server, Watch, drag, holding
 
 PLANNED = re.compile(r"this scene: 2 DOF \(x y\), (\d+) cage angles: .*, error 0\.\d+ %")
@@ -36,7 +36,7 @@ def test_the_hand_moves_rests_overrules_and_gives_back(
 ) -> None:
     page, _ = watch
     open_page(page, explorer, "stiffness")
-    status = page.locator("footer .status [role=status]").first
+    line = status(page)
     rest(page)
     footer = page.get_by_role("contentinfo").bounding_box()
 
@@ -49,7 +49,7 @@ def test_the_hand_moves_rests_overrules_and_gives_back(
 
     def moving() -> bool:
         next(hand)
-        return "121 cage angles" in (status.text_content() or "")
+        return "121 cage angles" in (line.text_content() or "")
 
     wait(page, moving)
     pauses = page.evaluate("window.__pauses")
@@ -57,9 +57,9 @@ def test_the_hand_moves_rests_overrules_and_gives_back(
     page.mouse.up()
     rest(page)
     assert page.evaluate("performance.now()") - moved_at > 250
-    expect(status).to_have_text(PLANNED)
+    expect(line).to_have_text(PLANNED)
     assert page.get_by_role("contentinfo").bounding_box() == footer, "the page does not jump"
-    found = PLANNED.search(status.inner_text() or status.text_content() or "")
+    found = PLANNED.search(line.text_content() or "")
     assert found is not None
     # 15 terms with a gap after each, and two points an angle for the loaded balls
     nodes = int(found[1])
@@ -68,19 +68,19 @@ def test_the_hand_moves_rests_overrules_and_gives_back(
     # turning the bearing plans nothing anew
     drag(page, slider(page, "cage_angle_deg"), 0.1, 0.3)
     settle(page)
-    expect(status).to_contain_text(f"{nodes} cage angles")
+    expect(line).to_contain_text(f"{nodes} cage angles")
     assert page.evaluate("window.__resting") is True
 
     opener = page.get_by_role("button", name="Plan", exact=True)
     opener.click()
     expect(page.locator("#plan-list")).to_contain_text("Stiffness this scene: 2 DOF")
     page.get_by_label("Cage angles", exact=True).select_option("61")
-    expect(status).to_contain_text("cage angles set by hand: 61")
+    expect(line).to_contain_text("cage angles set by hand: 61")
     settle(page)
     assert len(source(page, "stiffness_defective")["x"]) == 15 * 62 + 2 * 61 + 1
     back = page.get_by_role("button", name="Automatic again")
     back.click()
-    expect(status).to_have_text(PLANNED)
+    expect(line).to_have_text(PLANNED)
     expect(back).to_be_hidden()
     page.keyboard.press("Escape")
     expect(page.locator("#plan-list")).to_be_hidden()
@@ -90,18 +90,18 @@ def test_the_hand_moves_rests_overrules_and_gives_back(
     page.evaluate("window.__resting = false")
     drag(page, slider(page, "extent_deg"), 0.3, 0.25)
     rest(page)
-    expect(status).to_have_text(re.compile(r"this scene: 2 DOF \(x y\), .* kHz, .* dB; full model"))
+    expect(line).to_have_text(re.compile(r"this scene: 2 DOF \(x y\), .* kHz, .* dB; full model"))
     spectrum = page.locator(".view-vibration-spectrum")
     expect(spectrum).to_contain_text(re.compile("that of (the stable orbit|a marched motion)"))
     opener.click()
     page.get_by_label("Settled vibration").select_option("march")
     expect(spectrum).to_contain_text("that of a marched motion")
-    expect(status).to_contain_text("marched motion set by hand")
+    expect(line).to_contain_text("marched motion set by hand")
     page.get_by_label("Settled vibration").select_option("orbit")
     expect(spectrum).to_contain_text("that of the stable orbit")
-    expect(status).to_have_text(re.compile(r"periodic orbit set by hand.*1 ball pass: "))
+    expect(line).to_have_text(re.compile(r"periodic orbit set by hand.*1 ball pass: "))
     back.click()
-    expect(status).not_to_contain_text("by hand")
+    expect(line).not_to_contain_text("by hand")
 
     show(page, "accuracy")
     rest(page)

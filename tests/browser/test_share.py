@@ -14,7 +14,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from bearingcore import Scene, equilibrium, presets
-from tests.browser.explorer_page import VIEWS, settle, show, slider, source, value
+from tests.browser.explorer_page import VIEWS, export, settle, show, slider, source, value
 from tests.browser.helpers import Server, Watch, drag
 
 LINK = "v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&cage_angle_deg=12.5&tab=stiffness"
@@ -167,7 +167,7 @@ def test_scenes_are_kept_pinned_and_read_back_with_care(
     page.wait_for_function("location.search.includes('preset=6205')")
     settle(page)
     scene = presets["fan-rig"].replace(extent=math.radians(38.6), fy=-120.0)
-    _, text = saved(page, page.locator(".view-stiffness .save-csv"))
+    _, text = saved(page, export(page.locator(".view-stiffness"), "csv"))
     columns = list(csv.DictReader(io.StringIO(text.decode())))
     angle = math.radians(float(columns[3]["pinned_cage_angle_deg"]))
     found = float(columns[3]["pinned_k_yy_n_per_m"])
@@ -186,10 +186,10 @@ def test_everything_can_be_taken_away(watch: tuple[Page, Watch], explorer: Serve
     page, _ = watch
     opened(page, explorer, LINK.replace("stiffness", "load"))
     box = page.locator(".view-load-distribution")
-    _, text = saved(page, box.locator(".save-svg"))
+    _, text = saved(page, export(box, "svg"))
     assert b"Ball load Q (N)" in text
     root = ET.fromstring(text)
-    name, picture = saved(page, box.locator(".save-png"))
+    name, picture = saved(page, export(box, "png"))
     assert name == "bearing-load-distribution.png"
     assert picture.startswith(b"\x89PNG")
     size = struct.unpack(">II", picture[16:24])
@@ -199,16 +199,16 @@ def test_everything_can_be_taken_away(watch: tuple[Page, Watch], explorer: Serve
         show(page, tab)
         for view in (view for view, where in shown.items() if where == tab):
             box = page.locator(f".view-{view}")
-            name, text = saved(page, box.locator(".save-svg"))
+            name, text = saved(page, export(box, "svg"))
             assert name == f"bearing-{view}.svg"
             drawn = ET.fromstring(text)
             assert drawn.tag.endswith("svg")
             assert len(drawn.findall(".//{*}path")) > 12, view
             assert text.count(b"<script") == 0
             if view in ("maps", "bearing-editor"):
-                assert len(saved(page, box.locator(".save-png"))[1]) > 10_000
+                assert len(saved(page, export(box, "png"))[1]) > 10_000
     show(page, "load")
-    page.locator(".view-load-distribution .save-python").click()
+    export(page.locator(".view-load-distribution"), "python").click()
     lines = page.locator(".view-load-distribution dialog pre")
     expect(lines).to_contain_text('presets["fan-rig"].replace(')
     expect(lines).to_contain_text("math.radians(38.6)")

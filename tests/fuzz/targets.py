@@ -257,8 +257,8 @@ class Session:
         assert isinstance(scene, Scene)
         self._met += 1
         if self._met % 1000 == 0:
-            views = [view(explorer.packed.__class__()) for view in SECTIONS[0].views]
-            picture = _picture(explorer.inputs.results, views, 0.0)
+            views = [view(explorer.packed.__class__()) for view in SECTIONS[1].views]
+            picture = _picture(explorer.inputs.results, views)
             assert all(drawing.sentence != _BROKEN for drawing in picture.drawings)
         if self._met % 5000 == 0:
             explorer.stop()

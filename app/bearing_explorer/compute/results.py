@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+import time
 from collections.abc import Callable, Hashable
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
@@ -20,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 import bearingcore as core
 from bearing_explorer.compute import compiling
 from bearing_explorer.compute.ball_mass import BallMass, ball_mass
+from bearing_explorer.compute.chain import Chain, chain
 from bearing_explorer.compute.dof_comparison import (
     DofComparison,
     other_dofs,
@@ -336,6 +338,8 @@ class Results:
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
+    chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
+    chain_before: the same of the scene before the last change, or of what is drawn in grey
     """
 
     #: attributes that take long enough to be drawn after the others
@@ -351,6 +355,8 @@ class Results:
             "orbit",
             "orbit_spectra",
             "dof_comparison",
+            "chain",
+            "chain_before",
         }
     )
 
@@ -364,6 +370,7 @@ class Results:
             "late_spectra",
             "orbit",
             "dof_comparison",
+            "chain",
         }
     )
 
@@ -377,11 +384,12 @@ class Results:
         moving: bool = False,
         planned: tuple[str, ...] = (),
         pinned: Reference | None = None,
+        before: Scene | None = None,
     ) -> None:
         """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
 
         `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
-        without its defect.
+        without its defect. `before`: the scene before the last change, where there was one.
         """
         self.scene = scene
         self.cage_angle = cage_angle
@@ -390,6 +398,9 @@ class Results:
         self.moving = moving
         self.planned = planned
         self.pinned = pinned
+        self.before = before
+        #: times [s] that processors have worked on it, in any thread: waiting is no cost
+        self.costs: list[float] = []
 
     @property
     def beside(self) -> Scene:
@@ -601,8 +612,16 @@ class Results:
         """Begin what of these attributes can be computed beside the others, in another thread."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
-            if not late_spectra.knows(*asked):
-                BESIDE.submit(late_spectra, *asked)  # whoever asks for it waits for this one
+            if not late_spectra.knows(*asked):  # whoever asks for it waits for this one
+                BESIDE.submit(lambda: self._costing(late_spectra, *asked))
+
+    def _costing(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
+        """Compute something in another thread than that of the picture, at its cost."""
+        before = time.thread_time()
+        try:
+            return compute(*key)
+        finally:
+            self.costs.append(time.thread_time() - before)
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
@@ -797,6 +816,19 @@ class Results:
                 load = dynamic_loads(*key)
                 return load if math.isfinite(load) else None
         return None
+
+    @cached_property
+    def chain(self) -> Chain:
+        """What the scene gives from the loads of the balls to the vibration."""
+        return chain(self)
+
+    @cached_property
+    def chain_before(self) -> Chain:
+        """The same of the scene before the last change; before the first, of what is in grey."""
+        scene = self.beside if self.before is None else self.before
+        if scene == self.scene:
+            return self.chain
+        return Results(scene, self.cage_angle, self.settings, moving=self.moving).chain
 
     @cached_property
     def dof_comparison(self) -> DofComparison:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.figures.ranges import StickyRange
 from bearingcore import DOF_NAMES
 from bearingcore.statics.equilibrium import TERM_SYMBOLS
 
@@ -52,3 +53,20 @@ def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
         values = np.abs(term(f"k_{dof}{dof}"))
         tops.append(float(np.max(values, where=np.isfinite(values), initial=0.0)))
     return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in PLACES]
+
+
+def cleaned(values: np.ndarray, scale: float) -> np.ndarray:
+    """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
+    return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
+
+
+def trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
+    """Least and greatest value that a cell shows of a term whose size is `scale`; NaN for none."""
+    finite = np.concatenate(traces)
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
+        return math.nan, math.nan
+    if not finite.any():
+        return -1.0, 1.0
+    middle = 0.5 * (finite.min() + finite.max())
+    return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))

@@ -140,29 +140,30 @@ def house_figure(
     height: int = 300,
     title: str | None = None,
     right: int = 14,
+    sizing_mode: str = "stretch_width",
     **options: Any,
 ) -> figure:
     """A figure in the house style on two fixed ranges, both axes labelled and prefixed.
 
-    `right` is the room [px] right of the frame, for labels that stand beside their lines.
+    `right` is the room [px] right of the frame, for labels that stand beside their lines; with
+    "stretch_both" as `sizing_mode` it is as high as its place, and `height` the least.
     """
     plot = figure(
         x_range=x_range,
         y_range=y_range,
-        height=height,
+        **({"min_height": height} if sizing_mode == "stretch_both" else {"height": height}),
         title=title,
         tools="save",
         toolbar_location="right",
         output_backend="canvas",
-        sizing_mode="stretch_width",
+        sizing_mode=sizing_mode,
         min_border_right=right,
         min_border_left=64,
         min_border_top=10,
-        min_width=280,
         background_fill_color=PAPER,
         border_fill_color=PAPER,
         outline_line_color=None,
-        **options,
+        **{"min_width": 280, **options},
     )
     plot.toolbar.logo = None
     plot.toolbar.autohide = True

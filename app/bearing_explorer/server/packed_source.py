@@ -55,6 +55,7 @@ if (p[0] !== window.__mark) {  // or it is the same inputs, drawn as planned for
   window.__arrived = performance.now()
 }
 window.__mark = p[0]
+window.dispatchEvent(new Event("explorer-drawn"))
 """
 
 

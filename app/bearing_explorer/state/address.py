@@ -80,6 +80,8 @@ LONGEST_TEXT = 2_500_000
 _MOST_FIELDS = 400
 _LONGEST_NUMBER = 40
 
+TAB_OF_OLD_LINKS = "load"
+"""Links that name no tab are of days when this one came first."""
 FORMER_TABS = {"sizing": "diagnosis"}
 """What tabs were called in links that people have."""
 
@@ -177,6 +179,14 @@ def lesson_in(text: str) -> tuple[str, str]:
     if found is None:
         return "", text
     return found[1], (text[: found.start()] + text[found.end() :]).removeprefix("&")
+
+
+def holds_scene(text: str) -> bool:
+    """Whether a text says something about a scene that can be read."""
+    try:
+        return read(text) is not None
+    except ValueError:
+        return False
 
 
 def place_of(editor: SceneEditor, tab: str = "") -> Place:

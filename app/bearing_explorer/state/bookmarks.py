@@ -15,7 +15,9 @@ from urllib.parse import urlencode
 from bearing_explorer.state.address import (
     LONGEST_LINK,
     LONGEST_TEXT,
+    TAB_OF_OLD_LINKS,
     Place,
+    holds_scene,
     leaves_out,
     lesson_in,
     opened,
@@ -86,7 +88,7 @@ class Bookmarks:
         #: whether the address said which scene to show
         self.has_scene = bool(address)
         place = opened(address, editor)
-        self._tab = place.tab
+        self._tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
         self.pinned: Reference | None = None
@@ -98,8 +100,13 @@ class Bookmarks:
 
     @property
     def tab(self) -> str:
-        """The section that the address names."""
+        """The section that is to be shown; empty where the address says nothing of a scene."""
         return self._tab
+
+    @property
+    def moving(self) -> bool:
+        """Whether a hand moves something: a step has begun and not ended."""
+        return bool(self._history.moving)
 
     def say(self, sentence: str) -> None:
         """What happened, for the person; said again it is news again."""

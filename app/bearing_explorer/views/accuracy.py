@@ -83,9 +83,9 @@ class Accuracy(JobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "Each method on this scene, held against a reference that two families of methods agree "
-        "on: low is exact, left is cheap. Crosses on the upper edge failed. Click a point of "
-        "“RK4” to march the scene's motion with its steps."
+        "What each method costs and how wrong it is: low is exact, left is cheap. Each is held "
+        "against a reference on this scene that two families of methods agree on. Crosses on the "
+        "upper edge failed. Click a point of “RK4” to march the scene's motion with its steps."
     )
     needs = frozenset()
     start = "Measure"

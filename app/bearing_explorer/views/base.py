@@ -3,7 +3,8 @@
 A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
-To write one, subclass `View`, set the class attributes, and give it
+To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
+stands on one line above the figure, and the rest is shown when asked for), and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
@@ -18,6 +19,7 @@ session in `attach(parts)`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -47,10 +49,12 @@ Ranges = dict[str, tuple[float, float]]
 
 
 class Caption(LiveComponent):
-    """Head of a view: its title, what it shows, and buttons that save it."""
+    """Head of a view: its title, what it shows in a line, and a menu to take it along."""
 
     title = param.String()
-    about = param.String()
+    #: what it shows, and the rest of that, which is shown when asked for
+    line = param.String()
+    rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
     #: what is drawn in grey, where that is a pinned scene
@@ -59,8 +63,11 @@ class Caption(LiveComponent):
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
+    #: a small one: a title that leads to the tab of this name, and what there is to say
+    compact = param.Boolean(default=False)
+    leads_to = param.String()
 
-    _esm = scripts("element.js", "figure_export.js", "caption.js")
+    _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
 
@@ -117,23 +124,34 @@ class View:
     plans: ClassVar[tuple[str, ...]] = ()
     #: whether it stands in a report; one without `needs` only with what its job has found
     in_report: ClassVar[bool] = True
+    #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
+    compact: ClassVar[bool] = False
+    #: "unseen": for screen readers alone; "large"
+    sentence_looks: ClassVar[tuple[str, ...]] = ()
+    leads_to: ClassVar[str] = ""
     #: what a job of the view has found
     found: Any = None
 
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
-        self._sentence = Sentence(sizing_mode="stretch_width", margin=0)
+        self._sentence = Sentence(
+            sizing_mode="stretch_width", margin=0, css_classes=list(self.sentence_looks)
+        )
         body = pn.panel(self.build(packed), margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
+        line, rest = first_sentence(self.about)
         self._caption = Caption(
             title=self.title,
-            about=self.about,
+            line=line,
+            rest=rest,
             name_of_files=self.name,
             figures=[plot.id for plot in self.figures],
             picture=self.picture,
+            compact=self.compact,
+            leads_to=self.leads_to,
             sizing_mode="stretch_width",
             margin=0,
         )
@@ -146,9 +164,9 @@ class View:
             self._caption,
             body,
             self._sentence,
-            css_classes=["view", f"view-{self.name}"],
+            css_classes=["view", f"view-{self.name}", *(["compact"] if self.compact else [])],
             stylesheets=[asset_text("view.css")],
-            sizing_mode="stretch_width",
+            sizing_mode="stretch_both" if self.compact else "stretch_width",
             margin=0,
         )
 
@@ -199,6 +217,12 @@ class View:
             self._caption.send({"csv": self.csv()})
         if event.data == "python":
             self._caption.send({"python": self.python()})
+
+
+def first_sentence(text: str) -> tuple[str, str]:
+    """The first sentence of a text, and what follows it."""
+    found = re.match(r"(.+?[.!?])\s+(?=[A-Z“])(.+)", text, re.DOTALL)
+    return (found[1], found[2]) if found else (text, "")
 
 
 def figures_in(layout: Any) -> list[Plot]:

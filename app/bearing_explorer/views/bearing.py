@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from bokeh.models import CustomJS, LinearColorMapper, Range1d
@@ -64,19 +64,22 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "Seen along the shaft, z towards you. Bars and colours: what the balls carry. Grey rim: "
-        "the same without the defect. Arrow: the load. The keyway turns with the shaft."
+        "What the balls carry now, seen along the shaft. Bars and colours: their loads. Grey rim:"
+        " the same without the defect. Arrow: the load on the shaft. The keyway turns with the "
+        "shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
+    #: of the names of its sources
+    prefix: ClassVar[str] = "bearing"
+    #: where it says how deep the defect is drawn
+    scale_line: ClassVar[float] = TOP_LINE
 
     def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
-        load = packed.range("bearing_load", 0.0, 100.0)
+        load = packed.range(f"{self.prefix}_load", 0.0, 100.0)
         half = HALF_WIDTH
-        plot = style.bare_figure(
-            Range1d(-half, half, syncable=False),
-            Range1d(-half, half, syncable=False),
-            height=520,
+        plot = self._figure(
+            Range1d(-half, half, syncable=False), Range1d(-half, half, syncable=False)
         )
         aspect = CustomJS(args={"plot": plot, "half": half}, code=_EQUAL_ASPECT)
         plot.js_on_change("inner_width", aspect)
@@ -106,6 +109,13 @@ class BearingDrawing(View):
         self._draw_rings(plot, packed)
         self._draw_loads(plot, packed, colors, inks)
         self._write_words(plot, packed)
+        self._add_scale(plot, colors, load)
+        return plot
+
+    def _figure(self, x: Range1d, y: Range1d) -> figure:
+        return style.bare_figure(x, y, height=520)
+
+    def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
         bar = color_bar(
             colors,
             orientation="horizontal",
@@ -118,13 +128,12 @@ class BearingDrawing(View):
         )
         style.write_units(bar, style.BALL_LOAD, load)
         plot.add_layout(bar, "below")
-        return plot
 
     def _draw_rings(self, plot: figure, packed: PackedSource) -> None:
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_healthy_loads", "x", "y"),
+            source=packed.source(f"{self.prefix}_healthy_loads", "x", "y"),
             fill_color=style.HEALTHY,
             fill_alpha=0.25,
             line_color=None,
@@ -132,7 +141,7 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_rings", "x", "y"),
+            source=packed.source(f"{self.prefix}_rings", "x", "y"),
             fill_color=style.STEEL,
             line_color=style.STEEL_EDGE,
             line_width=1.2,
@@ -140,13 +149,13 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_defect", "x", "y"),
+            source=packed.source(f"{self.prefix}_defect", "x", "y"),
             fill_color=style.DEFECT,
             fill_alpha=0.55,
             line_color="#B87A00",
             line_width=1.2,
         )
-        marks = packed.source("bearing_marks", "x", "y", "angle", "turn")
+        marks = packed.source(f"{self.prefix}_marks", "x", "y", "angle", "turn")
         plot.text(
             "x",
             "y",
@@ -163,13 +172,13 @@ class BearingDrawing(View):
     def _draw_loads(
         self, plot: figure, packed: PackedSource, colors: LinearColorMapper, inks: LinearColorMapper
     ) -> None:
-        balls = packed.source("bearing_balls", "x", "y", "radius", "load", "number")
+        balls = packed.source(f"{self.prefix}_balls", "x", "y", "radius", "load", "number")
         plot.segment(
             "x0",
             "y0",
             "x1",
             "y1",
-            source=packed.source("bearing_bars", "x0", "y0", "x1", "y1", "load"),
+            source=packed.source(f"{self.prefix}_bars", "x0", "y0", "x1", "y1", "load"),
             line_color={"field": "load", "transform": colors},
             line_width=8,
         )
@@ -196,7 +205,7 @@ class BearingDrawing(View):
         plot.patch(
             "x",
             "y",
-            source=packed.source("bearing_arrow", "x", "y"),
+            source=packed.source(f"{self.prefix}_arrow", "x", "y"),
             fill_color=style.INK,
             line_color=None,
         )
@@ -207,9 +216,9 @@ class BearingDrawing(View):
             "text_font_size": style.TEXT_SIZE,
             "text_color": style.FAINT_INK,
         }
-        loads = packed.source("bearing_load_words", "x", "y", "kind", "value", "angle")
+        loads = packed.source(f"{self.prefix}_load_words", "x", "y", "kind", "value", "angle")
         plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
-        scale = packed.source("bearing_scale_words", "x", "y", "scale")
+        scale = packed.source(f"{self.prefix}_scale_words", "x", "y", "scale")
         plot.text(
             "x",
             "y",
@@ -227,21 +236,21 @@ class BearingDrawing(View):
         top = load_range[1]
         drawn = Shapes(scene, results.cage_angle)
         sources = {
-            "bearing_rings": drawn.rings(),
-            "bearing_defect": drawn.defects(),
-            "bearing_marks": drawn.angle_marks(),
-            "bearing_balls": drawn.balls(results.drop, load),
-            "bearing_bars": drawn.bars(load, top),
-            "bearing_healthy_loads": drawn.load_rim(*results.healthy_load_curve, top),
-            "bearing_arrow": drawn.load_arrow(),
-            "bearing_load_words": load_words(scene.load),
-            "bearing_scale_words": {
+            f"{self.prefix}_rings": drawn.rings(),
+            f"{self.prefix}_defect": drawn.defects(),
+            f"{self.prefix}_marks": drawn.angle_marks(),
+            f"{self.prefix}_balls": drawn.balls(results.drop, load),
+            f"{self.prefix}_bars": drawn.bars(load, top),
+            f"{self.prefix}_healthy_loads": drawn.load_rim(*results.healthy_load_curve, top),
+            f"{self.prefix}_arrow": drawn.load_arrow(),
+            f"{self.prefix}_load_words": load_words(scene.load),
+            f"{self.prefix}_scale_words": {
                 "x": np.array([HALF_WIDTH]),
-                "y": np.array([TOP_LINE]),
+                "y": np.array([self.scale_line]),
                 "scale": np.array([drawn.depth_scale]),
             },
         }
-        return sources, {"bearing_load": load_range}
+        return sources, {f"{self.prefix}_load": load_range}
 
     def sentence(self, results: Results) -> str:
         now = results.now

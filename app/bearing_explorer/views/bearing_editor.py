@@ -44,8 +44,8 @@ class BearingEditor(ControlView):
     name = "bearing-editor"
     title = "Dimensions of the bearing"
     about = (
-        "Point at a field to see in the picture what it is, or click in the picture to change it. "
-        "All views follow."
+        "Point at a field to see what it is, or click in the picture. All views follow what is "
+        "changed here."
     )
     needs = frozenset[str]()
     picture = True

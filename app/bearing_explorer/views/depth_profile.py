@@ -28,8 +28,8 @@ class DepthProfile(View):
     name = "depth-profile"
     title = "Depth profile"
     about = (
-        "Solid: the race, down is into the ring. Dashed: how far a ball's centre sinks. Dots: "
-        "balls at this cage angle."
+        "The race (solid), the path of a ball's centre (dashed) and the balls. Down is into the "
+        "ring. Dots: balls at this cage angle."
     )
     needs = frozenset({"profile", "drop", "now"})
 

@@ -47,9 +47,10 @@ class PartDiagnosis(MeasuredView):
     name = "diagnosis"
     title = "2  What part"
     about = (
-        "Each pass over a damaged spot makes the machine ring; the spectrum of the envelope shows "
-        "how often. Strong: the lines of the part that stands out, found within the slip. Faint: "
-        "where geometry has those of the others. Point at a number below to zoom to its line."
+        "Spectrum of the envelope: how often something makes the machine ring. Each pass over a "
+        "damaged spot does. Strong: the lines of the part that stands out, found within the slip."
+        " Faint: where geometry has those of the others. Point at a number below to zoom to its "
+        "line."
     )
     needs = frozenset()
 

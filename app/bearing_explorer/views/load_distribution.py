@@ -24,8 +24,9 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue with the defect, grey without; with a defect of "
-        "the inner race the most in a turn of the shaft. Shaded: the defect. Dots: balls now."
+        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
+        " of the shaft."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)

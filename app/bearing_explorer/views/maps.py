@@ -101,9 +101,9 @@ class StiffnessMaps(View):
     name = "maps"
     title = "Maps over extent and cage angle"
     about = (
-        "Each stiffness term, and how many balls carry load, for every extent of the defect (up) "
-        "and cage angle (right). Lines that slope are balls that enter and leave the defect. "
-        "Click in a map to go there."
+        "Every stiffness term, for each extent of the defect and cage angle. Up: the extent; "
+        "right: the cage angle. The map of loaded balls says how many carry load. Lines that "
+        "slope are balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
 

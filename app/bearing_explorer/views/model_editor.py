@@ -41,9 +41,10 @@ class ModelEditor(ControlView):
     name = "model-editor"
     title = "Rotor, housing and support"
     about = (
-        "Two bodies, the rotor in the inner ring and the housing around the outer one, which "
-        "stands on springs and dampers. They decide natural frequencies and vibration, never the "
-        "static loads. What is left empty is not known."
+        "Rotor and housing: two bodies, and what the housing stands on. The rotor sits in the "
+        "inner ring, the housing around the outer one, on springs and dampers. They decide "
+        "natural frequencies and vibration, never the static loads. What is left empty is not "
+        "known."
     )
     needs = frozenset({"contact_damping"})
 

@@ -43,9 +43,9 @@ class NaturalFrequencies(View):
     name = "modes"
     title = "Natural frequencies"
     about = (
-        "Each mode as the bearing turns, named after the direction that moves most: blue x, "
-        "orange y. Shaded: the band in which a mode moves. Grey: the bearing without its defect. "
-        "Black: now."
+        "Each natural frequency as the bearing turns: blue x, orange y. A mode is named after the"
+        " direction that moves most. Shaded: the band in which it moves. Grey: the bearing "
+        "without its defect. Black: now."
     )
     needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)

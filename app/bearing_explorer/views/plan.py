@@ -53,8 +53,8 @@ class PlanInFull(View):
     name = "plan"
     title = "The plan in full"
     about = (
-        "What the program chose for this scene: no more directions, cage angles and steps than the "
-        "error allowed needs, and the periodic orbit where it is stable and cheaper than a march. "
+        "No more directions, cage angles and steps than the error allows. What the program chose "
+        "for this scene, and the periodic orbit where it is stable and cheaper than a march. "
         "“Plan”, beside the status line, overrules it."
     )
     needs = frozenset()

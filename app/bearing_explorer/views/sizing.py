@@ -70,10 +70,10 @@ class DefectSize(JobView[Sized], MeasuredView):
     name = "sizing"
     title = "3  How large"
     about = (
-        "Of a defect on the outer race. The time from a ball's entry to a ball's exit gives the "
-        "extent up to whole ball spacings. So every extent is simulated and asked how well it "
-        "explains the mean ball pass and the spectrum. Point at a candidate to see it, coloured, "
-        "over what was measured, thin."
+        "How long a defect of the outer race is: every extent is simulated. The time from a "
+        "ball's entry to a ball's exit gives the extent up to whole ball spacings. So every "
+        "extent is asked how well it explains the mean ball pass and the spectrum. Point at a "
+        "candidate to see it, coloured, over what was measured, thin."
     )
     needs = frozenset()
     start = "Find the size"

@@ -18,14 +18,16 @@ from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 
+from bearing_explorer.compute.chain import over_turn
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures.matrix_cells import (
-    NEGLIGIBLE,
     PLACES,
     SYMBOLS,
     UNITS,
     Cell,
+    cleaned,
     term_sizes,
+    trace_limits,
 )
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.figures.style import (
@@ -71,8 +73,9 @@ class Stiffness(View):
     name = "stiffness"
     title = "Stiffness of the bearing"
     about = (
-        "The 15 independent terms of its symmetric 5×5 stiffness matrix as the bearing turns: "
-        "how hard the inner ring resists each displacement (column) with each load (row)."
+        "How hard the inner ring resists each displacement with each load. The 15 independent "
+        "terms of its symmetric 5×5 stiffness matrix as the bearing turns: displacements are the "
+        "columns, loads the rows."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)
@@ -131,9 +134,9 @@ class Stiffness(View):
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
         ):
-            a, b = _cleaned(found.term(term), scale), _cleaned(healthy.term(term), scale)
-            at_now = float(_cleaned(now.term(term), scale)[0])
-            limits = _trace_limits(sticky, scale, a, b)
+            a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
+            at_now = float(cleaned(now.term(term), scale)[0])
+            limits = trace_limits(sticky, scale, a, b)
             put(cell, limits, shares, a, b)
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
@@ -183,7 +186,7 @@ class Stiffness(View):
             line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
             if healthy.converged.any():
-                mean = _mean(healthy.cage_angles, healthy_values)
+                mean = over_turn(healthy.cage_angles, healthy_values)
                 line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
@@ -218,32 +221,6 @@ class Stiffness(View):
 
 _GAP = np.array([np.nan])
 _AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
-
-
-def _cleaned(values: np.ndarray, scale: float) -> np.ndarray:
-    """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
-    return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
-
-
-def _trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
-    finite = np.concatenate(traces)
-    finite = finite[np.isfinite(finite)]
-    if not finite.size:
-        return math.nan, math.nan
-    if not finite.any():
-        return -1.0, 1.0
-    middle = 0.5 * (finite.min() + finite.max())
-    return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
-
-
-def _mean(angles: np.ndarray, values: np.ndarray) -> float:
-    """Mean over the angles, which may stand close in one place and far apart in another."""
-    known = np.isfinite(values)
-    angles, values = angles[known], values[known]
-    if angles.size < 2:
-        return float(values.mean())
-    middles = 0.5 * (values[1:] + values[:-1])
-    return float(middles @ np.diff(angles) / (angles[-1] - angles[0]))
 
 
 def _stepped(share: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 import param
 
-from bearing_explorer.assets import asset_path, asset_text, scripts
+from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.planning import by_hand
 from bearing_explorer.compute.results import Results
 from bearing_explorer.compute.verdict import verdict
@@ -22,15 +22,21 @@ class StatusLine(LiveComponent):
 
     #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
     line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
+    #: whether the details are behind a button, in a list that opens above the line
+    folded = param.Boolean(default=False)
 
-    _esm = asset_path("status.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("status.css")]
+    _esm = scripts("element.js", "status.js")
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("footer.css"),
+        asset_text("status.css"),
+    ]
 
 
 class Tabs(LiveComponent):
     """Which section of the page is on screen."""
 
-    names = param.List(default=[])  # [[name, title], ...]
+    names = param.List(default=[])  # [[name, title, group], ...]
     active = param.String()
 
     _esm = scripts("element.js", "tabs.js")
@@ -44,7 +50,7 @@ class Tabs(LiveComponent):
 def status_of(
     results: Results, seconds: float, shown: frozenset[str] = frozenset()
 ) -> dict[str, Any]:
-    """What the status line says about these results, computed in `seconds` [s].
+    """What the status line says about these results, which cost `seconds` [s] of computing.
 
     `shown`: the attributes of the results that views on screen read.
     """
@@ -67,7 +73,7 @@ def status_of(
     details.append(count(n_angles, "cage angle"))
     if results.is_coarse(shown):
         details.append(results.coarse_words(shown))
-    details = [*overruled, *details, f"{1e3 * seconds:.1f} ms"]
+    details = [*overruled, *details, f"{1e3 * seconds:.1f} ms of computing"]
     return {"mood": mood, "words": words, "details": details}
 
 

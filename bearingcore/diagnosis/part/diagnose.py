@@ -105,7 +105,8 @@ def _at_speed(
     if refused is not None:
         return silent(refused, source, shaft)
     given, own = shaft, signal.shaft(shaft * (1.0 - slip), shaft * (1.0 + slip))
-    if own.clear:
+    # lines broader than the window that they are looked for in make nothing finer
+    if own.clear and signal.duration * 2.0 * slip * shaft > 1.0:
         shaft = own.frequency
         source += ", made finer by the shaft's own lines"
     judged = judge(signal, parts, shaft, slip, given)

@@ -47,6 +47,10 @@ STRONG_SIDEBANDS, WEAK_SIDEBANDS = 9.0, 14.0
 """[dB] below the lines: those of a part that turns through the load are not fainter than the one,
 those of a part that stands still not louder than the other. They decide where lines do not."""
 
+SLOWER, FAINTER = (2, 3), 0.5
+"""Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
+its own are then."""
+
 LEAST_DEPTH = 0.03
 """Share of its mean by which the envelope swings at each line of a damaged part. Healthy bearings
 show their lines too, by 1 or 2 %."""
@@ -137,6 +141,7 @@ def compare(
     if best.lines.part == BALL:  # its spin itself is half its line
         free |= multiples(combs, best.frequency, (0.5, 1.5))
         follows |= sideband_combs(combs, 0.5 * best.frequency, (shaft, cage))
+    free |= _slower(combs, best)
     own = np.zeros(len(combs.frequency), dtype=bool)
     for lines in parts:
         own |= within(combs, lines, slip + 0.005, given or shaft, combs.frequency)
@@ -166,6 +171,27 @@ def compare(
         evidence=evidence,
         detectable=min(_detectable(one, signal) for one in resolutions),
     )
+
+
+def _slower(combs: Combs, best: Found) -> np.ndarray:
+    """Which combs (n,) are the best one's own, seen at a half or a third of its frequency.
+
+    A motion may repeat every second or third knock only, and then lines stand between the knocks'
+    own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
+    """
+    found = np.zeros(len(combs.frequency), dtype=bool)
+    for part in SLOWER:
+        near_it = np.flatnonzero(multiples(combs, best.frequency, (1.0 / part,)))
+        if not len(near_it):
+            continue
+        column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
+        one = combs.heard[int(combs.level[:, column].argmax())]
+        at = np.array([combs.frequency[column]])
+        depth = harmonics(one.levels.depth, one.levels.step, at, part * (HARMONICS // part))[:, 0]
+        shared = np.arange(1, len(depth) + 1) % part == 0
+        if depth[~shared].mean() < FAINTER * depth[shared].mean():
+            found[near_it] = True
+    return found
 
 
 def _ranked(combs: Combs, cage: float, slip: float, given: float) -> tuple[Found, list[Found]]:

@@ -20,6 +20,9 @@ FEWEST_PASSES = 12
 MOST_DROPPED = 0.5
 """Share of a recording without signal from which nothing is said."""
 
+NOISE_FLOOR = 1e-4
+"""Of a signal's deviation that is added as noise (-80 dB)."""
+
 NARROWEST = 16.0
 """Turns of the shaft a second that a band is wide at least."""
 
@@ -37,7 +40,7 @@ class ListenedSignal:
         faults = [signal_faults(column) for column in columns]
         usable = [index for index, one in enumerate(faults) if one.dropped_share <= MOST_DROPPED]
         self.names = [recording.directions[index] for index in usable]
-        self.columns = [np.asarray(columns[index]) for index in usable]
+        self.columns = [_with_a_floor(np.asarray(columns[index])) for index in usable]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
         self.nothing_to_hear: str | None = None
         if not usable:
@@ -68,6 +71,15 @@ class ListenedSignal:
     def shaft(self, low: float, high: float) -> ShaftLines:
         """The shaft's own lines between two frequencies [Hz]."""
         return shaft_lines(self.columns, self.rate, low, high)
+
+
+def _with_a_floor(samples: np.ndarray) -> np.ndarray:
+    """The samples with the noise that any recorder has.
+
+    A computed signal may have none: then whatever rounding and leakage leave would stand out.
+    """
+    noise = np.random.default_rng(0).standard_normal(len(samples))
+    return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
 
 
 def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> str | None:

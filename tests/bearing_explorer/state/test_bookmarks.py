@@ -203,5 +203,7 @@ def test_an_address_brings_its_scene_and_tab(editor: SceneEditor) -> None:
     place = read(text)
     assert place is not None
     assert editor.scene == place.scene
+    assert Bookmarks(SceneEditor("fan-rig"), "v=1&depth_um=60").tab == "load", "as it was written"
+    assert Bookmarks(SceneEditor("fan-rig"), "utm_source=mail").tab == ""
     bad = Bookmarks(SceneEditor("fan-rig"), "v=1&extent_deg=nan")
     assert "could not be opened" in bad.state()["said"]["words"]

@@ -59,9 +59,9 @@ def test_the_address_is_told_when_the_hand_lets_go(answers: list[dict]) -> None:
         look,
     )
     assert seen == [
-        "v=1&preset=fan-rig",
-        "v=1&preset=fan-rig",
-        "v=1&preset=fan-rig&depth_um=70",
+        "v=1&preset=fan-rig&tab=one",
+        "v=1&preset=fan-rig&tab=one",
+        "v=1&preset=fan-rig&depth_um=70&tab=one",
         "v=1&preset=fan-rig&depth_um=70&tab=two",
     ]
 

@@ -22,7 +22,11 @@ from bearingcore import presets
 def test_the_status_line_says_what_happened() -> None:
     good = status_of(Results(presets["fan-rig"]), 0.0123)
     assert (good["mood"], good["words"]) == ("good", "Converged")
-    assert good["details"][1:] == ["2 degrees of freedom: x y", "121 cage angles", "12.3 ms"]
+    assert good["details"][1:] == [
+        "2 degrees of freedom: x y",
+        "121 cage angles",
+        "12.3 ms of computing",
+    ]
     assert "residual at most" in good["details"][0]
     bad = status_of(Results(presets["fan-rig"].replace(fy=0.0)), 0.001)
     assert bad["mood"] == "bad"

@@ -1,0 +1,71 @@
+"""What two scenes differ in, in words."""
+
+from __future__ import annotations
+
+import math
+
+from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
+from bearing_explorer.state.quantities import Values, defects_of, values_of
+from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
+from bearingcore import Scene
+
+MOST_NUMBERS = 3
+"""Numbers that are named one by one; more are said to be another bearing, or several at once."""
+WHOLE = 0.02
+"""Of a ball spacing: nearer to a whole number of them a change counts as one."""
+
+
+def difference(now: Scene, before: Scene, focus: int = 0) -> str:
+    """What has changed from one scene to the other; `focus` is the defect that is looked at."""
+    if not (now.defects and before.defects) and now.healthy() == before.healthy():
+        return "With the defect" if now.defects else "Without the defect"
+    own, earlier = defects_of(now), defects_of(before)
+    if len(own) != len(earlier):
+        return "A defect more" if len(own) > len(earlier) else "A defect less"
+    focus = min(focus, len(own) - 1)
+    changed = _numbers(values_of(now, focus), values_of(before, focus))
+    if len(changed) > MOST_NUMBERS:
+        return "Another bearing" if now.bearing != before.bearing else "Several changes at once"
+    words = [
+        f"{choice.label} ({choice.name_of(b)} → {choice.name_of(a)})"
+        for choices, a, b in ((OF_SCENE, now, before), (OF_DEFECT, own[focus], earlier[focus]))
+        for choice in choices
+        if choice.name_of(a) != choice.name_of(b)
+    ]
+    if now.dofs != before.dofs:
+        words.append("Other free directions")
+    words += [_from_to(quantity, *values, now) for quantity, values in changed]
+    if not words:
+        return "Another defect has changed" if own != earlier else "The scene has changed"
+    first, *others = words
+    return ", ".join([first, *(word[0].lower() + word[1:] for word in others)])
+
+
+def _numbers(now: Values, before: Values) -> list[tuple[Quantity, tuple[float, float]]]:
+    return [
+        (quantity, (before[quantity.name], now[quantity.name]))
+        for quantity in QUANTITY_LIST
+        if quantity.of and _differ(before[quantity.name], now[quantity.name])
+    ]
+
+
+def _differ(a: float, b: float) -> bool:
+    return a != b and not (math.isnan(a) and math.isnan(b))
+
+
+def _from_to(quantity: Quantity, before: float, now: float, scene: Scene) -> str:
+    unit = quantity.unit if quantity.unit in ("", "°") else f" {quantity.unit}"
+    digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
+    numbers = f"({_number(before, digits)} → {_number(now, digits)}{unit})"
+    if quantity.field != "extent":
+        return f"{quantity.label} {numbers}"
+    spacings = (now - before) * quantity.unit_si / scene.bearing.ball_spacing
+    count = round(abs(spacings))
+    if count and abs(abs(spacings) - count) < WHOLE:
+        many = "A ball spacing" if count == 1 else f"{count} ball spacings"
+        return f"{many} {'longer' if spacings > 0 else 'shorter'} {numbers}"
+    return f"{quantity.label} {numbers}"
+
+
+def _number(value: float, digits: int) -> str:
+    return "not known" if math.isnan(value) else f"{value:.{digits}g}".replace("-", "−")

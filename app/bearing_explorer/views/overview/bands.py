@@ -1,0 +1,138 @@
+"""The bands of the natural frequencies as bars over frequency."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.modes import BAND_WORDS, FREQUENCY, band_rows, direction_mapper
+from bearing_explorer.views.vibration_spectrum import HIGHEST
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+    from bearingcore import Modes
+
+_LABEL_FROM = 0.8  # of the width: further right a label would be cut off
+
+
+class OverviewBands(View):
+    """A bar for each mode, from its least to its greatest frequency; the tick is now."""
+
+    name = "overview-bands"
+    title = "Natural frequencies"
+    about = (
+        "The band in which each mode moves as the bearing turns, blue x, orange y. Grey: the "
+        "same without the defect. Black: where it is at this cage angle. The axis is that of the "
+        "spectrum below."
+    )
+    needs = frozenset({"band_modes", "healthy_modes"})
+    compact = True
+    sentence_looks = ("unseen",)
+    leads_to = "modes"
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
+        plot = style.house_figure(
+            FREQUENCY,
+            style.AxisQuantity("", "", ""),
+            packed.range("overview_band_frequency", 0.0, HIGHEST),
+            packed.range("overview_band_rows", -3.6, 0.6),
+            height=60,
+            sizing_mode="stretch_both",
+        )
+        plot.xaxis.visible = False
+        plot.yaxis.visible = False
+        plot.ygrid.visible = False
+        plot.min_border_bottom = plot.min_border_top = 2
+        colors = direction_mapper()
+        healthy = packed.source("overview_healthy_bands", "low", "high", "row")
+        plot.hbar(
+            "row", left="low", right="high", height=0.84, source=healthy,
+            fill_color=style.HEALTHY, fill_alpha=0.5, line_color=None,
+        )  # fmt: skip
+        bands = packed.source(
+            "overview_bands", "low", "high", "direction", "number", "row", "now", "label_at"
+        )
+        color = {"field": "direction", "transform": colors}
+        plot.hbar(
+            "row", left="low", right="high", height=0.5, source=bands,
+            fill_color=color, fill_alpha=0.6, line_color=color,
+        )  # fmt: skip
+        plot.scatter(
+            "now", "row", source=bands, marker="dash", angle=np.pi / 2.0, size=15,
+            line_color=style.INK, line_width=2.2,
+        )  # fmt: skip
+        plot.text(
+            "label_at", "row", text=style.words_of(bands, BAND_WORDS), source=bands, x_offset=7,
+            text_baseline="middle", text_color=color, text_font={"value": style.FONT},
+            text_font_size=style.SMALL_TEXT_SIZE,
+        )  # fmt: skip
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        modes = results.band_modes
+        bands, usual = band_rows(modes), band_rows(results.healthy_modes)
+        highest = 1.05 * np.max(np.append(bands["high"], usual["high"]), initial=0.0)
+        top = self._frequency.fit(HIGHEST, highest)[1]
+        order = np.argsort(bands["low"], kind="stable")
+        bands = {name: column[order] for name, column in bands.items()}
+        rows = {
+            key: -float(i)
+            for i, key in enumerate(zip(bands["direction"], bands["number"], strict=True))
+        }
+        row = [
+            rows.get(key, np.nan) for key in zip(usual["direction"], usual["number"], strict=True)
+        ]
+        return {
+            "overview_bands": {
+                **bands,
+                "row": -np.arange(float(order.size)),
+                "now": _now(modes, results)[order],
+                "label_at": np.minimum(bands["high"], _LABEL_FROM * top),
+            },
+            "overview_healthy_bands": {
+                "low": usual["low"],
+                "high": usual["high"],
+                "row": np.array(row, dtype=float),
+            },
+        }, {
+            "overview_band_frequency": (0.0, top),
+            "overview_band_rows": (0.4 - max(order.size, 1), 0.6),
+        }
+
+    def sentence(self, results: Results) -> str:
+        bands = {
+            label: band for label, band in results.band_modes.bands().items() if band[0] == band[0]
+        }
+        words = [f"{label} {low:.0f} to {high:.0f} Hz" for label, (low, high) in bands.items()]
+        if not words:
+            return "There is no static state to take natural frequencies from."
+        return f"The natural frequencies move within: {style.list_words(words)}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        known = results.band_modes.bands()
+        return {
+            "mode": np.array(list(known)),
+            "least_hz": np.array([low for low, _ in known.values()]),
+            "greatest_hz": np.array([high for _, high in known.values()]),
+        }
+
+
+def _now(modes: Modes, results: Results) -> np.ndarray:
+    """Frequency [Hz] of each mode that `band_rows` lists at the cage angle shown."""
+    angles = modes.cage_angles
+    first, last, _ = results.stretch
+    at = first + (results.cage_angle - first) % (last - first)
+    return np.array(
+        [
+            np.interp(at, angles, modes.frequency[:, i])
+            for i, label in enumerate(modes.label)
+            if np.isfinite(modes.bands()[label][0])
+        ]
+    )

@@ -1,0 +1,28 @@
+"""The bearing with the loads of its balls, small."""
+
+from __future__ import annotations
+
+from bokeh.models import LinearColorMapper, Range1d
+from bokeh.plotting import figure
+
+from bearing_explorer.figures import style
+from bearing_explorer.views.bearing import TOP_LINE, BearingDrawing
+
+
+class OverviewBearing(BearingDrawing):
+    """The drawing of the bearing, without its scale of colours."""
+
+    name = "overview-bearing"
+    prefix = "overview_bearing"
+    title = "Load of the balls"
+    scale_line = -TOP_LINE - 0.06  # in the other corner: it is narrow
+    compact = True
+    sentence_looks = ("unseen",)
+    leads_to = "load"
+    in_report = False
+
+    def _figure(self, x: Range1d, y: Range1d) -> figure:
+        return style.bare_figure(x, y, height=240, sizing_mode="stretch_both", min_width=240)
+
+    def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
+        """The bars say it; a scale would take a tenth of the height."""

@@ -1,0 +1,68 @@
+"""What the last change did along the chain, in one sentence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.difference import difference
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.overview.words import story
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+_NOTHING = (
+    "There is no defect, and nothing has been changed yet: move a slider, and what it does from "
+    "the loads to the vibration is said here."
+)
+
+
+class LastChange(View):
+    """The sentence; its numbers, before and now, are the table."""
+
+    name = "last-change"
+    title = "What the last change did"
+    about = (
+        "Computed anew for each change, against the scene before it. Means are over all cage "
+        "angles. What changes by less than 1 %, the loudest line by less than 2 dB, is not "
+        "named. Before the first change it is held against what is drawn in grey."
+    )
+    needs = frozenset({"chain", "chain_before", "late_spectra", "healthy_late_spectra"})
+    compact = True
+    sentence_looks = ("large",)
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        return pn.Spacer(height=0, margin=0)
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        return {}, {}
+
+    def sentence(self, results: Results) -> str:
+        before = results.before
+        if before is not None:
+            cause = difference(results.scene, before, results.focus)
+        elif results.pinned is not None:
+            cause = f"Against the {results.pinned.words}"
+        elif results.scene.defects:
+            cause = "With the defect"
+        else:
+            return _NOTHING
+        return story(cause, results.chain, results.chain_before)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        now = results.chain.table().in_units().named()
+        before = results.chain_before.table().in_units().named()
+        return {
+            "number": np.array(list(now)),
+            "before": np.array([_only(before.get(name)) for name in now]),
+            "now": np.array([_only(column) for column in now.values()]),
+        }
+
+
+def _only(column: np.ndarray | None) -> float:
+    return float(column[0]) if column is not None and column.size else np.nan

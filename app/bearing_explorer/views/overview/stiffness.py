@@ -1,0 +1,207 @@
+"""The 15 stiffness terms, small: lively where something happens, pale where nothing does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.core.properties import value
+from bokeh.models import ColumnDataSource, Range1d
+from numpy.typing import NDArray
+
+from bearing_explorer.figures import style
+from bearing_explorer.figures.matrix_cells import (
+    SYMBOLS,
+    UNITS,
+    Cell,
+    cleaned,
+    term_sizes,
+    trace_limits,
+)
+from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore import STIFFNESS_TERMS
+from bearingcore.statics.equilibrium import TERM_UNITS
+
+if TYPE_CHECKING:
+    from bearing_explorer.compute.results import Results
+
+COLUMNS = 5
+LIVELY = 0.02
+"""Of the size of a term: it matters where it swings or is off the healthy one by more."""
+MOST_POINTS = 61
+"""Of a trace: a cell is little more than a hundred pixels wide."""
+
+_CELLS = [
+    Cell(column + 0.05, column + 0.96, -row - 0.97, -row - 0.38)
+    for row, column in (divmod(index, COLUMNS) for index in range(len(SYMBOLS)))
+]
+_ROWS = math.ceil(len(_CELLS) / COLUMNS)
+_LEFT = np.array([cell.left for cell in _CELLS])
+_RIGHT = np.array([cell.right for cell in _CELLS])
+_TOP = np.array([cell.top for cell in _CELLS])
+_UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
+_GAP = np.array([np.nan])
+_VALUE_WORDS = f"""
+const unit = {list(UNITS)}[row.unit]
+return row.lively ? (isNaN(row.now) ? 'no value' : si(row.now, unit)) : ''
+"""
+
+
+class OverviewStiffness(View):
+    """All terms over the cage angle; a cell has a value only where its term matters."""
+
+    name = "overview-stiffness"
+    title = "Stiffness of the bearing"
+    about = (
+        "The 15 terms of the stiffness matrix as the bearing turns. Blue, with their value now: "
+        "those that vary, or are not what they are in the healthy bearing, which is grey. Pale: "
+        "those to which nothing happens, or along which the ring cannot move in this scene."
+    )
+    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
+    compact = True
+    sentence_looks = ("unseen",)
+    leads_to = "stiffness"
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
+        plot = style.bare_figure(
+            Range1d(0.0, COLUMNS, syncable=False),
+            Range1d(-_ROWS, 0.0, syncable=False),
+            height=110,
+            sizing_mode="stretch_both",
+        )
+        frames = ColumnDataSource(
+            {
+                "left": _LEFT,
+                "right": _RIGHT,
+                "top": _TOP,
+                "bottom": [cell.bottom for cell in _CELLS],
+                "name": ["k"] * len(_CELLS),
+                "below": [symbol[1:] for symbol in SYMBOLS],
+            }
+        )
+        plot.quad(source=frames, fill_color="#FAFBFC", line_color=style.GRID)
+        serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": style.INK}
+        above = {"y_offset": -3}
+        plot.text(
+            "left", "top", text="name", source=frames, text_font_size="13px", **above, **serif
+        )
+        below = {"x_offset": 8, "y_offset": -1}
+        plot.text(
+            "left", "top", text="below", source=frames, text_font_size="10px", **below, **serif
+        )
+        terms = packed.source("overview_terms", "right", "top", "now", "unit", "lively")
+        plot.text(
+            "right",
+            "top",
+            text=style.words_of(terms, _VALUE_WORDS),
+            source=terms,
+            text_align="right",
+            text_font={"value": style.FONT},
+            text_font_size="10.5px",
+            y_offset=-3,
+            text_color=style.INK,
+        )
+        for name, color, width in (
+            ("calm", style.STEEL_EDGE, 1.0),
+            ("healthy", style.HEALTHY, 1.3),
+            ("lively", style.DEFECTIVE, 1.8),
+        ):
+            source = packed.source(f"overview_{name}", "x", "y")
+            plot.line("x", "y", source=source, line_color=color, line_width=width)
+        now = packed.source("overview_term_now", "x", "y")
+        plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        found, healthy, now = results.equilibrium, results.healthy_equilibrium, results.now
+        first, last, _ = results.stretch
+        pick = [_some(answer.cage_angles.size) for answer in (found, healthy)]
+        shares = [
+            (answer.cage_angles[some] - first) / (last - first)
+            for answer, some in zip((found, healthy), pick, strict=True)
+        ]
+        share = (results.cage_angle - first) % (last - first) / (last - first)
+        scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
+        free = free_terms(found.dofs)
+        lively = np.zeros(len(_CELLS))
+        values = np.empty(len(_CELLS))
+        traces: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {
+            "calm": [],
+            "healthy": [],
+            "lively": [],
+        }
+        marks = np.full((2, len(_CELLS)), np.nan)
+        for i, (cell, term, scale) in enumerate(zip(_CELLS, STIFFNESS_TERMS, scales, strict=True)):
+            a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
+            values[i] = cleaned(now.term(term), scale)[0]
+            limits = trace_limits(self._limits[i], scale, a, b)
+            ours = cell.x(shares[0]), cell.y(a[pick[0]], limits)
+            lively[i] = term in free and is_lively(a, b, scale)
+            if lively[i]:
+                traces["lively"].append(ours)
+                traces["healthy"].append((cell.x(shares[1]), cell.y(b[pick[1]], limits)))
+                marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
+            else:
+                traces["calm"].append(ours)
+        return {
+            **{f"overview_{name}": _with_gaps(lines) for name, lines in traces.items()},
+            "overview_terms": {
+                "right": _RIGHT,
+                "top": _TOP,
+                "now": values,
+                "unit": _UNIT,
+                "lively": lively,
+            },
+            "overview_term_now": {"x": marks[0], "y": marks[1]},
+        }, {}
+
+    def sentence(self, results: Results) -> str:
+        found, healthy = results.equilibrium, results.healthy_equilibrium
+        if not found.converged.any():
+            return "There is no equilibrium here, so there is no stiffness to show."
+        scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
+        named = [
+            f"{term} from {style.with_prefix(np.nanmin(values), TERM_UNITS[term])} to "
+            f"{style.with_prefix(np.nanmax(values), TERM_UNITS[term])}"
+            for term, scale in zip(STIFFNESS_TERMS, scales, strict=True)
+            if term in free_terms(found.dofs)
+            and is_lively(values := found.term(term), healthy.term(term), scale)
+        ]
+        return f"As the bearing turns these vary: {style.list_words(named) or 'none'}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        answer = results.equilibrium.table().in_units()
+        return answer.only("cage_angle", *STIFFNESS_TERMS).named()
+
+
+def free_terms(dofs: Sequence[str]) -> set[str]:
+    """Terms that matter where the inner ring can move in these directions only."""
+    return {f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]}
+
+
+def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: float) -> bool:
+    """Whether a term of this size varies over the angles, or differs from the healthy one."""
+    known, usual = values[np.isfinite(values)], healthy[np.isfinite(healthy)]
+    if not known.size:
+        return False
+    ends = [known.min(), known.max(), *([usual.min(), usual.max()] if usual.size else [])]
+    return bool(max(ends) - min(ends) > LIVELY * scale)
+
+
+def _some(size: int) -> NDArray[np.int64]:
+    """At most MOST_POINTS of this many points, both ends among them."""
+    return np.unique(np.linspace(0, size - 1, min(size, MOST_POINTS)).round().astype(np.int64))
+
+
+def _with_gaps(lines: list[tuple[np.ndarray, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Several lines as one, with a gap after each."""
+    none = np.empty(0)
+    parts = [[none, none], *([np.append(axis, _GAP) for axis in line] for line in lines)]
+    x, y = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
+    return {"x": x, "y": y}

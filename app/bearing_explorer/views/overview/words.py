@@ -1,0 +1,176 @@
+"""The sentence that says what the last change did along the chain: only what the numbers say."""
+
+from __future__ import annotations
+
+import math
+
+from bearing_explorer.compute.chain import Chain, Peak
+from bearing_explorer.figures import style
+
+LEAST = 0.01
+"""Of a number: less is no change."""
+LEAST_TURN = math.radians(1.0)
+"""[rad] that the loads have to move on average to have moved."""
+LEAST_LOAD = 0.05
+"""Of the greatest load of a ball."""
+LEAST_LEVEL = 2.0
+"""[dB] of the loudest line."""
+_BESIDE = 1.5  # times the change of a stiffness that another one has to have to be named too
+
+_BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def story(cause: str, now: Chain, before: Chain) -> str:
+    """One sentence: the `cause`, then link after link what it did."""
+    if now.answered == 0.0:
+        return f"{cause}: there is no equilibrium any more, {now.reason}."
+    if before.answered == 0.0:
+        return f"{cause}: now there is an equilibrium, which there was not before."
+    along = direction(now, before)
+    said = [load_words(now, before), *stiffness_words(now, before, along)]
+    label = moved_band(now, before, along)
+    if label:
+        said.append(band_words(label, now.bands[label], before.bands[label]))
+    said.append(peak_words(now, before, along, label))
+    said = [words for words in said if words]
+    text = f"{cause}: {style.list_words(said) or 'nothing along the chain changes by 1 %'}"
+    if now.answered < 1.0:
+        text += (
+            f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
+            f"no equilibrium, {now.reason}"
+        )
+    if now.silent:
+        text += f"; there is no spectrum: {now.silent}"
+    return f"{text}."
+
+
+def direction(now: Chain, before: Chain) -> str:
+    """The direction that the chain is followed along: where the housing is loudest.
+
+    Where nothing changes along it, the one whose stiffness changes most.
+    """
+    loudest = now.loudest
+    if loudest and (
+        abs(_change(now, before, f"k_{loudest}{loudest}")) >= LEAST
+        or moved_band(now, before, loudest)
+    ):
+        return loudest
+    terms = [term for term in now.stiffness if abs(_change(now, before, term)) >= LEAST]
+    most = max(terms, key=lambda term: abs(_change(now, before, term)), default="")
+    return most[2 : 2 + (len(most) - 2) // 2] or loudest
+
+
+def load_words(now: Chain, before: Chain) -> str:
+    """Where the load goes, or how much the most loaded ball carries."""
+    turned = now.off_line - before.off_line
+    if turned >= LEAST_TURN:
+        return "the load moves outwards"
+    if turned <= -LEAST_TURN:
+        return "the load moves inwards"
+    grown = _ratio(now.greatest_load, before.greatest_load)
+    if abs(grown) >= LEAST_LOAD:
+        return f"the most that a ball carries {_by(grown)}"
+    return ""
+
+
+def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
+    """How the mean stiffness changes along a direction, and in another where it does so more."""
+    main = f"k_{along}{along}"
+    own = abs(_change(now, before, main))
+    others = [term for term in now.stiffness if term != main]
+    most = max(others, key=lambda term: abs(_change(now, before, term)), default=main)
+    terms = [main] if own >= LEAST else []
+    if abs(_change(now, before, most)) >= max(_BESIDE * own, LEAST) and most != main:
+        terms.append(most)
+    return [f"{term} {_by(_change(now, before, term))}" for term in terms]
+
+
+def moved_band(now: Chain, before: Chain, along: str) -> str:
+    """The label of a mode of a direction whose band moves, and the loudest line with it.
+
+    Where that goes with none it is the one that moves most; nothing where none does.
+    """
+
+    def moved(label: str) -> float:
+        ends = zip(now.bands[label], before.bands[label], strict=True)
+        return max(abs(_ratio(new, old)) for new, old in ends)
+
+    labels = [
+        label
+        for label in now.bands
+        if label[:-1] == along and label in before.bands and moved(label) >= LEAST
+    ]
+    if along in now.peaks and along in before.peaks:
+        for label in labels:
+            if _goes_along(
+                now.peaks[along], before.peaks[along], now.bands[label], before.bands[label]
+            ):
+                return label
+    return max(labels, key=moved, default="")
+
+
+def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:
+    """How a band moves."""
+    low, high = (_ratio(new, old) for new, old in zip(now, before, strict=True))
+    name = f"the {label.translate(_BELOW)} band"
+    still = 0.5 * LEAST
+    if min(low, high) > -still:
+        verb = "rises"
+    elif max(low, high) < still:
+        verb = "sinks"
+    else:
+        verb = "widens" if low < 0.0 else "narrows"
+    return f"{name} {verb} from {_band(before)} to {_band(now)} Hz"
+
+
+def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
+    """What becomes of the loudest line, and whether it goes `with` the band of a mode."""
+    if along not in now.peaks or along not in before.peaks:
+        return ""
+    new, old = now.peaks[along], before.peaks[along]
+    louder = new.level - old.level
+    level = ""
+    if abs(louder) >= LEAST_LEVEL:
+        level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
+    moved = new.frequency - old.frequency
+    if abs(moved) <= 1.01 * max(new.resolution, old.resolution):
+        return f"the spectrum's peak at {new.frequency:.0f} Hz is {level}" if level else ""
+    to = f"from {old.frequency:.0f} to {new.frequency:.0f} Hz"
+    with_it = bool(label) and _goes_along(new, old, now.bands[label], before.bands[label])
+    words = "the spectrum's peak with it" if with_it else f"the spectrum's peak along {along} moves"
+    return f"{words}, {to}" if with_it else f"{words} {to}" + (f", {level}" if level else "")
+
+
+def _goes_along(
+    new: Peak, old: Peak, band: tuple[float, float], former: tuple[float, float]
+) -> bool:
+    """Whether the peak lies in the band both times, and both move the same way."""
+
+    def inside(peak: Peak, band: tuple[float, float]) -> bool:
+        return band[0] - peak.resolution <= peak.frequency <= band[1] + peak.resolution
+
+    same_way = (new.frequency - old.frequency) * (sum(band) - sum(former)) > 0.0
+    return inside(new, band) and inside(old, former) and same_way
+
+
+def _change(now: Chain, before: Chain, term: str) -> float:
+    if term not in now.stiffness or term not in before.stiffness:
+        return 0.0
+    return _ratio(now.stiffness[term], before.stiffness[term])
+
+
+def _ratio(now: float, before: float) -> float:
+    """How much a number has grown, as part of what it was; 0 where that cannot be said."""
+    grown = now / before - 1.0 if before else 0.0
+    return grown if math.isfinite(grown) else 0.0
+
+
+def _by(grown: float) -> str:
+    if grown >= 1.0:
+        return f"rises to {style.number(1.0 + grown, 2)} times"
+    return f"{'rises' if grown > 0.0 else 'falls'} by {style.number(100.0 * abs(grown), 2)} %"
+
+
+def _band(band: tuple[float, float]) -> str:
+    low, high = (f"{end:.0f}" for end in band)
+    return low if low == high else f"{low}–{high}"

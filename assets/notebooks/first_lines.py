@@ -1,0 +1,14 @@
+import math
+
+from bearingcore import equilibrium, modes, presets, simulate, spectrum
+
+scene = presets["fan-rig"].replace(extent=math.radians(38.6))
+
+found = equilibrium(scene)  # over one ball spacing
+print(found.ball_load.max(), "N at most on a ball")
+print(found.term("k_yy").mean(), "N/m on average")
+print(modes(scene).bands(), "Hz")
+
+motion = simulate(scene, 1.4, 65536.0)  # s, samples a second
+frequency, density = spectrum(motion.outer_acceleration, motion.sample_rate)
+print(motion.dofs, frequency[density.argmax(axis=0)], "Hz: the loudest lines")

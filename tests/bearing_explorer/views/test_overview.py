@@ -1,0 +1,167 @@
+"""The overview: what its sentence says is what the core gives, and only what matters is lively."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+
+import numpy as np
+import pytest
+from bearing_explorer.compute.chain import Chain, Peak
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.overview.bands import OverviewBands
+from bearing_explorer.views.overview.change import LastChange
+from bearing_explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.views.overview.stiffness import OverviewStiffness, free_terms
+from bearing_explorer.views.overview.words import story
+from bearing_explorer.views.vibration_spectrum import VibrationSpectra
+
+from bearingcore import Scene, equilibrium, modes, presets, simulate, spectrum
+
+FAN_RIG = presets["fan-rig"]
+LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
+
+
+def told(now: Scene, before: Scene | None) -> str:
+    return LastChange(PackedSource()).sentence(Results(now, before=before))
+
+
+def numbers(scene: Scene) -> tuple[float, float, tuple[float, float], float]:
+    """Of the core alone: mean k_xx and k_yy, the y₁ band, the loudest line along y."""
+    found = equilibrium(scene, np.linspace(0.0, scene.bearing.ball_spacing, 4001)[:-1])
+    motion = simulate(scene, 1.4, 65536.0)
+    frequency, density = spectrum(motion.outer_acceleration[motion.time.size // 2 :], 65536.0)
+    heard = (frequency >= 100.0) & (frequency <= 2500.0)
+    peak = frequency[np.argmax(np.where(heard, density[:, 1], 0.0))]
+    return (
+        float(found.term("k_xx").mean()),
+        float(found.term("k_yy").mean()),
+        modes(scene).bands()["y1"],
+        float(peak),
+    )
+
+
+def below(scene: Scene) -> float:
+    """Part of all loads that stands within half a ball spacing of their line."""
+    found = equilibrium(scene)
+    near = np.abs(found.ball_angle - 1.5 * math.pi) < 0.5 * scene.bearing.ball_spacing
+    return float(found.ball_load[near].sum() / found.ball_load.sum())
+
+
+def test_a_ball_spacing_longer() -> None:
+    (xx, yy, band, peak), (xx0, yy0, band0, peak0) = numbers(LONGER), numbers(FAN_RIG)
+    assert told(LONGER, FAN_RIG) == (
+        "A ball spacing longer (12.9 → 38.61°): the load moves outwards, "
+        f"k_yy falls by {100 * (1 - yy / yy0):.0f} %, k_xx rises by {100 * (xx / xx0 - 1):.0f} %, "
+        f"the y₁ band sinks from {band0[0]:.0f}–{band0[1]:.0f} to {band[0]:.0f}–{band[1]:.0f} Hz "
+        f"and the spectrum's peak with it, from {peak0:.0f} to {peak:.0f} Hz."
+    )
+    share, share0 = below(LONGER), below(FAN_RIG)
+    assert share < 0.5 * share0
+
+
+def test_there_and_back() -> None:
+    back = told(FAN_RIG, LONGER)
+    for words in ("shorter", "inwards", "k_yy rises", "y₁ band rises from 532–616 to 615–678"):
+        assert words in back
+
+
+def test_only_what_really_changed_is_said() -> None:
+    assert told(FAN_RIG.replace(depth=50.001e-6), FAN_RIG) == (
+        "Depth (50 → 50.001 µm): nothing along the chain changes by 1 %."
+    )
+    heavier = told(FAN_RIG.replace(inner_mass=4.0), FAN_RIG)
+    assert "the y₁ band sinks" in heavier
+    assert "k_" not in heavier
+    assert "load" not in heavier, "static answers do not depend on the mass"
+    faster = told(FAN_RIG.replace(shaft_speed=2.0 * FAN_RIG.shaft_speed), FAN_RIG)
+    assert not {"band", "k_yy", "load"} & set(re.split(r"\W+", faster)), "nor on the speed"
+    assert "dB higher" in faster
+
+
+def test_what_has_no_answer_is_said_too() -> None:
+    loose = FAN_RIG.replace(fy=0.0)
+    assert "there is no equilibrium any more, nothing touches" in told(loose, FAN_RIG)
+    assert "now there is an equilibrium" in told(FAN_RIG, loose)
+    still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
+    assert still.endswith("there is no spectrum: nothing turns.")
+
+
+def test_before_the_first_change_it_is_against_grey() -> None:
+    assert told(FAN_RIG, None).startswith("With the defect: ")
+    assert "nothing has been changed yet" in told(FAN_RIG.healthy(), None)
+
+
+CHAIN = Chain(
+    1.0, "", 0.5, 40.0, 4.0, {"k_xx": 2e7, "k_yy": 4e7},
+    {"x1": (365.0, 480.0), "y1": (615.0, 678.0), "y2": (1790.0, 1840.0)},
+    {"x": Peak(448.0, -44.0, 32.0), "y": Peak(672.0, -22.0, 32.0)}, "",
+)  # fmt: skip
+
+
+def changed(**news: object) -> str:
+    return story("So", dataclasses.replace(CHAIN, **news), CHAIN)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("news", "words"),
+    [
+        ({}, "So: nothing along the chain changes by 1 %."),
+        ({"off_line": 0.51}, "So: nothing along the chain changes by 1 %."),
+        ({"off_line": 0.53}, "So: the load moves outwards."),
+        ({"greatest_load": 90.0}, "So: the most that a ball carries rises to 2.2 times."),
+        ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
+        ({"stiffness": {"k_xx": 3e7, "k_yy": 4e7}}, "So: k_xx rises by 50 %."),
+        ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
+         "So: the y₁ band widens from 615–678 to 600–690 Hz."),
+        ({"bands": {**CHAIN.bands, "y1": (615.0, 690.0)}},
+         "So: the y₁ band rises from 615–678 to 615–690 Hz."),
+        # a peak goes with a band only where it lies in it, both times, and goes its way
+        ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
+          "peaks": {"y": Peak(576.0, -22.0, 32.0)}},
+         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak with it, "
+         "from 672 to 576 Hz."),
+        ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
+          "peaks": {"y": Peak(1088.0, -30.0, 32.0)}},
+         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak along y moves "
+         "from 672 to 1088 Hz, 8 dB lower."),
+        ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
+         "So: the spectrum's peak at 672 Hz is 3 dB higher."),
+        ({"peaks": {}, "silent": "nothing turns"},
+         "So: nothing along the chain changes by 1 %; there is no spectrum: nothing turns."),
+        ({"answered": 0.75, "reason": "why"},
+         "So: nothing along the chain changes by 1 %; at 25 % of the cage angles there is no "
+         "equilibrium, why."),
+    ],
+)  # fmt: skip
+def test_each_link_in_words(news: dict, words: str) -> None:
+    assert changed(**news) == words
+
+
+def test_only_terms_that_matter_are_lively() -> None:
+    view = OverviewStiffness(PackedSource())
+    terms = view.data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
+    lively = {i for i, yes in enumerate(terms["lively"]) if yes}
+    assert lively == {0, 1, 5}, "k_xx, k_xy and k_yy: the ring moves along x and y alone"
+    assert terms["now"][5] == equilibrium(FAN_RIG, [0.1]).term("k_yy")[0]
+    assert free_terms(("x", "y", "z")) == {"k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz"}
+    all_of = OverviewStiffness(PackedSource()).data(Results(presets["liew-lim"], 0.1))[0]
+    assert all_of["overview_terms"]["lively"].sum() > 10
+    healthy = OverviewStiffness(PackedSource()).data(Results(FAN_RIG.replace(depth=0.0), 0.1))[0]
+    assert healthy["overview_terms"]["lively"].sum() <= 3
+
+
+def test_bands_and_spectrum_share_their_frequencies() -> None:
+    for scene in (FAN_RIG, presets["liew-lim"]):
+        results = Results(scene, 0.1)
+        bars, ranges = OverviewBands(PackedSource()).data(results)
+        drawn, others = OverviewSpectrum(PackedSource()).data(results)
+        assert ranges["overview_band_frequency"] == others["overview_frequency"]
+        bars = bars["overview_bands"]
+        assert (bars["low"] <= bars["now"] + 1e-9).all()
+        assert (bars["now"] <= bars["high"] + 1e-9).all()
+        assert (np.diff(bars["row"]) < 0.0).all()
+        full = VibrationSpectra(PackedSource()).data(results)[0]["spectrum_lines"]
+        np.testing.assert_array_equal(drawn["overview_lines"]["y"], full["y"])

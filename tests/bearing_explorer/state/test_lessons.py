@@ -648,7 +648,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("+++\n##", "##", 22, "a second line +++ is missing"),
         ('"A title"', "A title", 2, "the head is not TOML"),
         ('title = "A title"', "", 1, "the head has no title"),
-        ('"load"', '"lode"', 3, "“lode” is not a tab; there are load, stiffness"),
+        ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
         ('"fan-rig"', '"fan"', 4, "“fan” is not a preset; there are"),
         ('["fy_n"]', '"fy_n"', 5, "drag should be a list of texts"),
         ('["fy_n"]', '["fy"]', 5, "“fy” is not a control beside the figures"),

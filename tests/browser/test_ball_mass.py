@@ -36,7 +36,7 @@ def test_balls_get_mass_by_a_choice_and_keep_it_in_the_link(
     page.get_by_text("all, logarithmic").click()
     wait(page, lambda: len(source(page, "spectrum_wide_resonance")["low"]) == 1)
     assert source(page, "spectrum_wide_lines")["frequency"][-1] > 30e3
-    page.keyboard.press("Control+z")
+    page.get_by_role("button", name="Undo", exact=True).click()
     page.wait_for_function("!location.search.includes('balls=')")
     expect(page.locator("#choice-balls")).to_have_value("massless")
     show(page, "load")

@@ -149,6 +149,14 @@ class Inputs:
 
 
 @dataclass(frozen=True)
+class Planned:
+    """What could be planned for some inputs, and whether all that it needs was compiled."""
+
+    views: tuple[str, ...]
+    compiled: bool
+
+
+@dataclass(frozen=True)
 class Drawing:
     """What a view has to say about some results; without `data` it could not say anything."""
 
@@ -190,7 +198,7 @@ class Explorer:
         self._tasks: set[asyncio.Task[None]] = set()
         self._scheduler = Scheduler()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
-        self._idle_task: IdleTask[Inputs, tuple[str, ...]] = IdleTask(
+        self._idle_task: IdleTask[Inputs, Planned] = IdleTask(
             _planned, self._draw_by_plan, self._worker.finished, self._scheduler, _kind_of_idle_work
         )
         self._rested: Inputs | None = None
@@ -198,14 +206,15 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
-        self._last_state = LastState(self.editor.scene)
         self._reporting = False
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
-        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self._open_lesson()
+        self._last_state = LastState(self.editor.scene)
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
+        self._show_share()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
@@ -293,6 +302,7 @@ class Explorer:
         last = self._rested
         return (
             last is not None
+            and compiling.ready()
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
             and rested.seeks_orbit <= last.seeks_orbit
@@ -305,14 +315,19 @@ class Explorer:
         wanted = self._sections[self._shown].has_motion and rested.scene.shaft_speed > 0.0
         return not wanted or (self._rested is not None and self._rested.compares_balls)
 
-    def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
+    def _draw_by_plan(self, inputs: Inputs, found: Planned) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        compiled = compiling.ready()
-        rested = dataclasses.replace(inputs, planned=planned, compiled=compiled)
-        if rested != self._rested:
+        rested = dataclasses.replace(
+            inputs,
+            planned=found.views,
+            seeks_orbit=inputs.seeks_orbit and found.compiled,
+            compiled=found.compiled,
+        )
+        # the last time also where nothing new was planned: the page says that kernels are compiled
+        if rested != self._rested or (found.compiled and self.plan.says_compiling):
             self._rested = rested
             self._worker.submit(rested)
-        if not compiled:
+        if not found.compiled:
             self._idle_task.begin(inputs)  # there will be more to say
         elif not inputs.compares_balls and not self._compared(rested):
             self._idle_task.begin(dataclasses.replace(inputs, compares_balls=True))
@@ -660,17 +675,18 @@ def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     return inputs.kind if curves and not takes_long else None
 
 
-def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
-    """Those of `inputs.planned` that could be planned; in a thread, or in turn where that is light.
+def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> Planned:
+    """Plan what `inputs.planned` says; in a thread, or in turn where that is light.
 
     The plans stay known, and so does an orbit that is looked for.
     """
     results = inputs.results
     made = []
+    compiled = compiling.ready()  # once: it may come while this is at work
     for view in inputs.planned:
         if overtaken():
             break
-        if view not in CURVES and not compiling.ready():
+        if view not in CURVES and not compiled:
             continue
         try:
             results.plan_of(view)
@@ -683,14 +699,14 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
     if inputs.compares_balls and not overtaken():
         with contextlib.suppress(ValueError):  # there is no motion to compare
             results.compare_balls()
-    if inputs.seeks_orbit and compiling.ready() and not overtaken():
+    if inputs.seeks_orbit and compiled and not overtaken():
         try:
             results.seek_orbit(overtaken)
         except ValueError:
             pass  # again the view says why
         except Exception:
             log.exception("looking for an orbit failed")
-    return tuple(made)
+    return Planned(tuple(made), compiled)
 
 
 def _drawing(results: Results, view: View) -> Drawing:

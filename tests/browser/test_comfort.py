@@ -395,8 +395,8 @@ def test_the_projector_has_large_type_and_fewer_controls(
     page.goto(f"{explorer.url}?lesson=what-a-ball-carries")
     page.wait_for_function("window.__frames >= 1")
     settle(page)
-    size = """getComputedStyle(document.querySelector('.lesson-place'))
-      .getPropertyValue('--lesson-type')"""
+    size = """() => getComputedStyle(document.querySelector(".lesson-place"))
+      .getPropertyValue("--lesson-type")"""
     assert page.evaluate(size) == ""
     labels = """() => [...Bokeh.documents[0]._all_models.values()]
       .filter(m => m.type == "LinearAxis")

@@ -53,8 +53,8 @@ _EQUAL_ASPECT = """
 const w = plot.inner_width, h = plot.inner_height
 if (!(w > 0 && h > 0)) return
 const x = half*Math.max(1, w/h), y = half*Math.max(1, h/w)
-plot.x_range.setv({start: -x, end: x})
-plot.y_range.setv({start: -y, end: y})
+plot.x_range.setv({start: -x, end: x, reset_start: -x, reset_end: x})
+plot.y_range.setv({start: -y, end: y, reset_start: -y, reset_end: y})
 """
 
 
@@ -69,6 +69,7 @@ class BearingDrawing(View):
         "shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
+    equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
     #: where it says how deep the defect is drawn

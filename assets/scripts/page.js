@@ -47,7 +47,10 @@
   }
   const doors = {
     close: () => { end_welcome(); what.focus() },
-    lessons: () => { end_welcome(); window.dispatchEvent(new CustomEvent("explorer-lessons")) },
+    lessons: () => {
+      end_welcome()
+      window.dispatchEvent(new CustomEvent("explorer-lessons", { detail: "first" }))
+    },
     bearing: () => { end_welcome(); window.dispatchEvent(new CustomEvent("explorer-show", { detail: "bearing" })) },
     python: () => python.showModal(),
   }

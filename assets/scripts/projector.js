@@ -1,7 +1,7 @@
 // Large type and fewer controls, for a projector. Styles follow `data-projector` of the root element;
 // the type of figures is enlarged in the browser alone, also of figures that come later.
 {
-  const LARGER = 1.5
+  const LARGER = 1.3
   const root = document.documentElement
   const done = new WeakMap()  // what a model has become: it comes as 1
   let on = false

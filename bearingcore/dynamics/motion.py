@@ -306,7 +306,7 @@ def simulate(
         )
         status = (
             f"{TOO_MANY_STEPS}: {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
-            f"allowed are most_steps = {most_steps}"
+            f"allowed are most_steps = {thousands(most_steps)}"
         )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
         return Motion(

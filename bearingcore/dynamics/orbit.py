@@ -250,7 +250,8 @@ def orbit(
     steps = max(math.ceil(period * rate), 8)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:
-        cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most_steps} in all"
+        most = thousands(most_steps)
+        cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
         return replace(nothing, status=TOO_MANY_STEPS, period=period, cost=cost)
     shooting = _Shooting(scene, dofs, period, steps, give_up, most_steps)
     y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)

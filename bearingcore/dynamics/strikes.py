@@ -23,8 +23,8 @@ class Flight:
 class Strike:
     """A ball that comes down onto a race it did not touch.
 
-    `time` [s] is that of the first touch, `load` [N] the greatest of the contact until it opens
-    again, `peak` [s] when that is reached.
+    `time` [s] is that of the first touch, `load` [N] the first peak of the contact's load, reached
+    at `peak` [s]: what comes later is no longer the strike.
     """
 
     ball: int
@@ -59,7 +59,8 @@ def strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
             for first, last in _stretches(load > 0.0):
                 if first == 0:
                     continue
-                peak = first + int(np.argmax(load[first : last + 1]))
+                falls = np.flatnonzero(np.diff(load[first : last + 1]) <= 0.0)
+                peak = first + int(falls[0]) if falls.size else last
                 found.append(
                     Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
                 )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
@@ -25,6 +26,9 @@ BUDGET = 0.1
 
 LOWEST = 300.0
 """[Hz] of the lowest third octave that is compared, the lower end of the paper's band."""
+
+QUIET = 1e-4
+"""Power over the greatest of all bands and directions below which a band does not count."""
 
 SETTLING = 0.12
 """[s] of motion that is left out, several times the slowest mode's decay."""
@@ -43,8 +47,8 @@ class BallComparison:
     added : (m, d) [dB]
         what mass adds to the power of the housing's acceleration in each, along x and y.
     massless_up_to
-        [Hz] frequency up to which massless balls are within the budget, in all directions; NaN
-        where they are not even in the lowest third octave.
+        [Hz] frequency up to which massless balls are within the budget wherever there is more power
+        than QUIET of the greatest; NaN where they are not even in the lowest third octave.
     massless_seconds, seconds
         [s] a second of motion takes without and with mass.
     """
@@ -61,11 +65,12 @@ class BallComparison:
     def sentence(self) -> str:
         """In a line: up to where massless balls will do, and what mass costs."""
         if math.isnan(self.massless_up_to):
-            told = f"massless: more than {self.budget:g} dB off from {LOWEST / 1e3:.1f} kHz on"
+            told = f"more than {number(self.budget)} dB off from {with_prefix(LOWEST, 'Hz')} on"
         else:
-            told = f"massless: within {self.budget:g} dB up to {self.massless_up_to / 1e3:.1f} kHz"
+            up_to = with_prefix(self.massless_up_to, "Hz", 2)
+            told = f"within {number(self.budget)} dB up to {up_to}"
         times = self.seconds / max(self.massless_seconds, 1e-9)
-        return f"{told}, with mass {times:.0f} times the time"
+        return f"massless: {told}; with mass {number(times, 2)} times the time"
 
     def enough_up_to(self, frequency: float) -> bool:
         """Whether massless balls are within the budget up to a frequency [Hz], or all compared."""
@@ -122,7 +127,9 @@ def compare_balls(
             raise checks.refuse("scene", motion.status, f"one that moves with balls {balls}")
         powers.append(band_powers(motion, edges))
     added = 10.0 * np.log10(powers[1] / powers[0])
-    within = np.abs(added).max(axis=1) <= budget
+    loudest = max(float(power.max(initial=0.0)) for power in powers)
+    counts = np.maximum(*powers) > QUIET * loudest
+    within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
     good = len(within) if within.all() else int(np.argmin(within))
     return BallComparison(
         scene, budget, edges, added, float(edges[good]) if good else math.nan, *seconds

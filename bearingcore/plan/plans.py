@@ -143,7 +143,9 @@ class Plan:
             else:
                 parts.append(f"{number(self.duration)} s")
             error = _error(self.predicted_error)
-            full = f"full model {_duration(self.full_seconds)}, {_error(self.full_error)}"
+            full = f"full model {_duration(self.full_seconds)}"
+            if not math.isnan(self.full_error):
+                full += f", {_error(self.full_error)}"
         text = f"this scene: {', '.join(parts)}: {_duration(self.seconds)}, {error}; {full}"
         if not self.met:
             text += "; the budget is not met"

@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.signals.order_tracking import followed, smooth_lag
+from bearingcore.signals.shaft_tones import without_shaft_tones
 
 FEWEST_PASSES = 6
 """Below this an average says nothing about its own scatter."""
@@ -44,12 +46,17 @@ class BallPasses:
         mean coefficient of each harmonic and direction; twice its size is the amplitude.
     power : (N, d)
         mean squared size of the coefficients of single passes.
-    noise_power : (d,)
-        what broad-band noise adds to `power`, estimated from the quietest stretches of the
-        spectrum; 0 for a simulated motion.
+    noise_power : (d,) or (N, d)
+        what noise adds to `power`, estimated from the quietest stretches of the spectrum, or of
+        what differs from pass to pass around each harmonic; 0 for a simulated motion.
     prominence
         how far the ball-pass lines stand above those of other frequencies close by, in standard
         deviations of the latter; infinite for a simulated motion.
+    begins : (passes + 1,) [s] or None
+        when the passes begin, and the last one ends, where the cage was followed; None where it
+        turns steadily.
+    skipped
+        passes of the signal before the first that is averaged.
     """
 
     frequency: float
@@ -58,6 +65,17 @@ class BallPasses:
     power: NDArray[np.float64]
     noise_power: NDArray[np.float64]
     prominence: float = math.inf
+    begins: NDArray[np.float64] | None = None
+    skipped: int = 0
+
+    def time_of(self, passed: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Time [s] in the signal at which so many balls have passed since its begin."""
+        if self.begins is None:
+            return np.asarray(passed / self.frequency)
+        place = np.asarray(passed, dtype=float) - self.skipped
+        inside = np.clip(place, 0.0, self.n_passes)
+        time = np.interp(inside, np.arange(self.n_passes + 1), self.begins)
+        return np.asarray(time + (place - inside) / self.frequency)
 
     @property
     def scatter(self) -> NDArray[np.float64]:
@@ -97,6 +115,10 @@ def average_passes(
     lowest: float,
     highest: float,
     widest: float,
+    *,
+    follow: bool = False,
+    coloured: bool = False,
+    shaft: float | None = None,
 ) -> BallPasses:
     """Find the ball-pass frequency near `nominal` and average the signal over its passes.
 
@@ -110,6 +132,12 @@ def average_passes(
         to `widest` are kept; what lies well below `lowest` is filtered out.
     slip
         how far off nominal the frequency may be, as a fraction of it.
+    follow
+        whether a cage that wanders is followed, see `order_tracking`.
+    coloured
+        whether noise may be louder at some frequencies than at others.
+    shaft
+        turns a second [Hz] whose tones are taken out first; None to leave them.
 
     Raises
     ------
@@ -138,22 +166,47 @@ def average_passes(
     frequency, prominence = _ball_pass_frequency(
         signal, sample_rate, nominal, slip, lowest, highest
     )
+    if shaft is not None:
+        signal = without_shaft_tones(signal, sample_rate, shaft, frequency)
     signal, sample_rate = _upsampled(signal, sample_rate, widest)
     # the filter rings at both ends of the signal: the passes there are left out
     n_passes = math.floor((len(signal) - 1) / sample_rate * frequency) - 2 * margin
     n = math.ceil(max(sample_rate, 4.0 * widest) / frequency)
-    time = (margin + np.arange(n_passes * n) / n) / frequency
     curve = make_interp_spline(np.arange(len(signal)) / sample_rate, signal, k=5)
     count = math.floor(widest / frequency)
-    each = coefficients(curve(time).reshape(n_passes, n, signal.shape[1]), count)
-    return BallPasses(
-        frequency,
-        n_passes,
-        each.mean(axis=0),
-        (np.abs(each) ** 2).mean(axis=0),
-        0.5 * floor * frequency,
-        prominence,
-    )
+    place = np.arange(n_passes * n) / n
+
+    def passes(lags: NDArray[np.float64] | None) -> NDArray[np.complex128]:
+        late = 0.0 if lags is None else smooth_lag(lags)(place) / (2.0 * math.pi)
+        time = np.clip((margin + place + late) / frequency, 0.0, (len(signal) - 1) / sample_rate)
+        return coefficients(curve(time).reshape(n_passes, n, signal.shape[1]), count)
+
+    lags = followed(passes, n_passes, slip) if follow else None
+    each, begins = passes(lags), None
+    if lags is not None:
+        ends = np.arange(n_passes + 1.0)
+        begins = (margin + ends + smooth_lag(lags)(ends) / (2.0 * math.pi)) / frequency
+        frequency = n_passes / float(begins[-1] - begins[0])
+    mean, power = each.mean(axis=0), (np.abs(each) ** 2).mean(axis=0)
+    noise = 0.5 * floor * frequency
+    if coloured:
+        noise = _coloured(mean, power, noise)
+    return BallPasses(frequency, n_passes, mean, power, noise, prominence, begins, margin)
+
+
+def _coloured(
+    mean: NDArray[np.complex128], power: NDArray[np.float64], floor: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an octave
+    around each harmonic, as what moves irregularly differs too. Never below the floor (d,).
+    """
+    around = np.maximum(power - np.abs(mean) ** 2, 0.0)
+    order = np.arange(1, len(mean) + 1)
+    noise = np.empty_like(power)
+    for index, number in enumerate(order.tolist()):
+        near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
+        noise[index] = np.quantile(around[near], 0.2, axis=0)
+    return np.asarray(np.minimum(np.maximum(noise, floor), power))
 
 
 def _upsampled(

@@ -24,7 +24,9 @@ NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7
 
 
 def about(link: str = "http://localhost:5006/?v=1&preset=fan-rig&fy_n=-120") -> About:
-    return About("fan-rig", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC))
+    return About(
+        "fan-rig", "Where its numbers come from.", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC)
+    )
 
 
 class Reader(HTMLParser):
@@ -71,7 +73,8 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
         "04 May 2026, 12:30 UTC",
         "0.1.0",
         "open this scene",
-        "Outer race at 270°: 12.9° long, 50 µm deep",
+        "Outer race at 270°: 12.9° (5.97 mm) long, 50 µm deep",
+        "Bearing: fan-rig. Where its numbers come from.",
         "Groove centre distance",
         "BPFO",
         "Converged",

@@ -181,6 +181,7 @@ def test_a_phone_has_room_for_figures_and_lessons(
 def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
+    show(page, "load")
     extent = slider(page, "extent_deg")
     extent.focus()
     for key, expected in (
@@ -213,7 +214,7 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     expect(page.locator(".tab-stiffness")).to_be_focused()
     expect(page.locator(".section-stiffness.on-screen")).to_be_visible()
     page.keyboard.press("Home")
-    expect(page.locator(".section-load.on-screen")).to_be_visible()
+    expect(page.locator(".section-overview.on-screen")).to_be_visible()
     settle(page)
     # from the top of the page: where the focus is can be seen, wherever it is
     skip = page.get_by_role("link", name="To the figures")
@@ -278,6 +279,7 @@ def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) ->
 def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
+    show(page, "load")
     settle(page)
     view = page.locator(".view-bearing")
     export(view, "table").click()
@@ -333,11 +335,91 @@ def test_dark_follows_the_system_until_somebody_chooses(
 # --- lessons --------------------------------------------------------------------------------------
 
 
+#: whether the head of a figure, by the name of its view, lies inside the part that scrolls
+IN_SIGHT = """name => {
+  const inside = function* (where) {
+    for (const element of where.querySelectorAll("*")) {
+      yield element
+      if (element.shadowRoot) yield* inside(element.shadowRoot)
+    }
+  }
+  const room = document.querySelector("main").getBoundingClientRect()
+  for (const element of inside(document.querySelector("main")))
+    if (element.classList.contains(`view-${name}`)) {
+      const box = element.getBoundingClientRect()
+      return box.height > 0 && box.top >= room.top - 1 && box.top < room.bottom - 60
+    }
+  return false
+}"""
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (390, 844)], ids=str)
+def test_a_lesson_is_where_one_left_it(
+    watch: tuple[Page, Watch], explorer: Server, size: tuple[int, int]
+) -> None:
+    """Its address opens it; reload and “Lessons” come back, and no scene is replaced unasked."""
+    page, _ = watch
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.goto(f"{explorer.url}?lesson=two-defects-alike")
+    page.wait_for_function("window.__frames >= 1")
+    settle(page)
+    panel = page.locator(".lesson")
+    expect(panel.locator("h2")).to_have_text("Two defects that look alike")
+    page.wait_for_function(IN_SIGHT, arg="vibration-time")
+    panel.get_by_role("button", name="38.6°").click()
+    settle(page)
+    panel.locator(".prediction input").first.check()
+    panel.locator(".reveal").click()
+    page.reload()
+    page.wait_for_function("window.__frames >= 1")
+    settle(page)
+    expect(panel.locator("h2")).to_have_text("Two defects that look alike")
+    expect(panel.locator(".answer")).to_be_visible()
+    expect(panel.locator(".verdict")).to_contain_text("otherwise")
+    assert "extent_deg=38.6" in page.evaluate("location.search")
+    page.get_by_role("button", name="Close the lessons").click()
+    expect(panel).to_be_hidden()
+    page.wait_for_function("!location.search.includes('lesson=')")
+    page.reload()
+    page.wait_for_function("window.__frames >= 1")
+    settle(page)
+    expect(panel).to_be_hidden()
+    page.get_by_role("button", name="Lessons", exact=True).click()
+    expect(panel.locator("h2")).to_have_text("Two defects that look alike")
+    settle(page)
+    assert "extent_deg=38.6" in page.evaluate("location.search")
+
+
+def test_the_projector_has_large_type_and_fewer_controls(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    page.goto(f"{explorer.url}?lesson=what-a-ball-carries")
+    page.wait_for_function("window.__frames >= 1")
+    settle(page)
+    size = """() => getComputedStyle(document.querySelector(".lesson-place"))
+      .getPropertyValue("--lesson-type")"""
+    assert page.evaluate(size) == ""
+    labels = """() => [...Bokeh.documents[0]._all_models.values()]
+      .filter(m => m.type == "LinearAxis")
+      .map(m => parseFloat(m.axis_label_text_font_size))"""
+    before = page.evaluate(labels)
+    page.get_by_role("button", name="Projector").click()
+    assert page.evaluate(size).strip() == "20px"
+    assert page.evaluate(labels) == pytest.approx([1.3 * size for size in before], abs=0.01)
+    expect(page.get_by_role("button", name="Undo", exact=True)).to_be_hidden()
+    page.get_by_role("button", name="Projector").click()
+    assert page.evaluate(labels) == before
+
+
 def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
     page.get_by_role("button", name="Lessons").click()
     panel = page.locator(".lesson")
+    expect(panel.locator(".entry")).to_have_count(10)
+    before = page.evaluate("location.search")
+    panel.locator(".entry").first.click()
     lessons = lessons_in(own_folder(), TABS)
     for number, lesson in enumerate(lessons):
         assert isinstance(lesson, Lesson)
@@ -358,7 +440,20 @@ def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server)
         assert shown.count() == len(lesson.drag), lesson.title
         for view in lesson.watch:
             expect(page.locator(f".view-{view}")).to_have_class(re.compile("watched"))
-        # the answer
+        # what is to be looked at is in sight, and no warning hides it
+        first = page.locator(f".view-{lesson.watch[0]}")
+        page.wait_for_function(IN_SIGHT, arg=lesson.watch[0])
+        expect(first).to_be_visible()
+        # the prediction, and the answer
+        asked = lesson.predict
+        assert asked is not None
+        form = panel.locator(".prediction")
+        if asked.choices:
+            form.locator("input").nth(int(asked.right)).check()
+        else:
+            form.locator("input").fill(f"{asked.right:g}".replace(".", ","))
+            form.get_by_role("button", name="Predict").click()
+        expect(form.locator(".verdict")).to_contain_text("right.")
         answer = panel.locator(".answer")
         expect(answer).to_be_hidden()
         panel.locator(".reveal").click()
@@ -386,5 +481,7 @@ def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server)
     expect(slider(page, "fx_n")).to_be_visible()
     page.get_by_role("button", name="Close the lessons").click()
     expect(panel).to_be_hidden()
+    assert before == ""
+    assert "lesson=" not in page.evaluate("location.search")
     expect(page.locator(".watched")).to_have_count(0)
     expect(slider(page, "center_deg")).to_be_visible()

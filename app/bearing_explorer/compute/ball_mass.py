@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -13,15 +14,17 @@ import bearingcore as core
 from bearing_explorer.compute.excerpt import Event, excerpt
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.strikes import Flight, Strike, flights, strikes
-from bearingcore.plan.balls import compared_directions
+from bearingcore.model.defect import RACES
+from bearingcore.plan.balls import QUIET, compared_directions
+from bearingcore.statics.passes import path_kinks
 
 if TYPE_CHECKING:
     from bearingcore import Motion, Scene, Spectrum
 
 Array = NDArray[np.float64]
 
-LOWEST_OCTAVE = 125.0
-"""[Hz] at which the lowest octave begins: four lines of the spectra to it."""
+LOWEST_OCTAVE = 250.0
+"""[Hz] at which the lowest octave begins: eight lines of the spectra to it."""
 
 BEFORE, AFTER = 0.4, 1.1
 """Parts of the time that a ball takes through the defect that are shown before it enters and after
@@ -35,6 +38,13 @@ SHORTEST_PART = 4096  # samples
 
 LATE = 1.5
 """Within how many times its way through the defect a ball strikes that counts as its strike."""
+
+HARD, MOST_STRIKES = 0.4, 2
+"""Load of a strike over that of the hardest on its race from which on it is shown, and how many of
+a race at most. Elastic loads: the dashpot of a contact adds most of what the housing feels."""
+
+ENOUGH_PASSES = (3.0, 1.0)
+"""Ball passes out of which the stretch is taken; fewer where the motion is too short for more."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +65,12 @@ class BallMass:
         acceleration of the housing.
     balls : (k,), loads : (2, n, k) [N]
         the balls that enter or leave, counted from 0, and their loads at the inner and outer race.
-    events, flights, strike
-        of these balls; `strike` is that of the ball that enters at 0, None where there is none.
+    events, flights
+        of these balls.
+    strikes
+        the hard ones, of the ball that enters at 0, on a race that it has let go of.
+    far_edge [s]
+        when that ball meets the far edge, where it lets go of neither race; else NaN.
     massless_spectra, spectra : {dof: Spectrum}
         of the settled motions.
     resonances : (lowest, highest) [Hz]
@@ -66,6 +80,8 @@ class BallMass:
         its standard error over parts of the motion, NaN where that is too short for it.
     added : (m,) [dB]
         the same as a ratio of powers.
+    quiet : (m,)
+        True where there is next to no power against the loudest octave.
     """
 
     scene: Scene
@@ -82,7 +98,8 @@ class BallMass:
     loads: Array
     events: tuple[Event, ...]
     flights: tuple[Flight, ...]
-    strike: Strike | None
+    strikes: tuple[Strike, ...]
+    far_edge: float
     massless_spectra: dict[str, Spectrum]
     spectra: dict[str, Spectrum]
     resonances: tuple[float, float]
@@ -90,21 +107,17 @@ class BallMass:
     share: Array
     spread: Array
     added: Array
+    quiet: NDArray[np.bool_]
 
     @property
     def entry(self) -> Event | None:
         """The ball that enters at 0."""
-        return next((e for e in self.events if e.enters and abs(e.time) < 1e-9), None)
+        return _entry(self.events)
 
     @property
     def exit(self) -> Event | None:
         """The same ball as it leaves."""
-        if self.entry is None:
-            return None
-        return next(
-            (e for e in self.events if not e.enters and e.ball == self.entry.ball and e.time > 0.0),
-            None,
-        )
+        return _exit(self.events)
 
     @property
     def free_share(self) -> float:
@@ -115,7 +128,10 @@ class BallMass:
 def ball_mass(massless: Motion, heavy: Motion, since: float) -> BallMass:
     """Compare two motions of equal duration and sample rate, settled `since` [s]."""
     scene, rate = heavy.scene, heavy.sample_rate
-    whole = excerpt(scene, heavy, since, n_passes=3.0)
+    for passes in ENOUGH_PASSES:
+        whole = excerpt(scene, heavy, since, n_passes=passes)
+        if _entry(whole.events) is not None:
+            break
     start, end = _look(whole.events, whole.time)
     begin = round((whole.motion_time + start) * rate)
     stop = min(max(round((whole.motion_time + end) * rate), begin + 2), len(heavy.time))
@@ -124,6 +140,7 @@ def ball_mass(massless: Motion, heavy: Motion, since: float) -> BallMass:
     balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
     balls = balls if balls.size else whole.balls
     loads = heavy.race_loads(begin, stop)[:, :, balls]
+    struck = _strikes(time, loads, balls, events)
     dofs = compared_directions(heavy.dofs)
     columns = [heavy.dofs.index(dof) for dof in dofs]
     seen = [
@@ -161,7 +178,8 @@ def ball_mass(massless: Motion, heavy: Motion, since: float) -> BallMass:
             Flight(int(balls[flight.ball]), flight.begin, flight.end)
             for flight in flights(time, loads)
         ),
-        strike=_strike(time, loads, balls, events),
+        strikes=struck,
+        far_edge=math.nan if struck else _far_edge(scene, events, whole.motion_time),
         massless_spectra=named[0],
         spectra=named[1],
         resonances=contact_resonance_band(scene),
@@ -169,40 +187,67 @@ def ball_mass(massless: Motion, heavy: Motion, since: float) -> BallMass:
         share=share,
         spread=_spread(late, rate, octaves) if finite and dofs else np.full_like(share, math.nan),
         added=added,
+        quiet=power[1] < QUIET * np.max(power[1], initial=0.0),
     )
 
 
 def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
     """From when to when [s] the way of the ball is shown that enters at 0."""
-    entry = next((e for e in events if e.enters and abs(e.time) < 1e-9), None)
-    leaves = None
-    if entry is not None:
-        later = [e.time for e in events if not e.enters and e.ball == entry.ball and e.time > 0.0]
-        leaves = next(iter(later), None)
-    if leaves is None:
+    last = _exit(events)
+    if last is None:
         return float(time[0]), float(time[-1])
+    leaves = last.time
     start = max(float(time[0]), -max(BEFORE * leaves, 0.3 * SHORTEST_LOOK))
     end = leaves + max(AFTER * leaves, 0.7 * SHORTEST_LOOK)
     return start, min(float(time[-1]), end)
 
 
-def _strike(
-    time: Array, loads: Array, balls: NDArray[np.int64], events: tuple[Event, ...]
-) -> Strike | None:
-    """The hardest strike of the ball that enters at 0 on its way through the defect."""
-    entry = next((e for e in events if e.enters and abs(e.time) < 1e-9), None)
+def _entry(events: tuple[Event, ...]) -> Event | None:
+    return next((e for e in events if e.enters and abs(e.time) < 1e-8), None)
+
+
+def _exit(events: tuple[Event, ...]) -> Event | None:
+    """The ball that enters at 0, as it leaves."""
+    entry = _entry(events)
     if entry is None:
         return None
-    leaves = next(
-        (e.time for e in events if not e.enters and e.ball == entry.ball and e.time > 0.0), None
-    )
+    return next((e for e in events if not e.enters and e.ball == entry.ball and e.time > 0.0), None)
+
+
+def _strikes(
+    time: Array, loads: Array, balls: NDArray[np.int64], events: tuple[Event, ...]
+) -> tuple[Strike, ...]:
+    """The hard strikes on each race of the ball that enters at 0, on its way through the defect."""
+    entry, leaves = _entry(events), _exit(events)
+    if entry is None:
+        return ()
     slot = int(np.flatnonzero(balls == entry.ball)[0])
-    until = float(time[-1]) if leaves is None else LATE * leaves
+    until = float(time[-1]) if leaves is None else LATE * leaves.time
     own = [s for s in strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
-    if not own:
-        return None
-    hardest = max(own, key=lambda strike: strike.load)
-    return Strike(entry.ball, hardest.race, hardest.time, hardest.load, hardest.peak)
+    found = []
+    for race in RACES:
+        there = sorted((s for s in own if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
+        found += [
+            dataclasses.replace(strike, ball=entry.ball)
+            for strike in there
+            if strike.load >= HARD * there[0].load
+        ]
+    return tuple(sorted(found, key=lambda strike: strike.time))
+
+
+def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
+    """When [s] the ball that enters at 0 meets the far edge; NaN where no corner says it.
+
+    `zero`: [s] of the motion at which it enters.
+    """
+    leaves = _exit(events)
+    if leaves is None:
+        return math.nan
+    first = scene.cage_speed * zero
+    last = first + scene.cage_speed * leaves.time
+    margin = 1e-6 * (last - first)
+    corners = path_kinks(scene, first + margin, last - margin)
+    return float((corners[-1] - first) / scene.cage_speed) if corners.size else math.nan
 
 
 def _octaves(sample_rate: float) -> Array:

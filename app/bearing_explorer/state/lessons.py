@@ -117,7 +117,7 @@ _MATHML_ELEMENTS = (
 _MATHML_ATTRIBUTES = (
     "xmlns display mathvariant stretchy fence separator form lspace rspace width height depth "
     "minsize maxsize linethickness columnalign rowspacing columnspacing displaystyle scriptlevel "
-    "accent accentunder movablelimits largeop symmetric"
+    "accent accentunder movablelimits largeop symmetric voffset"
 )
 
 
@@ -262,6 +262,7 @@ def text_for_teachers(tabs: Tabs) -> str:
     for token in tokens:
         if token.type in ("heading_open", "heading_close"):
             _lower(token)
+            _lower(token)  # below the title of the list of lessons
         if token.children:
             _without_links_to_files(token.children)
             _mend(token.children, 1, head, tabs)
@@ -611,4 +612,16 @@ def _formula(latex: str, display: bool, line: int) -> str:
             element.text = re.sub(
                 r"&#x([0-9A-Fa-f]{1,6});", lambda code: chr(int(code[1], 16)), element.text
             )
+    _lower_subscripts(root)
     return ElementTree.tostring(root, encoding="unicode")
+
+
+def _lower_subscripts(root: ElementTree.Element) -> None:
+    """Subscripts a little lower: without a font for mathematics browsers set them on the line."""
+    for element in root.iter():
+        if element.tag in ("msub", "msubsup") and len(element) > 1:
+            below = element[1]
+            box = ElementTree.Element("mpadded", {"voffset": "-0.2em"})
+            element.remove(below)
+            box.append(below)
+            element.insert(1, box)

@@ -10,6 +10,7 @@ import panel as pn
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.mass_time import MASSLESS_LINE
 from bearing_explorer.views.wide_spectrum import WideSpectra
 
 if TYPE_CHECKING:
@@ -22,17 +23,15 @@ class MassInSpectrum(View):
     name = "mass-spectrum"
     title = "Spectrum without and with the mass of the balls"
     about = (
-        "In colour with the mass of the balls, thin without. Power spectral density of the "
-        "housing's acceleration up to half the sample rate. Shaded: where loaded balls resonate "
-        "between their two contacts. In free flight balls are sensitive to anything: look at "
-        "bands, not at single lines."
+        "In colour with the mass of the balls, broad and grey without. Power spectral density of "
+        "the housing's acceleration up to half the sample rate. Shaded: where loaded balls "
+        "resonate between their two contacts. In free flight balls are sensitive to anything: "
+        "look at bands, not at single lines."
     )
     needs = frozenset({"ball_mass"})
 
     def build(self, packed: PackedSource) -> Any:
-        self._spectra = WideSpectra(
-            packed, "mass_spectrum", {"line_color": style.INK, "line_width": 1.0}, True
-        )
+        self._spectra = WideSpectra(packed, "mass_spectrum", MASSLESS_LINE)
         plots = reversed(self._spectra.plots)
         return pn.Column(*plots, sizing_mode="stretch_width", margin=0)
 

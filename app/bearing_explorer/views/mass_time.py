@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +18,6 @@ from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_time import (
-    ACCELERATION,
     LABEL_WIDTH,
     NAME_WIDTH,
     PIXELS,
@@ -30,13 +31,17 @@ if TYPE_CHECKING:
 
 SLOTS = len(style.BALL_COLORS)
 RACES = ("inner", "outer")
-ENTERS, LEAVES, STRIKES = 0.0, 1.0, 2.0
+WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")
+"""Of events, by the numbers that the packed source carries."""
 EVENT_ROWS = 3
 
-_EVENT_WORDS = """
-const what = ['enters', 'leaves', 'strikes'][row.kind]
-return `ball ${row.ball} ${what}, ${si(row.time, 's')}`
-"""
+_EVENT_WORDS = (
+    f"return `ball ${{row.ball}} ${{{json.dumps(WORDS)}[row.kind]}}, ${{si(row.time, 's')}}`"
+)
+
+
+MASSLESS_LINE = {"line_color": style.INK, "line_alpha": 0.35, "line_width": 3.0}
+"""Look of what moves without the mass of the balls."""
 
 
 class MassInTime(View):
@@ -45,9 +50,9 @@ class MassInTime(View):
     name = "mass-time"
     title = "A ball with mass passes the defect"
     about = (
-        "In colour with the mass of the balls, thin without. Above: acceleration of the housing. "
-        "Below: loads of the balls near the defect, full at the outer race, dashed at the inner. "
-        "Shaded: a ball flies free, it touches neither."
+        "In colour with the mass of the balls, broad and grey without. Above: acceleration of the "
+        "housing. Below: loads of the balls near the defect, full at the outer race, dashed at the "
+        "inner. Shaded: a ball flies free, it touches neither."
     )
     needs = frozenset({"ball_mass"})
 
@@ -60,16 +65,14 @@ class MassInTime(View):
         motion = packed.source("mass_motion", "time", *SHOWN, *(f"{d}_massless" for d in SHOWN))
         plots = []
         for dof in reversed(SHOWN):
-            quantity = style.AxisQuantity(ACCELERATION.name, f"a{dof}", "m/s²", prefixed=True)
+            quantity = style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True)
             plot = style.house_figure(
                 TIME, quantity, time, height, height=210, name=f"mass_acceleration_{dof}"
             )
             self._mark(plot, events)
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            plot.line("time", dof, source=motion, line_color=color, line_width=1.6)
-            plot.line(
-                "time", f"{dof}_massless", source=motion, line_color=style.INK, line_width=1.0
-            )
+            plot.line("time", f"{dof}_massless", source=motion, **MASSLESS_LINE)
+            plot.line("time", dof, source=motion, line_color=color, line_width=1.4)
             plots.append(plot)
         self._label_events(plots[0], events)
         below = style.house_figure(
@@ -180,20 +183,7 @@ class MassInTime(View):
             for dof in ("y", "x")
             if dof in shown.with_mass
         ][:1]
-        entry, strike = shown.entry, shown.strike
-        if entry is None:
-            words = "No ball enters a defect here"
-        elif strike is None:
-            words = (
-                f"Ball {entry.ball + 1} enters the defect at 0 and never lets go of its races: "
-                "it strikes nothing"
-            )
-        else:
-            words = (
-                f"Ball {entry.ball + 1} enters the defect at 0, strikes the {strike.race} race "
-                f"{style.with_prefix(strike.time, 's')} later and presses it with up to "
-                f"{style.with_prefix(strike.load, 'N')}"
-            )
+        words = way_of_the_ball(shown)
         free = style.number(100.0 * shown.free_share, 2)
         flying = f"; the balls drawn fly free for {free} % of the time"
         return "; ".join([words, *peaks]) + flying + "."
@@ -210,15 +200,35 @@ class MassInTime(View):
         return table
 
 
+def way_of_the_ball(shown: BallMass) -> str:
+    """What becomes of the ball that enters at 0, in words."""
+    entry = shown.entry
+    if entry is None:
+        return "No ball enters a defect here"
+    words = f"Ball {entry.ball + 1} enters the defect at 0"
+    if not shown.strikes:
+        where = ""
+        if math.isfinite(shown.far_edge):
+            where = f", meets the far edge {style.with_prefix(shown.far_edge, 's')} later"
+        return f"{words}{where} and never lets go of its races: it does not fly"
+    struck = [
+        f"the {strike.race} race after {style.with_prefix(strike.time, 's')} with "
+        f"{style.with_prefix(strike.load, 'N', 2)}"
+        for strike in shown.strikes
+    ]
+    return f"{words} and strikes {style.list_words(struck)}"
+
+
 def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarray]:
     """Entries, exits and the strike as columns, with labels in rows where they have room."""
-    events = [(e.time, e.ball, ENTERS if e.enters else LEAVES) for e in shown.events]
-    if shown.strike is not None:
-        events.append((shown.strike.time, shown.strike.ball, STRIKES))
+    events = [(e.time, e.ball, 0 if e.enters else 1) for e in shown.events]
+    events += [(s.time, s.ball, 2 + RACES.index(s.race)) for s in shown.strikes]
+    if shown.entry is not None and math.isfinite(shown.far_edge):
+        events.append((shown.far_edge, shown.entry.ball, 4))
     # those of the ball that enters at 0 get their labels first
     own = shown.entry.ball if shown.entry is not None else -1
     events.sort(key=lambda event: (event[1] != own, event[0]))
-    width = 1.4 * LABEL_WIDTH * (end - start)
+    width = 1.5 * LABEL_WIDTH * (end - start)
     taken: list[list[float]] = [[] for _ in range(EVENT_ROWS)]
     lefts, places = [], []
     for time, _, _ in events:
@@ -231,9 +241,9 @@ def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarra
         if row is not None:
             taken[row].append(left)
     return {
-        "time": np.array([time for time, _, _ in events]),
+        "time": np.array([time if abs(time) > 1e-8 else 0.0 for time, _, _ in events]),
         "ball": np.array([ball + 1.0 for _, ball, _ in events]),
-        "kind": np.array([kind for _, _, kind in events]),
+        "kind": np.array([float(kind) for _, _, kind in events]),
         "label_from": np.array(lefts),
         "label_at": np.array(places),
     }

@@ -1,4 +1,4 @@
-"""Which of two mechanisms shakes the housing: varying stiffness, or balls that strike."""
+"""Which of two mechanisms shakes the housing: varying stiffness, or the mass of the balls."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bearing_explorer.compute.ball_mass import BallMass
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.wide_spectrum import FREQUENCY
+from bearing_explorer.views.wide_spectrum import FREQUENCY, in_hertz
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -34,16 +34,17 @@ class WhichMechanism(View):
     name = "mechanism"
     title = "Which mechanism"
     about = (
-        "Share of the housing's power that is there only because balls strike. Having mass they "
-        "do; the rest comes from the stiffness that varies as they pass. x and y together, by "
-        "octaves; the thin lines are its standard error. Below zero mass takes power away."
+        "Share of the housing's power that is there only because balls have mass, fly and strike. "
+        "The rest comes from the stiffness that varies as they pass. x and y together, by octaves; "
+        "thin lines are its standard error, faint bars 40 dB and more below the loudest octave. "
+        "Below zero mass takes power away."
     )
     needs = frozenset({"ball_mass"})
 
     def build(self, packed: PackedSource) -> Any:
         bars = packed.source(
             "mechanism_bars", "left", "right", "middle", "share", "top", "known", "low", "high",
-            "label_at",
+            "label_at", "alpha",
         )  # fmt: skip
         plot = style.house_figure(
             FREQUENCY,
@@ -54,11 +55,10 @@ class WhichMechanism(View):
             x_axis_type="log",
             name="mechanism",
         )
-        plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
-        plot.xaxis[0].axis_label = FREQUENCY.words
+        in_hertz(plot)
         plot.quad(
             left="left", right="right", bottom=0.0, top="top", source=bars,
-            fill_color=style.DEFECTIVE, fill_alpha=0.75, line_color=None,
+            fill_color=style.DEFECTIVE, fill_alpha="alpha", line_color=None,
         )  # fmt: skip
         plot.segment("middle", "low", "middle", "high", source=bars, line_color=style.INK)
         plot.text(
@@ -89,6 +89,7 @@ class WhichMechanism(View):
                 "low": ends[0],
                 "high": ends[1],
                 "label_at": np.maximum(ends[1], 0.0) + 1.5,
+                "alpha": np.where(found.quiet, 0.2, 0.75),
             }
         }, {
             "mechanism_frequency": (float(low[0]), float(high[-1])),
@@ -99,7 +100,7 @@ class WhichMechanism(View):
         found = results.ball_mass
         if not np.isfinite(found.share).any():
             return "There is no settled motion whose power could be shared out."
-        return verdict(found)
+        return in_words(found)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         found = results.ball_mass
@@ -109,35 +110,34 @@ class WhichMechanism(View):
             "mass_share": found.share,
             "mass_share_standard_error": found.spread,
             "added_db": found.added,
+            "quiet": found.quiet,
         }
 
 
-def verdict(found: BallMass) -> str:
+def in_words(found: BallMass) -> str:
     """In words: in which octaves which mechanism gives most of the power."""
-    low, share = found.octaves[:-1], found.share
-    struck = np.flatnonzero(np.isfinite(share) & (share > HALF))
+    loud = np.isfinite(found.share) & ~found.quiet
+    low, high, share = found.octaves[:-1][loud], found.octaves[1:][loud], found.share[loud]
+    struck = np.flatnonzero(share > HALF)
     if not struck.size:
-        at = int(np.nanargmax(share))
-        return (
-            "Stiffness that varies gives most of the power in every octave; mass adds most from "
-            f"{_hertz(low[at])} to {_hertz(found.octaves[at + 1])}: {_percent(share[at])}."
-        )
+        at = int(np.argmax(share))
+        most = f"{_percent(share[at])} from {_hertz(low[at])} to {_hertz(high[at])}"
+        adds = f"mass adds at most {most}" if share[at] > 0.0 else "mass adds nothing"
+        return f"Stiffness that varies gives most of the power in every octave; {adds}."
     most = _percent(share[struck].max())
     if struck.size < low.size - struck[0]:  # others lie between
         named = style.list_words([_hertz(low[i]) for i in struck])
         return (
-            f"Balls that strike give most of the power in the octaves that begin at {named}, up to "
-            f"{most}; in the others stiffness that varies does."
+            f"The mass of the balls gives most of the power in the octaves that begin at {named}, "
+            f"up to {most}; in the others stiffness that varies does."
         )
-    words = (
-        f"From {_hertz(low[struck[0]])} up balls that strike give most of the power, up to {most}"
-    )
+    words = f"From {_hertz(low[struck[0]])} up the mass of the balls gives most of the power"
     below = share[: struck[0]]
-    if not np.isfinite(below).any():
-        return f"{words}."
+    if not below.size:
+        return f"{words}, up to {most}."
     return (
-        f"{words}; below, stiffness that varies does, and mass adds "
-        f"{_percent(np.nanmin(below))} to {_percent(np.nanmax(below))}."
+        f"{words}, up to {most}; below, stiffness that varies does, and mass adds at most "
+        f"{_percent(max(below.max(), 0.0))}."
     )
 
 

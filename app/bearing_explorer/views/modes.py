@@ -136,12 +136,12 @@ class NaturalFrequencies(View):
         if not known:
             return "There is no static state to take natural frequencies from."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
-        words = [f"{label} at {_from_to(known[label])}" for label in radial]
+        words = [f"{label} {_from_to(known[label])}" for label in radial]
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
         if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} at {_from_to(healthy[first])}"
+            text += f"; {results.beside_words} {first} {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -167,7 +167,8 @@ class NaturalFrequencies(View):
 
 
 def _from_to(band: tuple[float, float]) -> str:
-    return span(*band, "Hz")
+    words = span(*band, "Hz")
+    return f"from {words}" if " to " in words else f"at {words}"
 
 
 def band_rows(modes: Modes) -> dict[str, np.ndarray]:

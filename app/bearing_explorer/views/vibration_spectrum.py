@@ -110,7 +110,7 @@ class VibrationSpectra(View):
                 code="for (const mark of marks) mark.visible = cb_obj.active.length > 0",
             ),
         )
-        self._narrow_plots = plots
+        self._narrow = [toggle, *plots]
         self._wide = WideSpectra(packed, "spectrum_wide", {})
         self._axis = LookPanel(
             self._asked, spec={"name": "spectrum", "fields": [AXIS]}, values={"axis": "linear"}
@@ -130,8 +130,8 @@ class VibrationSpectra(View):
 
     def _show_axis(self) -> None:
         """The figures of the axis that was chosen."""
-        for plot in self._narrow_plots:
-            plot.visible = not self.wide
+        for part in self._narrow:
+            part.visible = not self.wide
         for plot in self._wide.plots:
             plot.visible = self.wide
         self._axis.values = {"axis": "logarithmic" if self.wide else "linear"}

@@ -16,7 +16,8 @@ from bearing_explorer.views.base import Ranges, Sources
 if TYPE_CHECKING:
     from bearingcore import Spectrum
 
-FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz", prefixed=True)
+FREQUENCY = style.AxisQuantity("Frequency", "f", "")
+TICKS = [m * 10.0**e for e in range(1, 6) for m in (1, 3)]  # [Hz]
 SHOWN = ("x", "y")
 LOWEST = 100.0  # [Hz]
 DEPTH_OF_VIEW = 90.0  # [dB] below the loudest line
@@ -29,7 +30,7 @@ _BAND_WORDS = (
 
 
 class WideSpectra:
-    """A figure along x and one along y: one spectrum as a colored line, another beneath or above.
+    """A figure along x and one along y: one spectrum as a colored line, another beneath it.
 
     Parameters
     ----------
@@ -38,14 +39,10 @@ class WideSpectra:
     name
         of the sources and ranges.
     other
-        look of the other line.
-    other_on_top
-        whether it is drawn over the colored one.
+        look of the other line, which is drawn beneath.
     """
 
-    def __init__(
-        self, packed: PackedSource, name: str, other: dict[str, Any], other_on_top: bool = False
-    ) -> None:
+    def __init__(self, packed: PackedSource, name: str, other: dict[str, Any]) -> None:
         self._name = name
         self._levels = StickyRange(-120.0, -20.0, least_span=60.0)
         frequency = packed.range(f"{name}_frequency", LOWEST, 32768.0)
@@ -65,19 +62,14 @@ class WideSpectra:
                 x_axis_type="log",
                 name=f"{name}_{dof}",
             )
-            plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
-            plot.xaxis[0].axis_label = FREQUENCY.words
-            plot.xgrid[0].minor_grid_line_color = style.GRID
+            in_hertz(plot)
             plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
             plot.vstrip("low", "high", source=band, fill_color=style.DEFECT, fill_alpha=0.22,
                         line_color=None)  # fmt: skip
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            both = [
-                (others, {"line_color": style.HEALTHY, "line_width": 1.5, **other}),
-                (lines, {"line_color": color, "line_width": 1.6}),
-            ]
-            for source, look in reversed(both) if other_on_top else both:
-                plot.line("frequency", dof, source=source, **look)
+            beneath = {"line_color": style.HEALTHY, "line_width": 1.5, **other}
+            plot.line("frequency", dof, source=others, **beneath)
+            plot.line("frequency", dof, source=lines, line_color=color, line_width=1.4)
             plot.text(
                 "label_at", 0.06, y_range_name="rows", text=style.words_of(band, _BAND_WORDS),
                 source=band, text_align="right", text_baseline="middle",
@@ -122,6 +114,13 @@ class WideSpectra:
         loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))
         fitted = self._levels.fit(np.maximum(levels, loudest - DEPTH_OF_VIEW), loudest + 6.0)
         return sources, {f"{name}_frequency": (LOWEST, top), f"{name}_level": fitted}
+
+
+def in_hertz(plot: figure) -> None:
+    """Write frequencies along a logarithmic axis, each with its unit."""
+    plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
+    style.fixed_ticks(plot.xaxis[0], TICKS)
+    plot.xgrid[0].ticker = plot.xaxis[0].ticker
 
 
 def wide_levels(spectra: dict[str, Spectrum], top: float) -> dict[str, np.ndarray]:

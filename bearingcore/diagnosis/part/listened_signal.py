@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 
 import numpy as np
@@ -20,6 +21,9 @@ FEWEST_PASSES = 12
 MOST_DROPPED = 0.5
 """Share of a recording without signal from which nothing is said."""
 
+NOISE_FLOOR = 1e-4
+"""Of a signal's deviation that is added as noise (-80 dB)."""
+
 NARROWEST = 16.0
 """Turns of the shaft a second that a band is wide at least."""
 
@@ -37,12 +41,19 @@ class ListenedSignal:
         faults = [signal_faults(column) for column in columns]
         usable = [index for index, one in enumerate(faults) if one.dropped_share <= MOST_DROPPED]
         self.names = [recording.directions[index] for index in usable]
-        self.columns = [np.asarray(columns[index]) for index in usable]
+        self.columns = [_with_a_floor(np.asarray(columns[index])) for index in usable]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
+        self.whitening: float | None = WHITENING
         self.nothing_to_hear: str | None = None
         if not usable:
             share = min(one.dropped_share for one in faults)
             self.nothing_to_hear = say.dropped(share)
+
+    def as_measured(self) -> ListenedSignal:
+        """The same, not whitened: what swells where something rings is heard, and tones are."""
+        other = copy.copy(self)
+        other.whitening = None
+        return other
 
     @property
     def dropped(self) -> float:
@@ -61,13 +72,27 @@ class ListenedSignal:
             (name, envelope)
             for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
             for envelope in squared_envelopes(
-                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
+                column,
+                self.rate,
+                bands,
+                highest,
+                faults.dropped,
+                None if self.whitening is None else self.whitening * shaft,
             )
         ]
 
     def shaft(self, low: float, high: float) -> ShaftLines:
         """The shaft's own lines between two frequencies [Hz]."""
         return shaft_lines(self.columns, self.rate, low, high)
+
+
+def _with_a_floor(samples: np.ndarray) -> np.ndarray:
+    """The samples with the noise that any recorder has.
+
+    A computed signal may have none: then whatever rounding and leakage leave would stand out.
+    """
+    noise = np.random.default_rng(0).standard_normal(len(samples))
+    return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
 
 
 def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> str | None:

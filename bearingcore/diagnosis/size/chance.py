@@ -12,9 +12,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from bearingcore.diagnosis.size.synthesis import Target
+from bearingcore.diagnosis.size.matching import Prepared, Target
 
 DRAWS = 24
 """Passes with phases drawn anew."""
@@ -57,22 +56,19 @@ class ByChance:
         rng = np.random.default_rng(0)
         count = len(target.harmonics)
         turns = np.exp(2j * math.pi * rng.uniform(size=(DRAWS, count)))
-        self._drawn = [target.with_harmonics(target.harmonics * turn[:, None]) for turn in turns]
-        self._target = target
-        self._drawn_best = np.full(DRAWS, math.inf)
-        self._best = math.inf
+        self._drawn = [target.harmonics * turn[:, None] for turn in turns]
+        self._measured = target.harmonics
+        self._drawn_least = np.full(DRAWS, math.inf)
+        self._least = math.inf
 
-    def look(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> None:
-        """Let the drawn passes be explained by simulations (m, N, d), as the measured one is."""
-        self._best = min(self._best, _least(self._target, harmonics, power))
+    def look(self, simulated: Prepared) -> None:
+        """Let the drawn passes be explained by simulations, as the measured one is."""
+        self._least = min(self._least, float(simulated.least_cost(self._measured).min()))
         for i, drawn in enumerate(self._drawn):
-            self._drawn_best[i] = min(self._drawn_best[i], _least(drawn, harmonics, power))
+            least = float(simulated.least_cost(drawn).min())
+            self._drawn_least[i] = min(self._drawn_least[i], least)
 
     @property
     def share(self) -> float:
         """Part of the passes, the measured one among them, explained as well as it is or better."""
-        return float((1 + np.sum(self._drawn_best <= self._best)) / (1 + DRAWS))
-
-
-def _least(target: Target, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> float:
-    return float(target.match(harmonics, power).waveform_misfit.mean(axis=1).min())
+        return float((1 + np.sum(self._drawn_least <= self._least)) / (1 + DRAWS))

@@ -16,7 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.diagnosis.size.chance import ByChance
-from bearingcore.diagnosis.size.synthesis import SPECTRUM_FLOOR, WAVEFORM_FLOOR, Target, synthesise
+from bearingcore.diagnosis.size.matching import (
+    SPECTRUM_FLOOR,
+    SPECTRUM_WEIGHT,
+    WAVEFORM_WEIGHT,
+    Prepared,
+    Target,
+)
+from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
+from bearingcore.diagnosis.size.synthesis import synthesise
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.model.defect import EDGES
 from bearingcore.model.scene import Scene
@@ -46,11 +54,6 @@ FURTHER = 4
 FURTHER_ROUNDS = 3
 """How many of them are refined further, and how often."""
 
-WAVEFORM_WEIGHT = 12.0
-SPECTRUM_WEIGHT = 12.0
-"""What a factor e in a misfit counts, before the temperature: chosen by hand on scenes other than
-those that the method is judged by."""
-
 Stop = Callable[[float], None]
 
 
@@ -73,6 +76,8 @@ class Guess:
         ball-pass phase [rad] of the simulation at which the measured pass begins.
     level
         natural logarithm of simulated over measured power.
+    path
+        what lies between housing and sensor.
     extent_spread
         standard deviation [rad] of the extent where the scene's numbers may vary; NaN until it was
         refined.
@@ -84,12 +89,15 @@ class Guess:
     score: float
     waveform_misfit: NDArray[np.float64]
     spectrum_misfit: NDArray[np.float64]
+    waveform_cost: NDArray[np.float64]
     lag: float
     level: float
     passes: BallPasses
+    path: PathModel
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
     extent_spread: float = math.nan
+    extent_scatter: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -100,46 +108,50 @@ class Search:
     target: Target
     columns: tuple[int, ...]
     tolerances: Tolerances
+    paths: tuple[PathModel, ...] = (DIRECT,)
+    """What may lie between housing and sensor."""
 
     @property
     def count(self) -> int:
         """Harmonics that are compared."""
         return int(self.target.kept[-1]) + 1
 
-    def score(
-        self, waveform: NDArray[np.float64], spectrum: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """How well misfits (m, d) speak for their cause, (m,)."""
-        w, s = self._floors
-        return -WAVEFORM_WEIGHT * np.log(w + waveform).mean(axis=1) - SPECTRUM_WEIGHT * np.log(
-            s + spectrum
-        ).mean(axis=1)
-
-    @property
-    def _floors(self) -> tuple[NDArray[np.float64], float]:
-        return WAVEFORM_FLOOR + self.target.noise_share, SPECTRUM_FLOOR
-
-    def guess(self, extent: float, edge: str, offsets: NDArray[np.float64]) -> Guess:
-        """Simulate a defect and compare it with the signal."""
+    def guess(
+        self,
+        extent: float,
+        edge: str,
+        offsets: NDArray[np.float64],
+        path: PathModel | None = None,
+    ) -> Guess:
+        """Simulate a defect and compare it with the signal, behind a path or the best of all."""
         extent = min(max(extent, LEAST_EXTENT), GREATEST_EXTENT)
         offsets = np.where(self.tolerances.spread > 0.0, np.clip(offsets, -MOST_OFF, MOST_OFF), 0.0)
         scene = self.varied(extent, edge, offsets)
         passes = synthesise(scene, self.target.measured.frequency, self.count, self.columns)
-        match = self.target.match(passes.harmonics[None], passes.power[None])
-        score = float(self.score(match.waveform_misfit, match.spectrum_misfit)[0])
-        return Guess(
-            extent,
-            edge,
-            offsets,
-            score - 0.5 * float(offsets @ offsets),
-            match.waveform_misfit[0],
-            match.spectrum_misfit[0],
-            float(match.lag[0]),
-            float(match.level[0]),
-            passes,
-            match.waveform_residual[0],
-            match.spectrum_residual[0],
-        )
+        exits = exit_phases(scene, np.array([extent]))
+        best: Guess | None = None
+        for model in self.paths if path is None else (path,):
+            match = self.target.match(passes.harmonics[None], passes.power[None], model, exits)
+            score = float(match.score[0]) - 0.5 * float(offsets @ offsets)
+            if best is not None and score <= best.score:
+                continue
+            best = Guess(
+                extent,
+                edge,
+                offsets,
+                score,
+                match.waveform_misfit[0],
+                match.spectrum_misfit[0],
+                match.waveform_cost[0],
+                float(match.lag[0]),
+                float(match.level[0]),
+                passes,
+                model,
+                match.waveform_residual[0],
+                match.spectrum_residual[0],
+            )
+        assert best is not None
+        return best
 
     def varied(self, extent: float, edge: str, offsets: NDArray[np.float64]) -> Scene:
         """The scene with a guess's defect and numbers."""
@@ -147,11 +159,12 @@ class Search:
 
     def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
         """What least squares make small, so weighted that near `about` it does as the score."""
-        w, s = self._floors
         directions = len(about.waveform_misfit)
-        waveform = np.sqrt(2.0 * WAVEFORM_WEIGHT / directions / (w + about.waveform_misfit))
+        weighed = (np.abs(about.waveform_residual) ** 2).sum(axis=0)
+        waveform = np.sqrt(2.0 * WAVEFORM_WEIGHT / directions / (1.0 + weighed))
         bands = len(guess.spectrum_residual)
-        spectrum = np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / (s + about.spectrum_misfit))
+        floored = SPECTRUM_FLOOR + about.spectrum_misfit
+        spectrum = np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
         left = (guess.waveform_residual * waveform).ravel()
         return np.concatenate(
             [left.real, left.imag, (guess.spectrum_residual * spectrum).ravel(), guess.offsets]
@@ -164,7 +177,7 @@ class Search:
         steps += [(0.0, 0.3 * unit) for unit in np.eye(len(guess.offsets))]
         sizes = np.array([0.3 * EXTENT_STEP] + [0.3] * len(guess.offsets))
         tried = [
-            self.guess(guess.extent + extent, guess.edge, guess.offsets + offsets)
+            self.guess(guess.extent + extent, guess.edge, guess.offsets + offsets, guess.path)
             for extent, offsets in steps
         ]
         slope = np.array([self.residuals(other, guess) - here for other in tried]) / sizes[:, None]
@@ -174,13 +187,27 @@ class Search:
             damped = curvature + damping * np.diag(np.diag(curvature))
             move = -np.linalg.solve(damped, slope @ here)
             move *= min(1.0, float(np.min(furthest / np.maximum(np.abs(move), 1e-12))))
-            there = self.guess(guess.extent + move[0], guess.edge, guess.offsets + move[1:])
+            there = self.guess(
+                guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess.path
+            )
             tried.append(there)
             if there.score > guess.score:
                 break
         best = max([guess, *tried], key=lambda other: other.score)
-        spread = math.sqrt(float(np.linalg.inv(curvature)[0, 0]))
-        return dataclasses.replace(best, extent_spread=spread)
+        inverse = np.linalg.inv(curvature)
+        spread = math.sqrt(float(inverse[0, 0]))
+        # what is left says how far off the residuals are (a sandwich of curvatures)
+        left = here.copy()
+        left[-len(guess.offsets) :] = 1.0
+        lever = inverse[0] @ slope
+        scatter = math.sqrt(float(((lever * left) ** 2).sum()))
+        return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter)
+
+
+def exit_phases(scene: Scene, extents: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Phases (m,) [rad] of a simulated ball pass at which balls leave defects of some extents."""
+    (defect,) = scene.defects
+    return np.asarray(2.0 * math.pi * (defect.center + 0.5 * extents) / scene.bearing.ball_spacing)
 
 
 @dataclass(frozen=True)
@@ -229,7 +256,7 @@ def _library_part(
 
 
 CHANCE_PARTS = 4
-"""Every so many parts of the library are also held against chance."""
+"""Every so many parts of the library are also held against chance; behind paths half of them."""
 
 
 def guesses(
@@ -252,15 +279,23 @@ def guesses(
         library = _library_part(
             scene, frequency, search.count, search.columns, search.tolerances, part
         )
-        if part % CHANCE_PARTS == 0:
-            by_chance.look(library.harmonics, library.power)
-        match = target.match(library.harmonics, library.power)
-        score = search.score(match.waveform_misfit, match.spectrum_misfit)
-        scores.append(score - 0.5 * (library.offsets**2).sum(axis=1))
+        exits = exit_phases(scene, library.extents)
+        tried = []
+        for path in search.paths:
+            prepared = Prepared(target, library.harmonics, path, exits)
+            if part % (CHANCE_PARTS if path.direct else 2 * CHANCE_PARTS) == 0:
+                by_chance.look(prepared)
+            tried.append(prepared.match(library.power).score)
+        score = np.array(tried)
+        scores.append(score.max(axis=0) - 0.5 * (library.offsets**2).sum(axis=1))
         sources += [
-            (extent, edge, offsets)
-            for extent, edge, offsets in zip(
-                library.extents.tolist(), library.edges, library.offsets, strict=True
+            (extent, edge, offsets, search.paths[number])
+            for extent, edge, offsets, number in zip(
+                library.extents.tolist(),
+                library.edges,
+                library.offsets,
+                score.argmax(axis=0).tolist(),
+                strict=True,
             )
         ]
         progress(0.5 * (part + 1) / PARTS)

@@ -43,11 +43,15 @@ from bearingcore.diagnosis.size.fitting import (
     Search,
     guesses,
 )
-from bearingcore.diagnosis.size.synthesis import Band, Target, comparison_band
-from bearingcore.diagnosis.size.variants import Tolerances
+from bearingcore.diagnosis.size.matching import Target
+from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
+from bearingcore.diagnosis.size.supports import SupportTrial, dependence, other_supports
+from bearingcore.diagnosis.size.synthesis import Band, comparison_band
+from bearingcore.diagnosis.size.variants import PathTolerances, Tolerances
 from bearingcore.dynamics.modes import modes
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import MASSLESS, Scene
+from bearingcore.model.support import Support
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.passes import crossings
@@ -109,6 +113,8 @@ class Candidate:
         its simulated ball passes.
     lag
         ball-pass phase [rad] of the simulation at which the measured signal begins.
+    path
+        what lies between housing and sensor, of what was tried.
     """
 
     turns: int
@@ -122,6 +128,7 @@ class Candidate:
     scene: Scene = field(repr=False)
     passes: BallPasses = field(repr=False)
     lag: float = field(repr=False)
+    path: PathModel = DIRECT
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
@@ -173,6 +180,8 @@ class Sizing:
         frequencies that were compared.
     recording
         the signal.
+    supports
+        what each support that was tried makes of the signal, where it is not known; else none.
     """
 
     candidates: tuple[Candidate, ...]
@@ -189,6 +198,7 @@ class Sizing:
     chance: float = math.nan
     bound: str = ""
     diagnosis: Diagnosis | None = None
+    supports: tuple[SupportTrial, ...] = ()
 
     def table(self) -> ResultTable:
         """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
@@ -238,11 +248,11 @@ class Sizing:
             else (self.events.entry_phase, self.events.exit_phase)
         )
         duration, frequency = self.recording.duration, self.passes.frequency
-        turns = np.arange(math.floor(duration * frequency) + 1)
+        turns = np.arange(-1.0, math.floor(duration * frequency) + 2.0)
 
         def times(phase: float) -> NDArray[np.float64]:
-            all_times = (turns + phase / (2.0 * math.pi)) / frequency
-            return np.asarray(all_times[all_times <= duration])
+            all_times = self.passes.time_of(turns + phase / (2.0 * math.pi))
+            return np.asarray(all_times[(all_times >= 0.0) & (all_times <= duration)])
 
         return times(entry), times(leave)
 
@@ -253,6 +263,8 @@ def size_defect(
     *,
     fault: str | None = None,
     tolerances: Tolerances | None = None,
+    path: PathTolerances | None = None,
+    support_known: bool = True,
     slip: float = 0.02,
     progress: Callable[[float], None] | None = None,
 ) -> Sizing:
@@ -275,6 +287,11 @@ def size_defect(
         is.
     tolerances
         how well the scene is known; None for the usual.
+    path
+        what may lie between the bearing's motion and its measurement; None for all that is known.
+    support_known
+        False where the scene's support is a guess: then others are tried, five times the work, and
+        the answer holds what they differ by.
     slip
         by how much balls may pass faster or slower than the shaft speed says, as a fraction.
     progress
@@ -288,6 +305,7 @@ def size_defect(
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
+    path = path if path is not None else PathTolerances()
     if fault is not None:
         checks.choice("fault", fault, (OUTER,))
     band = comparison_band(scene, recording.sample_rate)
@@ -299,6 +317,9 @@ def size_defect(
         band.lowest,
         band.highest,
         min(EVENTS_REACH * band.highest / 1.35, 0.4 * recording.sample_rate),
+        follow=path.wandering_cage,
+        coloured=path.coloured_noise,
+        shaft=scene.shaft_speed / (2.0 * math.pi) if path.shaft_tones else None,
     )
     target = Target(passes, band)
     events = find_events(passes, scene, recording.directions)
@@ -315,8 +336,40 @@ def size_defect(
     def cell(difference: float) -> int:
         return round(difference / spacing)
 
-    search = Search(scene, target, columns, tolerances)
-    found, chance = guesses(search, cell, progress if progress is not None else _go_on)
+    progress = progress if progress is not None else _go_on
+    tried = [("as told", scene.support)] if support_known else other_supports(scene.support)
+    answers: list[Sizing] = []
+    for number, (_, support) in enumerate(tried):
+        search = Search(
+            dataclasses.replace(scene, support=support), target, columns, tolerances, path.models
+        )
+        part = _share_of(progress, number, len(tried))
+        found, chance = guesses(search, cell, part)
+        answers.append(_answer(nothing, search, found, chance, cell))
+    sized = answers[0]
+    if not support_known:
+        sized = _over_supports(answers, tried, cell)
+    conclusive, bound, status = judged(sized)
+    if sized.supports:
+        status += dependence(sized.supports)
+    return dataclasses.replace(sized, conclusive=conclusive, bound=bound, status=status)
+
+
+def _share_of(
+    progress: Callable[[float], None], number: int, count: int
+) -> Callable[[float], None]:
+    """Progress of one of several parts of the work."""
+    return lambda share: progress((number + share) / count)
+
+
+def _answer(
+    nothing: Sizing,
+    search: Search,
+    found: list[Guess],
+    chance: float,
+    cell: Callable[[float], int],
+) -> Sizing:
+    """The candidates among the guesses, not yet judged."""
     best = found[0]
     in_cells: dict[int, Guess] = {}
     for guess in found:
@@ -330,11 +383,56 @@ def size_defect(
         for guess, weight in zip(chosen, weights, strict=True)
     )
     spread = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
-    sized = dataclasses.replace(
+    return dataclasses.replace(
         nothing, candidates=candidates, extent_uncertainty=spread, scores=scores, chance=chance
     )
-    conclusive, bound, status = judged(sized)
-    return dataclasses.replace(sized, conclusive=conclusive, bound=bound, status=status)
+
+
+def _over_supports(
+    answers: list[Sizing], tried: list[tuple[str, Support]], cell: Callable[[float], int]
+) -> Sizing:
+    """The answer of the support that explains the signal best, and what the others say to it.
+
+    Supports count by how well they explain the signal: a candidate's probability is that over all
+    of them, and its uncertainty holds what they differ by.
+    """
+    heights = np.array([float(one.scores.max()) for one in answers])
+    weights = np.exp((heights - heights.max()) / TEMPERATURE)
+    # of a support whose candidates share the probability all of them count
+    weights *= [1.0 / one.best.probability for one in answers]
+    weights /= weights.sum()
+    leading = answers[int(heights.argmax())]
+    middle = leading.best.extent
+    inside: dict[int, float] = {}
+    variance = total = 0.0
+    for weight, one in zip(weights.tolist(), answers, strict=True):
+        for candidate in one.candidates:
+            place = cell(candidate.extent - middle)
+            inside[place] = inside.get(place, 0.0) + weight * candidate.probability
+            if place == 0:
+                share = weight * candidate.probability
+                total += share
+                variance += share * (one.extent_uncertainty**2 + (candidate.extent - middle) ** 2)
+    candidates = tuple(
+        dataclasses.replace(c, probability=inside[cell(c.extent - middle)])
+        for c in leading.candidates
+    )
+    trials = tuple(
+        SupportTrial(
+            words,
+            support,
+            one.best.extent,
+            one.extent_uncertainty,
+            one.best.probability,
+            float(one.best.waveform_misfit.mean()),
+            weight,
+        )
+        for (words, support), one, weight in zip(tried, answers, weights.tolist(), strict=True)
+    )
+    spread = math.sqrt(variance / total)
+    return dataclasses.replace(
+        leading, candidates=candidates, extent_uncertainty=spread, supports=trials
+    )
 
 
 def _go_on(share: float) -> None:
@@ -376,6 +474,7 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
         scene=search.varied(guess.extent, guess.edge, guess.offsets),
         passes=guess.passes,
         lag=guess.lag,
+        path=guess.path,
     )
 
 

@@ -42,6 +42,7 @@ def test_choices_are_taken_said_and_given_back() -> None:
         "vibration_budget": "0.5",
         "step_rate": "32768",
         "steady": "march",
+        "balls_up_to": "5000",
     }
     settings = with_choices(Settings(step_rate=21845.0), asked)
     assert chosen(settings) == asked
@@ -49,8 +50,9 @@ def test_choices_are_taken_said_and_given_back() -> None:
     moving = settings.planning(SETTLED)
     assert isinstance(moving, MotionPlanning)
     assert (moving.budget, moving.steady, moving.step_rate) == (0.5, "march", 32768.0)
+    assert moving.up_to == 5000.0
     words = "; ".join(by_hand(settings))
-    for word in ("0.1 %", "361", "0.5 dB", "marched motion", "32768 Hz"):
+    for word in ("0.1 %", "361", "0.5 dB", "marched motion", "32768 Hz", "below 5 kHz"):
         assert word in words
     one_back = with_choices(settings, {"cage_angles": ""})
     assert one_back == dataclasses.replace(settings, cage_angles=None)

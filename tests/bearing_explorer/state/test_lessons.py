@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.__main__ import options
+from bearing_explorer.compute.ball_mass import BallMass
 from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.diagnoses import SLIP
 from bearing_explorer.measurement.session import simulated
@@ -29,8 +30,10 @@ from bearing_explorer.state.lessons import (
     lessons_in,
     own_folder,
     read_lesson,
+    text_for_teachers,
 )
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.views.modes import NaturalFrequencies
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -43,12 +46,13 @@ from bearingcore import (
     Spectrum,
     diagnose,
     equilibrium,
-    modes,
+    limits,
     orbit,
     presets,
     simulate,
     spectrum,
 )
+from bearingcore.experiments import motion_experiment
 from tests.helpers import naive
 
 FILES = sorted(own_folder().glob("*.md"))
@@ -74,6 +78,23 @@ def fan(extent_deg: float = 12.9, **fields: float) -> Scene:
 
 def liew_lim(extent_deg: float = 40.0, **fields: float) -> Scene:
     return LIEW_LIM.replace(extent=math.radians(extent_deg), **fields)
+
+
+def light(extent_deg: float = 40.0, **fields: float) -> Scene:
+    """The scene of the lessons that stay inside the limits of the model."""
+    return liew_lim(extent_deg, fy=-500.0, **fields)
+
+
+def first_warned() -> float:
+    """The extent, in steps of 10°, from which on the page warns."""
+    crossed = (x for x in range(0, 100, 10) if any(one.crossed for one in limits(light(x + 4.0))))
+    return float(next(crossed))
+
+
+@cache
+def on_the_page(extent_deg: float) -> dict[str, tuple[float, float]]:
+    """Bands of the natural frequencies as the page shows them when the hand rests."""
+    return Results(fan(extent_deg), planned=NaturalFrequencies.plans).modes.bands()
 
 
 def below(scene: Scene, beside: int = 0) -> float:
@@ -111,11 +132,6 @@ def way_in(edge: str) -> float:
 
 
 @cache
-def bands(extent_deg: float) -> dict[str, tuple[float, float]]:
-    return modes(fan(extent_deg)).bands()
-
-
-@cache
 def of_motion(extent_deg: float, step_rate: float | None = None) -> Spectrum:
     motion = simulate(fan(extent_deg), 1.4, RATE, step_rate=step_rate)
     return spectrum(motion.outer_acceleration, motion.sample_rate)
@@ -129,16 +145,20 @@ def peak(extent_deg: float, dof: int) -> tuple[float, float]:
     return float(frequency[at]), 10.0 * math.log10(density[at, dof])
 
 
+@cache
+def measured_steps() -> dict[float, float]:
+    """Errors of the spectrum [dB] by steps a second, as “Measure” on the page finds them."""
+    found = motion_experiment(FAN, duration=0.1, methods=["RK4"])
+    return {point.value: point.errors["spectrum"] for point in found.of("RK4")}
+
+
 def step_error(step_rate: float) -> float:
-    """Greatest error [dB] of the spectra from 0.3 to 2.1 kHz."""
-    frequency, density = of_motion(12.9, step_rate)
-    band = (frequency >= 300.0) & (frequency <= 2100.0)
-    right = of_motion(12.9, 8.0 * RATE).density[band]
-    return float(np.abs(10.0 * np.log10(density[band] / right)).max())
+    """Error of the spectrum [dB] with RK4 at a step rate that the page offers."""
+    return measured_steps()[step_rate]
 
 
 def greatest_coupling(extent_deg: float) -> float:
-    return float(np.abs(loads(liew_lim(extent_deg)).term("k_xy")).max())
+    return float(np.abs(loads(light(extent_deg)).term("k_xy")).max())
 
 
 def between(values: np.ndarray) -> tuple[float, float]:
@@ -146,10 +166,8 @@ def between(values: np.ndarray) -> tuple[float, float]:
 
 
 def radial_parts(extent_deg: float) -> tuple[float, float]:
-    """Sum [kN] of the radial parts of all ball loads."""
-    found = loads(liew_lim(extent_deg))
-    radial = found.ball_load * np.cos(found.contact_angle)
-    return between(1e-3 * np.nansum(radial, axis=1))
+    """Sum [N] of all ball loads, which are radial here."""
+    return between(loads(fan(extent_deg)).ball_load.sum(axis=1))
 
 
 def passage(extent_deg: float) -> float:
@@ -170,6 +188,26 @@ def crushed(scene: Scene) -> float:
     return 1e-3 * greatest
 
 
+@cache
+def with_mass(scene: Scene) -> BallMass:
+    return Results(scene).ball_mass
+
+
+def mass_shares(scene: Scene, low: float, high: float = math.inf) -> np.ndarray:
+    """Shares [%] of the power that mass adds, in octaves from `low` to `high` [Hz]."""
+    found = with_mass(scene)
+    inside = (found.octaves[:-1] >= low) & (found.octaves[1:] <= high)
+    return 100.0 * found.share[inside]
+
+
+def struck_after(scene: Scene, race: str) -> float:
+    """Time [ms] from a ball's entry to its first hard strike."""
+    return 1e3 * min(s.time for s in with_mass(scene).strikes if s.race == race)
+
+
+FAST_FAN = FAN.replace(shaft_speed=2.0 * math.pi * 30.0)
+PIT = presets["6205"].replace(extent=math.radians(1.2), edge="exact", depth=100e-6)
+LIGHT_PIT = PIT.replace(fy=-50.0)
 HEALTHY = fan(0.0)
 MOTOR, TURN = presets["6205"], 2.0 * math.pi
 E = math.radians
@@ -179,59 +217,64 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
     "01": [
         ("with 100 N", (-HEALTHY.load.fy,)),
         ("There are 14 balls", (HEALTHY.bearing.n_balls,)),
-        ("Only 4 or 5 of the 14 carry anything", (*between(loads(HEALTHY).loaded_balls), 14)),
+        ("−500 N, and back to −100 N. At 0 N", (500, 100, 0)),
+        ("14 balls carry 100 N together", (14, 100)),
+        ("Only 4 or 5 of the 14 balls carry load", (*between(loads(HEALTHY).loaded_balls), 14)),
         ("a ball at the very bottom carries 39 n", (below(HEALTHY),)),
-        ("sinks by 6.7 µm", (sunk(HEALTHY),)),
+        ("moves down by 6.7 µm", (sunk(HEALTHY),)),
         ("first 3 µm are the clearance", (1e6 * HEALTHY.bearing.radial_clearance,)),
-        ("7 balls share and the greatest load is 31 N",
+        ("7 balls share the load and the greatest ball load is 31 N",
          (loads(fan(0.0, radial_clearance=0.0)).loaded_balls.max(),
           loads(fan(0.0, radial_clearance=0.0)).ball_load.max())),
-        ("with 20 µm two or three balls are left to carry all of it, up to 61 N each",
+        ("with 20 µm of clearance two or three balls carry all of it, up to 61 N each",
          (20, loads(fan(0.0, radial_clearance=20e-6)).ball_load.max())),
-        ("268 N instead of 312 N",
-         (loads(fan(0.0, fy=-800.0)).ball_load.max(), 8 * round(below(HEALTHY)))),
+        ("171 N instead of 195 N",
+         (loads(fan(0.0, fy=-500.0)).ball_load.max(), 5 * round(below(HEALTHY)))),
     ],
     "02": [
         ("12.9° long, 50 µm deep", (math.degrees(FAN.defect.extent), 1e6 * FAN.defect.depth)),
         ("The ball at 270°", (math.degrees(FAN.defect.center),)),
-        ("pressed together by 3.7 µm, the ring follows it by 1.2 µm",
+        ("compressed by 3.7 µm, the ring follows it down by 1.2 µm",
          (sunk(HEALTHY) - 3.0, sunk(fan()) - sunk(HEALTHY))),
         ("About 5 µm are enough", (sunk(fan()) - 3.0,)),
-        ("4 µm leave it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(HEALTHY))),
+        ("4 µm leaves it 3.8 N of its 39 N", (4, below(fan(depth=4e-6)), below(HEALTHY))),
         ("5 µm leave it nothing, and 500 µm change nothing further", (5, 500)),
         ("45 N each instead of 29 N", (below(fan(), 1), below(HEALTHY, 1))),
-        ("Eq. 6; where the quarter comes from is a question for lesson 6", (6, 6)),
-        ("at 5° the ball meets the other edge after 42 µm", (5, drop_in_the_middle(5.0))),
-        ("only from 5.5° on it comes down to 50 µm", (5.5, drop_in_the_middle(5.5))),
+        ("Eq. 6 of the paper; lesson 6 asks where the quarter comes from", (6, 6)),
+        ("at 5° the ball meets the other edge after sinking 42 µm", (5, drop_in_the_middle(5.0))),
+        ("About 5 µm About 50 µm About 500 µm", (5, 50, 500)),
+        ("only from 5.5° on does it sink by 50 µm", (5.5, drop_in_the_middle(5.5))),
     ],
     "03": [
-        ("the same 2 kN as before", (-1e-3 * LIEW_LIM.load.fy,)),
-        ("5°, 40°, 70°", (5, 40, 70)),
-        ("make up 2 kn", (2,)),
-        ("add up to about 2.6 kN; at 70° to 3.1–3.5 kN",
-         (radial_parts(0.0)[0], 70, *radial_parts(70.0))),
-        ("none 829 N", (loads(liew_lim(0.0)).ball_load.max(),)),
-        *((f"{x}° {said} kN", (x, 1e-3 * loads(liew_lim(x)).ball_load.max()))
-          for x, said in ((5, "1.01"), (40, "1.39"), (70, "1.56"))),
-        ("pressed 1.9 times as hard as the bottom ever was",
-         (loads(liew_lim(70.0)).ball_load.max() / loads(liew_lim(0.0)).ball_load.max(),)),
-        ("shorter than the 30° between two balls", (math.degrees(LIEW_LIM.bearing.ball_spacing),)),
-        ("From 30° on", (30,)),
+        ("the same 100 N as before", (-FAN.load.fy,)),
+        ("5°, 40°, 60°", (5, 40, 60)),
+        ("A defect of 60°", (60,)),
+        ("again add up to 100 N", (100,)),
+        ("add up to about 110 N; at 60° to 134–161 N",
+         (radial_parts(0.0)[0], 60, *radial_parts(60.0))),
+        ("none 39 N", (loads(HEALTHY).ball_load.max(),)),
+        *((f"{x}° {said} N", (x, loads(fan(x)).ball_load.max()))
+          for x, said in ((5, "46.5"), (40, "62.7"), (60, "82.5"))),
+        ("loaded 2.1 times as heavily as the bottom ever was",
+         (loads(fan(60.0)).ball_load.max() / loads(HEALTHY).ball_load.max(),)),
+        ("shorter than the 25.7° between two balls", (math.degrees(FAN.bearing.ball_spacing),)),
     ],
     "04": [
         ("no defect, and 40° again", (40,)),
-        ("stays within 243–245 MN/m",
-         between(1e-6 * loads(liew_lim(0.0)).term("k_yy"))),
-        ("with the defect, 109–179 MN/m", between(1e-6 * loads(liew_lim()).term("k_yy"))),
-        ("five directions, five loads, 25 terms", (len(DOF_NAMES) ** 2,)),
-        ("so 15 are different", (len(STIFFNESS_TERMS),)),
-        ("at most 0.8 MN/m. With the defect it reaches 9.6 MN/m, eleven times as much",
+        ("stays at 187.6 MN/m", (1e-6 * loads(light(0.0)).term("k_yy").mean(),)),
+        ("between 94 and 145 MN/m", between(1e-6 * loads(light()).term("k_yy"))),
+        ("five directions and five loads, 25 terms", (len(DOF_NAMES) ** 2,)),
+        ("so 15 of them are different", (len(STIFFNESS_TERMS),)),
+        ("below 0.001 MN/m. With the defect it reaches 7.9 MN/m",
          (1e-6 * greatest_coupling(0.0), 1e-6 * greatest_coupling(40.0))),
-        ("the balls stand at 30°", (math.degrees(LIEW_LIM.bearing.contact_angle),)),
+        ("the contact angle is 30°", (math.degrees(LIEW_LIM.bearing.contact_angle),)),
+        ("Hardly at all By about 20 %", (20,)),
     ],
     "05": [
         ("at 5° and let the extent grow slowly from 0° to 90°", (5, 0, 90)),
         ("The balls are 30° apart", (math.degrees(LIEW_LIM.bearing.ball_spacing),)),
+        ("At an extent of 15° At an extent of 30° At an extent of 60°", (15, 30, 60)),
+        ("From about 60° on", (first_warned(),)),
         ("at 30° of extent halfway, at a cage angle of 15°; at 60° with a ball at either end, "
          "at 0°; and at 90° halfway again", (30, 15, 60, 0, 90)),
     ],
@@ -240,50 +283,56 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
         ("an extent of about 64°", (64,)),
         ("three balls 30° apart take up 60°. Why not 60°?",
          (math.degrees(LIEW_LIM.bearing.ball_spacing), 60, 60)),
+        ("with its load of 2 kN", (-1e-3 * LIEW_LIM.load.fy,)),
+        ("three balls 30° apart just fit", (30,)),
+        ("At exactly 60° A little below 60° A little above 60°", (60, 60, 60)),
         ("sunk by the 20 µm",
          (1e6 * LIEW_LIM.replace(edge="chord", extent=E(60.0)).defect.path(
              np.array([E(240.0 + way_in("chord"))]), LIEW_LIM.bearing)[0],)),
         ("Eq. 6 as published", (6,)),
         ("a factor of 0.25 under the root", (0.25,)),
-        ("is 0.87° and the place is 61.75°", (way_in("chord"), fewest("chord")[0])),
+        ("is 0.87° and the extent is 61.75°", (way_in("chord"), fewest("chord")[0])),
         ("= 1.75°, and the fewest balls are at 63.5°",
          (way_in("published"), fewest("published")[0])),
         ("(exact) gives 62°", (fewest("exact")[0],)),
-        ("at 63.75°, 61.75° and 62°", tuple(fewest(edge)[1] for edge in EDGES)),
+        ("extents: 63.75°, 61.75° and 62°", tuple(fewest(edge)[1] for edge in EDGES)),
         ("so the sentence says 63° and 62°", (63, 62)),
     ],
     "07": [
         ("from 0° over 12.9° to 38.6°", (0, 12.9, 38.6)),
-        *((f"{label} {x1} {y1}", (*numbers, *bands(x)["x1"], *bands(x)["y1"]))
+        *((f"{label} {x1} {y1}", (*numbers, *on_the_page(x)["x1"], *on_the_page(x)["y1"]))
           for label, numbers, x, x1, y1 in (
               ("none", (), 0.0, "365–436 Hz", "670–679 Hz"),
-              ("12.9°", (12.9,), 12.9, "365–480 Hz", "615–678 Hz"),
-              ("38.6°", (38.6,), 38.6, "476–571 Hz", "532–616 Hz"))),
+              ("12.9°", (12.9,), 12.9, "365–480 Hz", "615–679 Hz"),
+              ("38.6°", (38.6,), 38.6, "476–571 Hz", "532–617 Hz"))),
     ],
     "08": [
         ("to 12.9°, then to 38.6°", (12.9, 38.6)),
         ("The balls are 25.7° apart", (math.degrees(FAN.bearing.ball_spacing),)),
-        ("38.6° is 12.9° and one spacing more",
+        ("38.6° is 12.9° and one ball spacing more",
          (12.9 + math.degrees(FAN.bearing.ball_spacing), 12.9)),
-        ("which is 12.45 ms and 12.44 ms", (passage(12.9), passage(38.6))),
+        ("0 or 1. That gives 12.45 ms and 12.44 ms", (0, 1, passage(12.9), passage(38.6))),
         ("along y moves from 672 Hz down to 608 Hz", (peak(12.9, 1)[0], peak(38.6, 1)[0])),
         ("the highest peak grows by 14 dB", (peak(38.6, 0)[1] - peak(12.9, 0)[1],)),
     ],
     "09": [
         ("500 µm down", (500,)),
-        ("lets it carry 56 kN", (crushed(liew_lim(depth=500e-6)),)),
-        ("the greatest load is 1.39 kN", (1e-3 * loads(liew_lim()).ball_load.max(),)),
+        ("where the points of RK4 stand", (4,)),
+        ("The point of RK4 furthest", (4,)),
+        ("lets it carry 56 kN", (crushed(light(depth=500e-6)),)),
+        ("the greatest load is 411 N", (loads(light()).ball_load.max(),)),
         ("At 30 Hz", (30,)),
         ("grows by a factor of 1.35",
          (orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).largest_multiplier,)),
         ("At 7 Hz it shrinks to 0.34",
          (FAN.shaft_speed / (2.0 * math.pi), orbit(FAN).largest_multiplier)),
-        ("With 4096 steps a second the spectrum is wrong by 16 dB", (4096, step_error(4096.0))),
-        ("with 16 384 by 0.3 dB", (16, 384, step_error(16384.0))),
-        ("with 65 536 by less than 0.001 dB", (65, 536, 0.001 * (step_error(RATE) < 0.001))),
+        ("With 8192 steps a second the spectrum is wrong by 4.6 dB", (8192, step_error(8192.0))),
+        ("with 16 384 by 0.27 dB", (16, 384, step_error(16384.0))),
+        ("with 65 536 by 0.0015 dB", (65, 536, step_error(65536.0))),
     ],
     "10": [
-        ("its noise 20 dB below", (20,)),
+        ("noise 20 dB below the signal", (20,)),
+        ("the cage turns 0.4 times as fast as the shaft", (MOTOR.bearing.ftf(TURN),)),
         ("Step 2, the spectrum", (2,)),
         ("the cage makes 0.398 turns", (MOTOR.bearing.ftf(TURN),)),
         ("the 9 balls", (MOTOR.bearing.n_balls,)),
@@ -294,9 +343,33 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
         ("At 29.95 turns a second these are 107.4, 162.2 and 141.2 Hz",
          (MOTOR.shaft_speed / TURN, MOTOR.bearing.bpfo(MOTOR.shaft_speed),
           MOTOR.bearing.bpfi(MOTOR.shaft_speed), 2.0 * MOTOR.bearing.bsf(MOTOR.shaft_speed))),
-        ("others beside it, 29.95 Hz away", (MOTOR.shaft_speed / TURN,)),
+        ("sidebands 29.95 Hz away", (MOTOR.shaft_speed / TURN,)),
         ("For a ball they are 11.9 Hz away", (MOTOR.bearing.ftf(MOTOR.shaft_speed),)),
         ("up to 2 % away", (100.0 * SLIP,)),
+    ],
+    "11": [
+        ("a spall 12.9° long, at 7 Hz; then at 30 Hz",
+         (math.degrees(FAN.defect.extent), FAN.shaft_speed / TURN, 30)),
+        ("A 6205 under 1 kN", (6205, -1e-3 * PIT.load.fy)),
+        ("The same pit under 50 N", (-LIGHT_PIT.load.fy,)),
+        ("on the floor after 2.7 ms and is pressed by the inner race again after 11.7 ms",
+         (struck_after(FAN, "outer"), struck_after(FAN, "inner"))),
+        ("Up to 4 kHz that changes next to nothing: mass adds at most 10 %",
+         (4, mass_shares(FAN, 0.0, 4e3).max())),
+        ("From 4 to 8 kHz it is 80 %, above that 96 % and more",
+         (4, 8, mass_shares(FAN, 4e3, 8e3)[0], mass_shares(FAN, 8e3).min())),
+        ("At 30 Hz the border lies an octave higher: from 4 to 8 kHz mass adds 16 %, "
+         "above 8 kHz 93 %",
+         (30, 4, 8, mass_shares(FAST_FAN, 4e3, 8e3)[0], 8, mass_shares(FAST_FAN, 8e3).min())),
+        ("drawn below 2.1 kHz", (2.1,)),
+        ("under 1 kN meets the far edge 0.14 ms", (1, 1e3 * with_mass(PIT).far_edge)),
+        ("mass adds at most 18 %, from 16 kHz on",
+         (mass_shares(PIT, 500.0).max(), 16)),
+        ("Under 50 N the same ball flies, and strikes: there mass adds 85 %",
+         (50, mass_shares(LIGHT_PIT, 16e3)[0])),
+        ("that is 20 to 29 kHz", tuple(1e-3 * f for f in with_mass(FAN).resonances)),
+        ("a ball of 2.1 g moves a housing of 2 kg little",
+         (1e3 * FAN.bearing.ball_mass, FAN.support.outer_mass)),
     ],
 }  # fmt: skip
 
@@ -329,7 +402,9 @@ def lesson_of(path: Path) -> Lesson:
 
 def words_of(lesson: Lesson) -> str:
     parts = " ".join(f"{part.heading} {part.html}" for part in lesson.parts)
-    return Words(f"{lesson.title} {parts}").text
+    asked = lesson.predict
+    prediction = "" if asked is None else " ".join([asked.ask, *asked.choices])
+    return Words(f"{lesson.title} {prediction} {parts}").text
 
 
 def decimals(text: str) -> int:
@@ -358,17 +433,19 @@ def test_what_lessons_say_in_words() -> None:
     np.testing.assert_allclose([below(scene, 1) for scene in deep], below(deep[0], 1), rtol=1e-9)
     assert between(loads(fan(0.0, radial_clearance=20e-6)).loaded_balls) == (2, 3)
     assert loads(fan(0.0, radial_clearance=0.0)).loaded_balls.min() == 7
-    assert loads(fan(0.0, fy=-800.0)).loaded_balls.min() > loads(HEALTHY).loaded_balls.max()
+    assert loads(fan(0.0, fy=-500.0)).loaded_balls.max() > loads(HEALTHY).loaded_balls.max()
     # 2: from 5.5° on the floor is reached, and at 5.4° it is not
     assert drop_in_the_middle(5.4) < 49.9
-    # 3: up to 30° blue lies on grey at times, beyond it never
-    for extent_deg, times in ((29.0, True), (31.0, False)):
-        damaged, healthy = loads(liew_lim(extent_deg)), loads(liew_lim(0.0))
+    # 3: up to a ball spacing blue lies on grey at times, beyond it never
+    for extent_deg, times in ((25.0, True), (26.5, False)):
+        damaged, healthy = loads(fan(extent_deg)), loads(fan(0.0))
         same = np.abs(damaged.ball_load - healthy.ball_load).max(axis=1) < 1e-6
         assert same.any() == times
     # 4
-    damaged, healthy = loads(liew_lim()), loads(liew_lim(0.0))
-    assert greatest_coupling(40.0) / greatest_coupling(0.0) == pytest.approx(11.0, abs=0.5)
+    damaged, healthy = loads(light()), loads(light(0.0))
+    assert healthy.loaded_balls.min() == LIEW_LIM.bearing.n_balls
+    assert greatest_coupling(0.0) < 0.001e6
+    assert np.ptp(healthy.term("k_yy")) < 0.001 * healthy.term("k_yy").mean()
     assert min(np.abs(found.term("k_xry")).min() for found in (damaged, healthy)) > 0.5e6
     tied = [f"k_{a}{b}" for a in "xy" for b in ("z", "rx", "ry")]
     assert all(not loads(fan()).term(term).any() for term in tied)
@@ -382,7 +459,7 @@ def test_what_lessons_say_in_words() -> None:
     # 7, 8
     assert passage(12.9) == pytest.approx(passage(38.6), abs=0.02)
     # 9
-    shallow, deeper = loads(liew_lim()), loads(liew_lim(depth=500e-6))
+    shallow, deeper = loads(light()), loads(light(depth=500e-6))
     np.testing.assert_allclose(deeper.ball_load, shallow.ball_load, rtol=1e-9, atol=1e-9)
     assert orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).residual < 1e-9
     nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
@@ -391,9 +468,9 @@ def test_what_lessons_say_in_words() -> None:
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_the_signals_of_the_last_lesson_are_told_apart(seed: int) -> None:
+def test_the_signals_of_the_lesson_on_parts_are_told_apart(seed: int) -> None:
     """What its buttons simulate is diagnosed as its answer says, sidebands and all."""
-    lesson = lesson_of(FILES[-1])
+    lesson = lesson_of(next(path for path in FILES if path.stem.startswith("10")))
     html = "".join(part.html for part in lesson.parts[:-1])
     buttons = ElementTree.fromstring(f"<div>{html}</div>").iter("button")
     asked = [json.loads(button.attrib["data-ask"]) for button in buttons]
@@ -403,7 +480,7 @@ def test_the_signals_of_the_last_lesson_are_told_apart(seed: int) -> None:
         lesson.begin(editor)
         editor.choose(message["choose"])
         editor.set(message["typed"])
-        assert message["simulate"] == {"noise": "20", "machine": "same"}
+        assert message["simulate"] == {"noise": "20", "machine": "same", "pit": "scene"}
         made = simulated(editor.scene, 20.0, False, seed)
         found[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed, slip=SLIP)
     assert {truth: one.fault for truth, one in found.items()} == {
@@ -427,6 +504,77 @@ def test_lines_of_the_maps_cross_where_the_lesson_says(halfway: bool) -> None:
         assert inside[1] - inside[0] == 2
     drop = liew_lim(corners[0] + 8.0).defect.path(balls, LIEW_LIM.bearing)
     assert (drop > 0.0).sum() == (2 if halfway else 3)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Path) -> None:
+    """Where the page would warn in red, the words before the answer speak of the warning."""
+    lesson = lesson_of(path)
+    before = " ".join(Words(part.html).text for part in lesson.parts[:-1])
+    buttons = [
+        json.loads(button.attrib["data-ask"])
+        for part in lesson.parts
+        for button in ElementTree.fromstring(f"<div>{part.html}</div>").iter("button")
+    ]
+    for message in [{"choose": {}, "typed": {}}, *(b for b in buttons if "typed" in b)]:
+        editor = SceneEditor("liew-lim")
+        lesson.begin(editor)
+        editor.choose(message["choose"])
+        editor.set(message["typed"])
+        crossed = [one.name for one in limits(editor.scene) if one.crossed]
+        assert not crossed or "page warns" in before, (message, crossed)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_prediction_is_asked_before_each_answer(path: Path) -> None:
+    asked = lesson_of(path).predict
+    assert asked is not None
+    if asked.choices:
+        assert 0 <= asked.right < len(asked.choices)
+    else:
+        assert asked.within > 0.0
+
+
+def test_the_page_for_teachers_can_be_shown() -> None:
+    html = text_for_teachers(TABS)
+    Judge().feed(html)
+    assert "45 minutes" in html
+    assert ".md" not in html, "links to files of the repository lead nowhere on the page"
+
+
+def test_an_address_names_a_lesson(tmp_path: Path) -> None:
+    """Alone it begins the lesson; with a scene it shows its words beside that scene."""
+    known = lessons_in(own_folder(), TABS)
+    begun = Explorer(SECTIONS, address="lesson=two-defects-alike", lessons=known)
+    assert begun.lesson.lesson["title"] == "Two defects that look alike"
+    assert begun.lesson.open_first
+    assert begun.scene == FAN
+    assert begun._shown == "vibration"
+    assert begun.share.state["address"].endswith("&lesson=two-defects-alike")
+    assert not begun.share.state["undo"]
+    own = Explorer(SECTIONS, address=begun.share.state["address"].replace("fan-rig", "6205"),
+                   lessons=known)  # fmt: skip
+    assert own.lesson.lesson["name"] == "two-defects-alike"
+    assert own.scene == presets["6205"]
+    none = Explorer(SECTIONS, address="lesson=of-the-past", lessons=known)
+    assert none.lesson.lesson == {}
+    assert "no lesson" in none.share.state["said"]["words"]
+    assert "lesson" not in none.share.state["address"]
+
+
+def test_words_asked_for_again_leave_the_scene_alone() -> None:
+    explorer = Explorer(SECTIONS, lessons=lessons_in(own_folder(), TABS))
+    explorer.draw = lambda: None  # type: ignore[method-assign]
+    explorer._asked({"mark": 1, "typed": {"fy_n": -77.0}})
+    before = explorer.scene
+    explorer._lesson_asked({"mark": 2, "lesson": 2, "words_only": True})
+    assert explorer.lesson.lesson["number"] == 2
+    assert explorer.scene == before
+    explorer._lesson_asked({"mark": 3, "lesson": ""})
+    assert explorer.scene == before
+    assert "lesson" not in explorer.share.state["address"]
+    explorer._lesson_asked({"mark": 4, "lesson": 2})
+    assert explorer.scene != before
 
 
 # --- files ----------------------------------------------------------------------------------------
@@ -459,6 +607,11 @@ watch = ["bearing"]
 [scene]
 extent_deg = 64
 edge = "chord"
+
+[predict]
+ask = "Which?"
+choose = ["this", "that"]
+right = 2
 +++
 ## Question
 Words, [a button](set:extent_deg=62&edge=exact) and [another](show:maps).
@@ -492,7 +645,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
     ("old", "new", "line", "words"),
     [
         ("+++\ntitle", "title", 1, "begins with a line +++"),
-        ("+++\n##", "##", 17, "a second line +++ is missing"),
+        ("+++\n##", "##", 22, "a second line +++ is missing"),
         ('"A title"', "A title", 2, "the head is not TOML"),
         ('title = "A title"', "", 1, "the head has no title"),
         ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
@@ -504,17 +657,21 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("extent_deg = 64", "extent_deg = 640", 9, "640° is out of range: extent goes from 0"),
         ("extent_deg = 64", "extent = 64", 9, "“extent” is no number or choice of the page; was"),
         ('"chord"', '"sharp"', 10, "edge is “sharp”; there are published, chord, exact"),
-        ("## Question", "Question", 12, "parts begin with"),
-        ("## Answer", "Answer", 12, "two parts at least"),
-        ("So $x < y$ it is.", "", 16, "this part is empty"),
-        ("set:extent_deg=62", "set:extent_deg=6200", 13, "6200° is out of range"),
-        ("show:maps", "show:map", 13, "“map” is not a tab"),
-        ("show:maps", "ftp://a/b", 13, "links go to set:, show:, simulate: or https:"),
-        ("show:maps", "simulate:noise=5", 13, "noise is “5”; there are 40, 20, 10, none"),
-        ("show:maps", "simulate:machine=toy", 13, "machine is “toy”; there are same, different"),
-        ("show:maps", "simulate:extent_deg=640", 13, "640° is out of range"),
-        ("3/2}", "3/2", 15, "its braces do not match"),
-        ("So $x", "So\n$\\href{https://a}{x}$ $x", 18, "holds what a formula may not"),
+        ("## Question", "Question", 17, "parts begin with"),
+        ("## Answer", "Answer", 17, "two parts at least"),
+        ('choose = ["this", "that"]', 'choose = ["this"]', 15, "there are 2 to 6"),
+        ('ask = "Which?"', 'aks = "Which?"', 13, "“aks” is not known"),
+        ("right = 2", "right = 3", 15, "right counts the choices from 1"),
+        ("right = 2", 'right = "2"', 15, "right should be a number"),
+        ("So $x < y$ it is.", "", 21, "this part is empty"),
+        ("set:extent_deg=62", "set:extent_deg=6200", 18, "6200° is out of range"),
+        ("show:maps", "show:map", 18, "“map” is not a tab"),
+        ("show:maps", "ftp://a/b", 18, "links go to set:, show:, simulate:, lesson: or https:"),
+        ("show:maps", "simulate:noise=5", 18, "noise is “5”; there are 40, 20, 10, none"),
+        ("show:maps", "simulate:machine=toy", 18, "machine is “toy”; there are same, different"),
+        ("show:maps", "simulate:extent_deg=640", 18, "640° is out of range"),
+        ("3/2}", "3/2", 20, "its braces do not match"),
+        ("So $x", "So\n$\\href{https://a}{x}$ $x", 23, "holds what a formula may not"),
     ],
 )
 def test_what_is_wrong_with_a_file_is_said_with_its_line(
@@ -534,7 +691,7 @@ def test_a_teachers_folder_is_read_anew_when_a_file_changes(tmp_path: Path) -> N
     (tmp_path / "01-a.md").write_bytes(GOOD.encode("utf-8").replace(b"Words", b"W\xe9rds"))
     (tmp_path / "notes.txt").write_text("not a lesson", encoding="utf-8")
     bad, good = lessons_in(tmp_path, TABS)
-    assert bad == Fault("01-a.md", "01-a.md, line 13: this is not text in UTF-8.")
+    assert bad == Fault("01-a.md", "01-a.md, line 18: this is not text in UTF-8.")
     assert isinstance(good, Lesson)
     (tmp_path / "01-a.md").write_text(GOOD.replace("A title", "Mended"), encoding="utf-8")
     mended, _ = lessons_in(tmp_path, TABS)
@@ -557,12 +714,13 @@ def test_a_teachers_folder_on_the_page(tmp_path: Path) -> None:
     assert options(["--lessons", str(tmp_path)]).lessons == tmp_path
     explorer = Explorer(SECTIONS, lessons=lessons_in(tmp_path, TABS))
     panel = explorer.lesson
-    assert [title for title, _ in panel.titles] == ["A title", "2.md"]
-    assert panel.titles[1][1].startswith("2.md, line 13: “nothing” is not a tab")
+    assert [(title, name) for title, _, name in panel.titles] == [("A title", "1"), ("2.md", "")]
+    assert panel.titles[1][1].startswith("2.md, line 18: “nothing” is not a tab")
     asked: list[object] = []
     explorer._asked = asked.append  # type: ignore[method-assign]
     explorer.draw = lambda: None  # type: ignore[method-assign]
-    for nonsense in (None, "0", {"lesson": 1}, {"lesson": 7}, {"lesson": -1}, {"lesson": "0"}):
+    for nonsense in (None, "0", {"lesson": 1}, {"lesson": 7}, {"lesson": -1}, {"lesson": "0"},
+                     {"lesson": "2"}, {"lesson": [1]}):  # fmt: skip
         explorer._lesson_asked(nonsense)
         assert panel.lesson == {}
         assert explorer.scene == FAN

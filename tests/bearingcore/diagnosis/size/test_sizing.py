@@ -9,8 +9,9 @@ import pytest
 
 from bearingcore import Defect, Scene, simulate
 from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
+from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
-from bearingcore.diagnosis.size.synthesis import Target, comparison_band, synthesise
+from bearingcore.diagnosis.size.synthesis import comparison_band, synthesise
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.signals.averaging import average_passes
 from bearingcore.signals.files.read import read_table

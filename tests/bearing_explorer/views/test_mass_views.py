@@ -1,0 +1,158 @@
+"""What the mass of balls adds, in time, in frequency and by octave."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.compute import compiling
+from bearing_explorer.compute.ball_mass import BallMass
+from bearing_explorer.compute.results import Results, quick_duration
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.mass_spectrum import MassInSpectrum
+from bearing_explorer.views.mass_time import MassInTime, event_rows
+from bearing_explorer.views.mechanism import WhichMechanism, in_words
+from bearing_explorer.views.vibration_spectrum import VibrationSpectra
+
+from bearingcore import presets, simulate
+from bearingcore.diagnosis.simulated import pit
+from bearingcore.dynamics.ball_motion import contact_resonance
+from bearingcore.plan.balls import mass_share
+
+FAN_RIG = presets["fan-rig"]
+MOTOR = presets["6205"]
+
+
+@pytest.fixture(scope="module")
+def found() -> BallMass:
+    return Results(FAN_RIG).ball_mass
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return Results(FAN_RIG)
+
+
+def test_a_ball_that_falls_into_a_long_defect_flies_and_strikes(found: BallMass) -> None:
+    assert found.entry is not None
+    flight = next(flight for flight in found.flights if flight.ball == found.entry.ball)
+    strike = next(strike for strike in found.strikes if strike.race == "outer")
+    assert 0.0 < flight.begin < flight.end <= strike.time + 2.0 / found.sample_rate
+    column = list(found.balls).index(found.entry.ball)
+    inside = (found.time > flight.begin) & (found.time < flight.end)
+    assert not found.loads[:, inside, column].any()
+    assert math.isnan(found.far_edge)
+
+
+def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
+    """As geometry has it: it pivots on one corner, then on the other, and never lets go."""
+    small = Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True).ball_mass
+    assert small.strikes == ()
+    assert small.exit is not None
+    assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
+    assert "never lets go" in MassInTime(PackedSource()).sentence(
+        Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True)
+    )
+
+
+def test_shares_are_those_of_the_core(found: BallMass) -> None:
+    """Another way to the same number: two motions of the sweep's, and their band."""
+    low, high = found.octaves[-3], found.octaves[-2]
+    theirs = mass_share(FAN_RIG, low, high, 1.4, found.sample_rate)
+    assert found.share[-2] == pytest.approx(theirs, abs=0.02)
+    assert found.share[-1] > 0.9
+    loud = ~found.quiet
+    assert np.abs(found.share[loud & (found.octaves[1:] <= 1000.0)]).max() < 0.1
+    assert (found.spread[loud] < 0.1).all()
+
+
+def test_with_next_to_no_mass_nothing_is_added() -> None:
+    light = Results(FAN_RIG.replace(density=500.0), moving=True).ball_mass
+    heavy = Results(FAN_RIG, moving=True).ball_mass
+    assert light.added[-2] < heavy.added[-2] - 3.0
+
+
+def test_the_verdict_says_from_where_on_mass_gives_most(found: BallMass) -> None:
+    words = in_words(found)
+    assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
+    small = Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True).ball_mass
+    assert in_words(small).startswith("Stiffness that varies gives most of the power in every")
+
+
+def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> None:
+    packed = PackedSource()
+    time, spectra, octaves = (kind(packed) for kind in (MassInTime, MassInSpectrum, WhichMechanism))
+    sources, ranges = time.data(results)
+    assert np.nanmax(sources["mass_motion"]["y"]) == np.max(found.with_mass["y"])
+    assert np.nanmax(sources["mass_motion"]["y_massless"]) == np.max(found.massless["y"])
+    assert sources["mass_flights"]["from"].size >= 1
+    assert ranges["mass_time"] == (found.time[0], found.time[-1])
+    sources, _ = spectra.data(results)
+    band = sources["mass_spectrum_resonance"]
+    assert band["high"][0] == pytest.approx(contact_resonance(FAN_RIG))
+    assert band["above"][0] == 0.0
+    assert sources["mass_spectrum_lines"]["frequency"][-1] < 0.5 * found.sample_rate
+    sources, ranges = octaves.data(results)
+    bars = sources["mechanism_bars"]
+    np.testing.assert_allclose(bars["top"], 100.0 * found.share)
+    assert (bars["right"][:-1] < bars["left"][1:]).all()
+    assert ranges["mechanism_share"][1] > 100.0
+    for view in (time, spectra, octaves):
+        assert view.sentence(results).endswith(".")
+        assert len({len(column) for column in view.table(results).values()}) == 1
+
+
+def test_entry_strike_and_exit_are_marked_with_their_times(found: BallMass) -> None:
+    rows = event_rows(found, float(found.time[0]), float(found.time[-1]))
+    assert found.entry is not None
+    own = rows["ball"] == found.entry.ball + 1
+    assert 0.0 in rows["time"][own & (rows["kind"] == 0.0)]
+    outer = [strike.time for strike in found.strikes if strike.race == "outer"]
+    assert sorted(rows["time"][rows["kind"] == 3.0]) == sorted(outer)
+    kept = np.isfinite(rows["label_at"])
+    for at in set(rows["label_at"][kept]):
+        left = np.sort(rows["label_from"][rows["label_at"] == at])
+        assert (np.diff(left) > 0.0).all()
+
+
+def test_resonances_above_what_is_drawn_are_said_to_be() -> None:
+    results = Results(MOTOR, moving=True)
+    view = MassInSpectrum(PackedSource())
+    assert view.data(results)[0]["mass_spectrum_resonance"]["above"][0] == 1.0
+    assert "50.6 kHz, above what is drawn" in view.sentence(results)
+
+
+def test_a_moving_hand_gets_less_time_not_longer_steps() -> None:
+    heavy = FAN_RIG.replace(balls="with mass")
+    how = Settings().coarse_marching
+    assert quick_duration(FAN_RIG, how) == how.duration
+    assert quick_duration(heavy, how) < how.duration
+    coarse = Results(heavy, moving=True)
+    assert coarse.motion.step_rate == simulate(heavy, 1e-3).step_rate
+    assert coarse.motion.completed
+    assert "s of motion" in coarse.coarse_words(frozenset({"excerpt"}))
+
+
+def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> None:
+    view = VibrationSpectra(PackedSource())
+    results = Results(FAN_RIG.replace(balls="with mass"), moving=True)
+    assert view.data(results)[0]["spectrum_wide_lines"]["frequency"].size == 0
+    view._asked({"look": {"axis": "anything"}})
+    assert not view.wide
+    view._asked({"look": {"axis": "logarithmic"}})
+    sources, _ = view.data(results)
+    assert sources["spectrum_wide_lines"]["frequency"][-1] > 32e3
+    assert sources["spectrum_wide_resonance"]["low"].size == 1
+    assert [plot.visible for plot in view._wide.plots] == [False, False]
+    view.say(results, "")
+    assert [plot.visible for plot in view._wide.plots] == [True, True]
+
+
+def test_until_all_is_compiled_mass_is_not_moved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Or the compiler would hold up every page for half a minute."""
+    monkeypatch.setattr(compiling, "ready", lambda: False)
+    with pytest.raises(ValueError, match="still being compiled"):
+        _ = Results(FAN_RIG.replace(balls="with mass", fy=-101.0)).motion
+    assert Results(FAN_RIG.replace(fy=-101.0), moving=True).motion.completed

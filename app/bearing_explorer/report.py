@@ -31,7 +31,7 @@ from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
-from bearingcore import Scene, preset_notes
+from bearingcore import Scene, preset_notes, presets
 from bearingcore.sweep.grid import program_version
 
 log = logging.getLogger(__name__)
@@ -43,11 +43,17 @@ _DEFECT_GROUP = "Defect"
 
 @dataclass(frozen=True)
 class About:
-    """What a report says about itself: the preset, the link if it is one, the day."""
+    """What a report says about itself: the preset, the link if it is one, the day.
+
+    `title`, `machine` and `remarks` are somebody's own words; they may be empty.
+    """
 
     preset: str
     link: str
     date: datetime
+    title: str = ""
+    machine: str = ""
+    remarks: str = ""
 
 
 def report(
@@ -111,8 +117,12 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
     crossed = [row for row in limits if row["state"] == "crossed"]
     when = about.date.strftime("%d %B %Y, %H:%M UTC")
     link = _link(about.link)
+    title = about.title.strip() or "Bearing report"
     body = [
-        f"<header><h1>Bearing report</h1><p>{_text(when)}, Bearing explorer "
+        f"<header><h1>{_text(title)}</h1>",
+        f"<p>Machine: {_text(about.machine)}</p>" if about.machine.strip() else "",
+        *(f"<p>{_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
+        f"<p>{_text(when)}, Bearing explorer "
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
         _changes(scene, about.preset),
@@ -140,7 +150,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
         "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>Bearing report, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
+        f"<title>{_text(title)}, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
         f"<style>{asset_text('report.css')}</style></head><body>\n"
         + "\n".join(body)
         + "\n</body></html>\n"
@@ -182,11 +192,13 @@ def _grey(results: Results) -> str:
 
 
 def _changes(scene: Scene, preset: str) -> str:
-    note = preset_notes.get(preset, "")
+    own = scene.bearing != presets[preset].bearing
+    note = "" if own else preset_notes.get(preset, "")
     several = defects_of(scene)
     sentences = [
         f"{defect.race.capitalize()} race at "
-        f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} long, "
+        f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} or "
+        f"{style.with_prefix(defect.extent * defect.raceway_radius(scene.bearing), 'm')} long, "
         f"{style.with_prefix(defect.depth, 'm')} deep, "
         + "".join(f"{said}, " for choice in OF_DEFECT if (said := choice.sentence(defect)))
         + f"{floor_name(defect.floor)} floor."
@@ -195,10 +207,25 @@ def _changes(scene: Scene, preset: str) -> str:
     ]
     chosen = [f"{said}. " for choice in OF_SCENE if (said := choice.sentence(scene))]
     return (
-        f"<p>Begun from “{_text(preset)}”. {_text(note)}</p>"
+        f"<p>{_text(_bearing(scene, preset))} {_text(note)}</p>"
         + (_list(sentences) if sentences else "<p>There is no defect.</p>")
         + f"<p>{_text(''.join(chosen))}Directions that can move: "
         f"{_text(', '.join(scene.active_dofs))}.</p>"
+    )
+
+
+def _bearing(scene: Scene, preset: str) -> str:
+    """Which bearing it is: that of the preset, or one of its own with its dimensions."""
+    if scene.bearing == presets[preset].bearing:
+        return f"Bearing: as in “{preset}”."
+    bearing = scene.bearing
+    rolling = "rollers" if bearing.is_roller else "balls"
+    return (
+        f"Bearing of its own, begun from “{preset}”: {bearing.n_balls} {rolling} of "
+        f"{style.with_prefix(bearing.ball_diameter, 'm', 5)} on a circle of "
+        f"{style.with_prefix(bearing.pitch_diameter, 'm', 5)}, contact angle "
+        f"{style.in_degrees(bearing.contact_angle)}. What is printed about the preset does not "
+        "hold for it."
     )
 
 

@@ -116,7 +116,7 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             "How often a point of the inner race meets a ball.",
         ),
         ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
-        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Turns of a ball about itself a second."),
+        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Turns of a ball a second."),
         (
             "Free contact angle",
             "α<sub>f</sub>",

@@ -86,7 +86,9 @@ class SpeedRunSpectra(JobView[Found]):
     )
     needs = frozenset()
     start = "Run up"
-    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes first."
+    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
+
+    _begun = False
 
     def build(self, packed: PackedSource) -> Any:
         frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
@@ -311,6 +313,25 @@ class SpeedRunSpectra(JobView[Found]):
         if not alike_but_for(scene, run.scene, (found.speeds,)):
             text = f"Faint, as the scene has changed since this was computed. Then: {text}"
         return text
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None or results.moving or self._begun or self._jobs is None:
+            return
+        if self.found is None and not self._jobs.busy:
+            self._begin_coarse()
+
+    def _begin_coarse(self) -> None:
+        """A first picture that nobody had to ask for."""
+        self._begun = True
+        jobs = self._jobs
+        given = {**self.job.values, "count": str(FIRST_COUNT)}
+        try:
+            work = self.prepare(given, self._editor)
+        except ValueError:
+            return  # whoever asks is told why
+        assert jobs is not None
+        jobs.start(work, self._take, self.job.show)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         found = self.found

@@ -173,7 +173,7 @@ def _all_outputs() -> dict[str, MapOutput]:
 
 
 MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
-"""All that can be mapped, by name, groups together, sorted: every output of a sweep, and the sizing."""
+"""All that can be mapped, by name, in sorted groups: every output of a sweep, and the sizing."""
 
 
 @dataclass(frozen=True)

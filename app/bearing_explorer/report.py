@@ -23,6 +23,8 @@ from bokeh.models import Column
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
+from bearing_explorer.figures.defect_words import extent_words
+from bearing_explorer.figures.element_words import row_words
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
@@ -31,7 +33,7 @@ from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
-from bearingcore import Scene, preset_notes, presets
+from bearingcore import Scene
 from bearingcore.sweep.grid import program_version
 
 log = logging.getLogger(__name__)
@@ -43,12 +45,13 @@ _DEFECT_GROUP = "Defect"
 
 @dataclass(frozen=True)
 class About:
-    """What a report says about itself: the preset, the link if it is one, the day.
+    """What a report says about itself: bearing, where its numbers come from, link, day.
 
     `title`, `machine` and `remarks` are somebody's own words; they may be empty.
     """
 
-    preset: str
+    bearing: str
+    note: str
     link: str
     date: datetime
     title: str = ""
@@ -125,7 +128,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"<p>{_text(when)}, Bearing explorer "
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
-        _changes(scene, about.preset),
+        _changes(scene, about),
         f"<p>Grey in the figures: {_text(_grey(results))}. Cage angle: "
         f"{_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
@@ -191,14 +194,12 @@ def _grey(results: Results) -> str:
     return "the bearing without its defect"
 
 
-def _changes(scene: Scene, preset: str) -> str:
-    own = scene.bearing != presets[preset].bearing
-    note = "" if own else preset_notes.get(preset, "")
+def _changes(scene: Scene, about: About) -> str:
     several = defects_of(scene)
     sentences = [
         f"{defect.race.capitalize()} race at "
-        f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} or "
-        f"{style.with_prefix(defect.extent * defect.raceway_radius(scene.bearing), 'm')} long, "
+        f"{style.in_degrees(defect.center)}{row_words(scene.bearing, defect.row)}: "
+        f"{extent_words(defect, scene.bearing)} long, "
         f"{style.with_prefix(defect.depth, 'm')} deep, "
         + "".join(f"{said}, " for choice in OF_DEFECT if (said := choice.sentence(defect)))
         + f"{floor_name(defect.floor)} floor."
@@ -207,25 +208,10 @@ def _changes(scene: Scene, preset: str) -> str:
     ]
     chosen = [f"{said}. " for choice in OF_SCENE if (said := choice.sentence(scene))]
     return (
-        f"<p>{_text(_bearing(scene, preset))} {_text(note)}</p>"
+        f"<p>Bearing: {_text(about.bearing)}. {_text(about.note)}</p>"
         + (_list(sentences) if sentences else "<p>There is no defect.</p>")
         + f"<p>{_text(''.join(chosen))}Directions that can move: "
         f"{_text(', '.join(scene.active_dofs))}.</p>"
-    )
-
-
-def _bearing(scene: Scene, preset: str) -> str:
-    """Which bearing it is: that of the preset, or one of its own with its dimensions."""
-    if scene.bearing == presets[preset].bearing:
-        return f"Bearing: as in “{preset}”."
-    bearing = scene.bearing
-    rolling = "rollers" if bearing.is_roller else "balls"
-    return (
-        f"Bearing of its own, begun from “{preset}”: {bearing.n_balls} {rolling} of "
-        f"{style.with_prefix(bearing.ball_diameter, 'm', 5)} on a circle of "
-        f"{style.with_prefix(bearing.pitch_diameter, 'm', 5)}, contact angle "
-        f"{style.in_degrees(bearing.contact_angle)}. What is printed about the preset does not "
-        "hold for it."
     )
 
 
@@ -233,7 +219,7 @@ def _numbers(scene: Scene) -> Iterable[str]:
     """Tables of all numbers, a group each; those of defects once a defect."""
     facts = [[_text(f["label"]), f["symbol"], _text(f["value"])] for f in facts_of(scene)]
     yield "<h3>What follows from them</h3>" + _table(["Name", "Symbol", "Value"], facts)
-    groups = dict.fromkeys(q.group for q in QUANTITY_LIST if q.of == "scene")
+    groups = dict.fromkeys(q.group for q in QUANTITY_LIST if q.of in ("scene", "rows"))
     for group in groups:
         count = len(defects_of(scene)) if group == _DEFECT_GROUP else 1
         for number in range(count):
@@ -241,7 +227,7 @@ def _numbers(scene: Scene) -> Iterable[str]:
             rows = [
                 _row(q, values[q.name])
                 for q in QUANTITY_LIST
-                if q.group == group and q.of == "scene" and not math.isnan(values[q.name])
+                if q.group == group and q.of in ("scene", "rows") and not math.isnan(values[q.name])
             ]
             name = f"{group} {number + 1}" if count > 1 else group
             if rows:

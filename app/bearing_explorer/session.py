@@ -28,6 +28,7 @@ from bearing_explorer.report import About, now, report
 from bearing_explorer.server import log as write
 from bearing_explorer.server.live import good_byes, one_message, send_at_once
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.last_state import LastState
@@ -45,6 +46,7 @@ from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
 from bearingcore import Limit, Scene
+from bearingcore.model.bearings.catalogue import MOST_BYTES
 from bearingcore.plan import CURVES
 from bearingcore.statics.validity import summary
 
@@ -147,6 +149,14 @@ class Inputs:
 
 
 @dataclass(frozen=True)
+class Planned:
+    """What could be planned for some inputs, and whether all that it needs was compiled."""
+
+    views: tuple[str, ...]
+    compiled: bool
+
+
+@dataclass(frozen=True)
 class Drawing:
     """What a view has to say about some results; without `data` it could not say anything."""
 
@@ -188,7 +198,7 @@ class Explorer:
         self._tasks: set[asyncio.Task[None]] = set()
         self._scheduler = Scheduler()
         self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
-        self._idle_task: IdleTask[Inputs, tuple[str, ...]] = IdleTask(
+        self._idle_task: IdleTask[Inputs, Planned] = IdleTask(
             _planned, self._draw_by_plan, self._worker.finished, self._scheduler, _kind_of_idle_work
         )
         self._rested: Inputs | None = None
@@ -196,14 +206,15 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
-        self._last_state = LastState(self.editor.scene)
         self._reporting = False
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
-        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self._open_lesson()
+        self._last_state = LastState(self.editor.scene)
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
+        self._show_share()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
@@ -291,6 +302,7 @@ class Explorer:
         last = self._rested
         return (
             last is not None
+            and compiling.ready()
             and (last.scene, last.settings) == (rested.scene, rested.settings)
             and set(rested.planned) <= set(last.planned)
             and rested.seeks_orbit <= last.seeks_orbit
@@ -303,14 +315,19 @@ class Explorer:
         wanted = self._sections[self._shown].has_motion and rested.scene.shaft_speed > 0.0
         return not wanted or (self._rested is not None and self._rested.compares_balls)
 
-    def _draw_by_plan(self, inputs: Inputs, planned: tuple[str, ...]) -> None:
+    def _draw_by_plan(self, inputs: Inputs, found: Planned) -> None:
         """Draw finer or cheaper, by what was planned while the hand rested."""
-        compiled = compiling.ready()
-        rested = dataclasses.replace(inputs, planned=planned, compiled=compiled)
-        if rested != self._rested:
+        rested = dataclasses.replace(
+            inputs,
+            planned=found.views,
+            seeks_orbit=inputs.seeks_orbit and found.compiled,
+            compiled=found.compiled,
+        )
+        # the last time also where nothing new was planned: the page says that kernels are compiled
+        if rested != self._rested or (found.compiled and self.plan.says_compiling):
             self._rested = rested
             self._worker.submit(rested)
-        if not compiled:
+        if not found.compiled:
             self._idle_task.begin(inputs)  # there will be more to say
         elif not inputs.compares_balls and not self._compared(rested):
             self._idle_task.begin(dataclasses.replace(inputs, compares_balls=True))
@@ -338,6 +355,8 @@ class Explorer:
                 self._set(typed, confirm=True)
             if isinstance(file := message.get("floor"), dict):
                 self._read(file)
+            if isinstance(file := message.get("catalogue"), dict):
+                self._read_bearings(file)
         finally:
             if self.bookmarks.follow(message):
                 self._show_share()
@@ -348,12 +367,13 @@ class Explorer:
 
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
-        was_changed = self.editor.changed
+        was_changed, waited = self.editor.changed, bool(self.editor.draft)
         refused, changed = self.editor.set(given)
         names = [name for name in changed if name not in given]
+        names += [name for name in self.editor.draft if name not in names]
         if confirm:
             names += [name for name in given if name in self.values and name not in refused]
-        if names or was_changed != self.editor.changed:
+        if names or waited or was_changed != self.editor.changed:
             self._show_controls(state=self.editor.state(names))
         if refused:
             self._show_controls(refused=refused)
@@ -373,6 +393,19 @@ class Explorer:
             self.draw()
 
         self._in_background(lambda: read_file(text), take)
+
+    def _read_bearings(self, file: Mapping[Any, Any]) -> None:
+        """Take a table of bearings out of a file's text, off the event loop."""
+        name, text = file.get("name"), file.get("text")
+        if not (isinstance(name, str) and isinstance(text, str)):
+            return
+        text = text[: MOST_BYTES + 1]
+
+        def take(found: Any) -> None:
+            self.editor.listed.take(name[:200], found)
+            self._show_controls(state=self.editor.state())
+
+        self._in_background(lambda: read_table(text), take)
 
     def _in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
         """Compute something off the event loop, then take it."""
@@ -432,7 +465,7 @@ class Explorer:
         made = [view for views in self._views.values() for view in views]
         found = {view.name: view.found for view in made if view.found is not None}
         link = f"{base}?{self.bookmarks.state()['address']}"
-        about = About(self.editor.preset, link, now(), title, machine, remarks)
+        about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
 
         def make() -> dict[str, Any] | None:
             try:
@@ -649,17 +682,18 @@ def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
     return inputs.kind if curves and not takes_long else None
 
 
-def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
-    """Those of `inputs.planned` that could be planned; in a thread, or in turn where that is light.
+def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> Planned:
+    """Plan what `inputs.planned` says; in a thread, or in turn where that is light.
 
     The plans stay known, and so does an orbit that is looked for.
     """
     results = inputs.results
     made = []
+    compiled = compiling.ready()  # once: it may come while this is at work
     for view in inputs.planned:
         if overtaken():
             break
-        if view not in CURVES and not compiling.ready():
+        if view not in CURVES and not compiled:
             continue
         try:
             results.plan_of(view)
@@ -672,14 +706,14 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> tuple[str, ...]:
     if inputs.compares_balls and not overtaken():
         with contextlib.suppress(ValueError):  # there is no motion to compare
             results.compare_balls()
-    if inputs.seeks_orbit and compiling.ready() and not overtaken():
+    if inputs.seeks_orbit and compiled and not overtaken():
         try:
             results.seek_orbit(overtaken)
         except ValueError:
             pass  # again the view says why
         except Exception:
             log.exception("looking for an orbit failed")
-    return tuple(made)
+    return Planned(tuple(made), compiled)
 
 
 def _drawing(results: Results, view: View) -> Drawing:

@@ -9,12 +9,19 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearingcore import kernels
 from bearingcore.common.kept import kept
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.defect import floor_bytes
 from bearingcore.model.packing import contacts
 from bearingcore.model.scene import DOF_NAMES, Scene
-from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
+from bearingcore.statics.equilibrium import (
+    MOST_CONTACTS,
+    STIFFNESS_TERMS,
+    Equilibrium,
+    default_cage_angles,
+    equilibrium,
+)
 
 DAMPING_OVER_STIFFNESS = 1e-5
 """β [s] of the healthy bearing where a scene does not say its contact damping; the paper asks for
@@ -45,6 +52,8 @@ class Modes:
         direction that moves most, numbered by rising frequency: "x1", "y1", "x2", "y2".
     body : (m,)
         "inner" or "outer": the body that moves most in that direction.
+    cost
+        what the static states would have taken, where that was too much to begin; else empty.
 
     Rows are NaN where the static state has no answer.
     """
@@ -58,6 +67,7 @@ class Modes:
     shape: NDArray[np.float64]
     label: tuple[str, ...]
     body: tuple[str, ...]
+    cost: str = ""
 
     def table(self) -> ResultTable:
         """A row a cage angle: frequency and damping ratio of each mode."""
@@ -76,21 +86,18 @@ class Modes:
 
         NaN for both where no angle has an answer.
         """
-        bands = {}
-        for i, label in enumerate(self.label):
-            known = self.frequency[np.isfinite(self.frequency[:, i]), i]
-            bands[label] = (
-                (float(known.min()), float(known.max()))
-                if known.size
-                else (
-                    math.nan,
-                    math.nan,
-                )
-            )
-        return bands
+        return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
 
 
-def modes(scene: Scene, cage_angles: ArrayLike | None = None) -> Modes:
+def _band(frequency: NDArray[np.float64]) -> tuple[float, float]:
+    """Least and greatest of the frequencies (n,) that are known."""
+    known = frequency[np.isfinite(frequency)]
+    return (float(known.min()), float(known.max())) if known.size else (math.nan, math.nan)
+
+
+def modes(
+    scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
+) -> Modes:
     """Natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
 
     Parameters
@@ -99,13 +106,15 @@ def modes(scene: Scene, cage_angles: ArrayLike | None = None) -> Modes:
         its active directions are those of the statics; support and inertia must be known there.
     cage_angles : (n,)
         [rad]; None takes one period, as `equilibrium` does.
+    most_contacts
+        as of `equilibrium`. Where there are more nothing is begun, and `cost` says how many.
 
     Raises
     ------
     ValueError
         where the support lacks a number, by its name.
     """
-    return modes_at(equilibrium(scene, cage_angles))
+    return modes_at(equilibrium(scene, cage_angles, most_contacts=most_contacts))
 
 
 def modes_at(state: Equilibrium) -> Modes:
@@ -116,6 +125,14 @@ def modes_at(state: Equilibrium) -> Modes:
     mass = np.concatenate(
         [scene.support.inertia("inner", dofs), scene.support.inertia("outer", dofs)]
     )
+    if state.cost:
+        support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
+        names = _labels(_undamped(support, mass)[1], mass, dofs)
+        rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
+        shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
+        return Modes(
+            scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, cost=state.cost
+        )
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, scene.support.stiffness(dofs))
@@ -136,6 +153,87 @@ def modes_at(state: Equilibrium) -> Modes:
         frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
     label, body = _labels(template, mass, dofs)
     return Modes(scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body)
+
+
+def undamped_bands(
+    scene: Scene, terms: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], list[tuple[str, ...]]]:
+    """Least and greatest undamped frequency of each mode over n cage angles, for r scenes.
+
+    They are those of `modes_at(...).undamped_frequency`, found many matrices at a time without the
+    general eigenvalue problem that damping makes of them. Damping of a ratio ζ changes a frequency
+    |λ|/2π by about ζ² of it.
+
+    Parameters
+    ----------
+    scene
+        its active directions, support and inertia; its defect does not count.
+    terms : (15, r, n)
+        stiffness terms [N/m, N/rad, N·m/rad] in the order of `STIFFNESS_TERMS`; NaN where the
+        static state has no answer.
+
+    Returns
+    -------
+    least, greatest : (r, m) [Hz]
+        NaN where no angle has an answer.
+    labels : r tuples of m
+        as in `Modes.label`; where no angle has an answer, those of the support alone.
+
+    Raises
+    ------
+    ValueError
+        where the support lacks a number, by its name.
+    """
+    dofs = scene.active_dofs
+    nd = len(dofs)
+    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    support = scene.support.stiffness(dofs)
+    chosen = terms[
+        [STIFFNESS_TERMS.index(f"k_{a}{b}") for i, a in enumerate(dofs) for b in dofs[i:]]
+    ]
+    known = np.asarray(np.isfinite(chosen).all(axis=0), dtype=np.bool_)
+    count = known.sum(axis=1)
+    means = np.where(known, chosen, 0.0).sum(axis=2) / np.maximum(count, 1)
+    mean = np.zeros((len(count), nd, nd))
+    row, column = np.triu_indices(nd)
+    mean[:, row, column] = mean[:, column, row] = means.T
+    _, templates = _undamped(two_body_matrix(mean, support), mass)
+    least, greatest = (np.full((len(count), 2 * nd), math.nan) for _ in range(2))
+    labels = []
+    for i, template in enumerate(templates):
+        labels.append(_labels(template, mass, dofs)[0])
+        if count[i]:
+            frequency = _frequencies_like(template, chosen[:, i, known[i]], support, mass)
+            least[i], greatest[i] = frequency.min(axis=1), frequency.max(axis=1)
+    return least, greatest, labels
+
+
+def _frequencies_like(
+    template: NDArray[np.float64],
+    terms: NDArray[np.float64],
+    support: NDArray[np.float64],
+    mass: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Undamped frequencies (m, n) [Hz] of the modes like the template's (m, m).
+
+    `terms` (nd (nd + 1)/2, n) are the upper triangles of the bearing's stiffness, all known.
+    """
+    nd, n = len(support), terms.shape[1]
+    inner, outer = template[:, :nd], template[:, nd:]
+    squared, order = np.empty((n, 2 * nd)), np.empty((n, 2 * nd), dtype=np.int64)
+    likeness = np.empty((n, 2 * nd, 2 * nd))
+    kernels.modes_like(
+        np.ascontiguousarray(terms),
+        np.ascontiguousarray(inner - outer),
+        (outer * support) @ outer.T,
+        squared,
+        order,
+        likeness,
+    )
+    for k in np.flatnonzero(order[:, 0] == kernels.DOUBTFUL):
+        order[k] = _assignment(likeness[k])
+    frequency = np.sqrt(np.maximum(squared, 0.0)) / (2.0 * math.pi)
+    return np.asarray(np.take_along_axis(frequency, order, axis=1).T)
 
 
 @kept(512, 32_000_000, lambda _, scene: 1000 + floor_bytes(scene.defects))

@@ -8,8 +8,9 @@ from bearingcore.kernels.adaptive import march_adaptive
 from bearingcore.kernels.balls.motion import ball_motion_rates, march_balls, race_loads
 from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
 from bearingcore.kernels.balls.structs import BallSystem, Races
-from bearingcore.kernels.compiling import on_disk
+from bearingcore.kernels.compiling import kept_on_disk, on_disk
 from bearingcore.kernels.contact import POINT_CONTACT
+from bearingcore.kernels.modes import DOUBTFUL, modes_like
 from bearingcore.kernels.motion import (
     between_steps,
     elastic_loads,
@@ -37,6 +38,7 @@ from bearingcore.kernels.statics import (
     REFUSED,
     RESIDUAL_AIM,
     RESIDUAL_LIMIT,
+    TOO_MANY,
     contact_angles,
     static_maps,
     static_states,
@@ -58,6 +60,7 @@ from bearingcore.kernels.structs import (
 
 __all__ = [
     "CONVERGED",
+    "DOUBTFUL",
     "EVERY_ROW",
     "FREE_DIRECTION",
     "INNER_EXACT",
@@ -74,6 +77,7 @@ __all__ = [
     "RESIDUAL_LIMIT",
     "SMOOTH",
     "TABLE",
+    "TOO_MANY",
     "VELOCITIES",
     "Adaptive",
     "BallSystem",
@@ -93,10 +97,12 @@ __all__ = [
     "between_steps",
     "contact_angles",
     "elastic_loads",
+    "kept_on_disk",
     "march",
     "march_adaptive",
     "march_balls",
     "march_with_tangent",
+    "modes_like",
     "motion_rates",
     "on_disk",
     "race_loads",

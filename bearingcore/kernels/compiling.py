@@ -23,12 +23,12 @@ from typing import Any
 
 from numba import njit
 
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"contract"}}
+_OPTIONS = {"nogil": True, "fastmath": {"contract"}}
 
 
 def compiled(function: Callable[..., Any]) -> Any:
     """A function to be compiled at its first call, and kept on disk."""
-    return kept_up_to_date(njit(**_OPTIONS, _nrt=True)(function))
+    return _made(function, _nrt=True)
 
 
 def borrowing(function: Callable[..., Any]) -> Any:
@@ -38,7 +38,7 @@ def borrowing(function: Callable[..., Any]) -> Any:
     functions that take structs (marching: 11 times as long). Such a function must neither make
     arrays nor return any.
     """
-    return kept_up_to_date(njit(**_OPTIONS, _nrt=False)(function))
+    return _made(function, _nrt=False)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
@@ -49,7 +49,25 @@ def inlined(function: Callable[..., Any]) -> Any:
     compile for it, and a kernel is compiled together with all that it calls, so large functions are
     called at one place.
     """
-    return kept_up_to_date(njit(**_OPTIONS, _nrt=False, forceinline=True)(function))
+    return _made(function, _nrt=False, forceinline=True)
+
+
+def _made(function: Callable[..., Any], **options: bool) -> Any:
+    try:
+        return kept_up_to_date(njit(**_OPTIONS, cache=True, **options)(function))
+    except RuntimeError:
+        # numba found no folder that it may write to: not beside the sources, not in the home of
+        # whoever runs this. Each start compiles then, which `kept_on_disk` tells.
+        _nowhere.append(function.__name__)
+        return njit(**_OPTIONS, **options)(function)
+
+
+_nowhere: list[str] = []
+
+
+def kept_on_disk() -> bool:
+    """Whether machine code is kept for the next start; False where no folder can be written."""
+    return not _nowhere
 
 
 def kept_up_to_date(kernel: Any) -> Any:

@@ -24,6 +24,9 @@ CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2
 OPEN, REFUSED = -1, 5
 """What a map says of a point beside the statuses above: not solved yet; no such defects."""
 
+TOO_MANY = 6
+"""What is said of all cage angles where there are more of them than were to be solved."""
+
 # A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
 # it is still taken below the second. The third is the least pivot, relative to the greatest
 # stiffness, with which a Newton step is taken as it is.

@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.dynamics.motion import MOST_STEPS
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene, check_dofs
 from bearingcore.plan.balls import compare_balls
 from bearingcore.plan.cage_angles import CURVES
 from bearingcore.plan.curves import plan_curves
-from bearingcore.plan.motions import plan_motion
+from bearingcore.plan.motions import Asked, plan_motion
 from bearingcore.plan.plans import (
     BUDGETS,
     VIEWS,
@@ -39,6 +40,7 @@ def plan(
     dofs: Iterable[str] | None = None,
     step_rate: float | None = None,
     march: bool = False,
+    most_steps: int = MOST_STEPS,
     up_to: float | None = None,
 ) -> Plan:
     """The cheapest way to compute a view of a scene within an error budget.
@@ -54,6 +56,10 @@ def plan(
     dofs, step_rate, march
         overrule the plan: directions, steps a second [Hz], a march where an orbit would do. The
         predicted error is then that of what was asked for.
+    most_steps
+        steps of each march that is tried for a motion's plan. They are counted before the first:
+        where there would be more nothing is tried, the budget counts as not met, and the note says
+        how many there would be.
     up_to
         the highest frequency [Hz] that is looked at. Where it is given, motions have massless balls
         if those are within the budget up to there, and else balls with mass; None: as the scene
@@ -71,6 +77,7 @@ def plan(
     began = time.perf_counter()
     if dofs is not None:
         scene = scene.replace(dofs=check_dofs(dofs))
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if view in CURVES:
         return plan_curves(scene, view, budget, began)
     note = ""
@@ -79,5 +86,6 @@ def plan(
         comparison = compare_balls(scene.replace(balls=MASSLESS), budget, sample_rate=sample_rate)
         scene = scene.replace(balls=MASSLESS if comparison.enough_up_to(up_to) else WITH_MASS)
         note = comparison.sentence if scene.balls == MASSLESS else ""
-    made = plan_motion(scene, view, budget, began, duration, sample_rate, step_rate, march)
+    asked = Asked(scene, view, budget, duration, sample_rate, step_rate, march, most_steps)
+    made = plan_motion(asked, began)
     return dataclasses.replace(made, note="; ".join(filter(None, (made.note, note))))

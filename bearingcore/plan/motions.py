@@ -5,13 +5,17 @@ from __future__ import annotations
 import itertools
 import math
 import time
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.dynamics.modes import modes
-from bearingcore.dynamics.motion import default_step_rate
+from bearingcore.common.numbers import number, thousands
+from bearingcore.dynamics.ball_motion import ball_step_rate
+from bearingcore.dynamics.modes import highest_natural_frequency, modes
+from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS, default_step_rate
 from bearingcore.dynamics.orbit import NO_PERIOD, Orbit, common_ball_passes, orbit
+from bearingcore.model import packing
 from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.plan.balls import plan_with_mass
 from bearingcore.plan.pilot import (
@@ -35,16 +39,29 @@ from bearingcore.plan.plans import (
 Array = NDArray[np.float64]
 
 
-def plan_motion(
-    scene: Scene,
-    view: str,
-    budget: float,
-    began: float,
-    duration: float,
-    sample_rate: float,
-    step_rate: float | None,
-    march: bool,
-) -> Plan:
+class Asked(NamedTuple):
+    """What a motion is planned for; see `plan`."""
+
+    scene: Scene
+    view: str
+    budget: float
+    duration: float
+    sample_rate: float
+    step_rate: float | None
+    march: bool
+    most_steps: int
+
+
+def plan_motion(asked: Asked, began: float) -> Plan:
+    scene, view, budget, duration, sample_rate, step_rate, march, most_steps = asked
+    packing.body_numbers(scene, scene.active_dofs)  # refuses a support that lacks a number
+    highest = highest_natural_frequency(scene)
+    rate = step_rate or default_step_rate(scene, sample_rate, highest)
+    if scene.balls == WITH_MASS and step_rate is None:
+        rate = max(rate, ball_step_rate(scene, sample_rate))
+    # what `simulate` refuses it refuses itself
+    if sample_rate >= 2.0 * highest and PILOT * rate > most_steps:
+        return _not_begun(asked, rate, began)
     if scene.balls == WITH_MASS:
         return plan_with_mass(scene, view, budget, began, duration, sample_rate, step_rate)
     pilot = Pilot(scene, budget, sample_rate)
@@ -58,10 +75,15 @@ def plan_motion(
         if not march:
             # where no march that was tried is good enough an orbit may take its time
             limit = way.work * (drop + duration) if way.error <= budget else ORBIT_PATIENCE
-            found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit)
-            arrival = math.nan if found is None else arrival_time(found, way, sample_rate)
+            found, orbital, note = _stable_orbit(scene, pilot, step_rate, limit, most_steps)
+            arrival = (
+                math.nan if found is None else arrival_time(found, way, sample_rate, most_steps)
+            )
             if found is not None and math.isnan(arrival):
-                found, note = None, f"{NO_STABLE_ORBIT} that the motion from rest comes to"
+                found, note = (
+                    None,
+                    f"{NO_STABLE_ORBIT} that the motion from rest is seen to come to",
+                )
             if found is None and note.startswith(NO_STABLE_ORBIT):
                 way = _as_long_as_asked(scene, pilot, way, drop, duration)
     length = drop + duration
@@ -99,6 +121,38 @@ def plan_motion(
     )
 
 
+def _not_begun(asked: Asked, rate: float, began: float) -> Plan:
+    """What a plan says that would have taken too many steps to make."""
+    scene, n_dofs = asked.scene, len(asked.scene.active_dofs)
+    a_call = seconds_a_call("fixed", scene.bearing.n_balls, n_dofs, scene.contact_law)
+    calls = 4.0 * rate * asked.duration
+    return Plan(
+        scene=scene,
+        view=asked.view,
+        error_budget=asked.budget,
+        dofs=scene.active_dofs,
+        cage_angles=None,
+        step_rate=rate,
+        tolerance=math.nan,
+        duration=asked.duration,
+        drop=0.0,
+        sample_rate=asked.sample_rate,
+        orbit=None,
+        predicted_error=math.inf,
+        met=False,
+        evaluations=round(calls),
+        seconds=calls * a_call,
+        full_evaluations=round(calls),
+        full_seconds=calls * a_call,
+        full_error=math.inf,
+        planning_seconds=time.perf_counter() - began,
+        note=(
+            f"{TOO_MANY_STEPS} to plan it: {thousands(PILOT * rate)} for {number(PILOT)} s of "
+            f"motion, allowed are most_steps = {thousands(asked.most_steps)}"
+        ),
+    )
+
+
 def _better(one: Way, other: Way, budget: float) -> Way:
     """The cheaper of two within the budget, else the more exact."""
     if one.error <= budget and other.error <= budget:
@@ -109,8 +163,10 @@ def _better(one: Way, other: Way, budget: float) -> Way:
 NO_STABLE_ORBIT = "marched, as there is no stable orbit"
 
 
-def arrival_time(orbit: Orbit, way: Way, sample_rate: float) -> float:
+def arrival_time(orbit: Orbit, way: Way, sample_rate: float, most_steps: int = MOST_STEPS) -> float:
     """Time [s] after which the motion from rest is that of a stable orbit; NaN where it never is.
+
+    NaN also where it takes more than `most_steps` to see.
 
     Close to the orbit disturbances die in `dying_time`, but the way there may be longer, and a
     machine may have several steady motions: which one it goes to depends on where it begins.
@@ -119,6 +175,8 @@ def arrival_time(orbit: Orbit, way: Way, sample_rate: float) -> float:
     dying = dying_time(orbit)
     for times in APPROACHES:
         since = times * max(dying, LEAST_APPROACH)
+        if (since + orbit.period) * max(sample_rate, np.nan_to_num(way.step_rate)) > most_steps:
+            break
         with np.errstate(all="ignore"):
             told = simulate_as(kind, orbit.scene, since + orbit.period, sample_rate, setting)
             marched = told.outer_acceleration
@@ -164,7 +222,7 @@ def _as_long_as_asked(scene: Scene, pilot: Pilot, way: Way, drop: float, duratio
 
 
 def _stable_orbit(
-    scene: Scene, pilot: Pilot, asked: float | None, limit: float
+    scene: Scene, pilot: Pilot, asked: float | None, limit: float, most_steps: int
 ) -> tuple[Orbit | None, Way | None, str]:
     """The orbit where it is proven stable and within the budget, its way, or why there is none.
 
@@ -189,6 +247,7 @@ def _stable_orbit(
             scene,
             start=start,
             step_rate=step_rate,
+            most_steps=most_steps,
             give_up=lambda: next(periods) * of_a_period > limit,
         )
         return found, tangent * found.right_hand_side_calls, time.thread_time() - began
@@ -197,6 +256,8 @@ def _stable_orbit(
     for _ in range(1 if asked else ORBIT_DOUBLINGS):
         if work > limit:
             return None, None, "marched, as an orbit takes longer"
+        if found.status == TOO_MANY_STEPS:
+            return None, None, "marched, as an orbit takes too many steps"
         if not found.stable:
             through = f", through {found.through}" if found.through else ""
             return None, None, f"{NO_STABLE_ORBIT}: {found.status}{through}"

@@ -33,7 +33,8 @@ def warm(report: Report = print) -> None:
         (("path of the ball", lambda: fan_rig.defects[0].path([0.0], fan_rig.bearing)),),
         report,
     )
-    helper = _start_helper() if _compiled_afresh() and _processors() > 1 else None
+    kept = kernels.kept_on_disk()
+    helper = _start_helper() if kept and _compiled_afresh() and _processors() > 1 else None
     try:
         _run(
             (

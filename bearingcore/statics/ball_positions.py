@@ -15,7 +15,7 @@ from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
 from bearingcore.model.scene import DOF_NAMES, Scene
-from bearingcore.statics.equilibrium import REASONS, TERM_INDICES, equilibrium
+from bearingcore.statics.equilibrium import MOST_CONTACTS, REASONS, TERM_INDICES, equilibrium
 
 Array = NDArray[np.float64]
 
@@ -49,6 +49,8 @@ class BallPositions:
     stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
     status, residual, iterations : (n,)
         as of `Equilibrium`; a load that no contact can carry is not solved again.
+    cost
+        as of `Equilibrium`.
     """
 
     scene: Scene
@@ -63,6 +65,7 @@ class BallPositions:
     status: NDArray[np.int8]
     residual: Array
     iterations: NDArray[np.int64]
+    cost: str = ""
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -76,7 +79,7 @@ class BallPositions:
 
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""
-        return REASONS[int(self.status[i])].format(
+        return self.cost or REASONS[int(self.status[i])].format(
             free=" or ".join(self.dofs), residual=self.residual[i]
         )
 
@@ -109,6 +112,7 @@ def ball_positions(
     *,
     centrifugal_load: float | None = None,
     weight: bool = False,
+    most_contacts: int = MOST_CONTACTS,
 ) -> BallPositions:
     """Static equilibrium of `scene` under the centrifugal load of its balls.
 
@@ -125,6 +129,8 @@ def ball_positions(
         F_c [N] of each ball; None: at the scene's speed.
     weight
         whether the balls' weight acts, along −y.
+    most_contacts
+        as of `equilibrium`.
 
     Returns
     -------
@@ -136,11 +142,18 @@ def ball_positions(
     ValueError
         for cage angles that are not finite or unknown names in `dofs`.
     """
-    massless = equilibrium(scene, cage_angles, dofs)
+    massless = equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
     active = massless.dofs
     races = packing.races(scene, 0.0, weight=weight)
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
+    if massless.cost:
+        loads = np.broadcast_to(massless.ball_load, (2, *massless.ball_load.shape))
+        return BallPositions(
+            scene, active, massless.cage_angles, float(races.centrifugal[0]),
+            massless.displacement, loads, loads, np.swapaxes(loads, 0, 1), massless.stiffness,
+            massless.status, massless.residual, massless.iterations, massless.cost,
+        )  # fmt: skip
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
     q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
         massless.cage_angles,

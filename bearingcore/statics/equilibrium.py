@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.common.numbers import scientific
+from bearingcore.common.numbers import scientific, thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
@@ -40,6 +41,10 @@ TERM_SYMBOLS = {
 
 ANGLES_A_PERIOD = 121
 
+MOST_CONTACTS = 20_000_000
+"""Contacts, those of all balls at all cage angles, that are solved at most unless told otherwise:
+some seconds of one core and a gigabyte of answers."""
+
 REASONS = {
     kernels.CONVERGED: "converged",
     kernels.NOTHING_TOUCHES: (
@@ -49,6 +54,7 @@ REASONS = {
     kernels.FREE_DIRECTION: "the ring can move without resistance along {free}",
     kernels.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
     kernels.NOT_CONVERGED: "not converged: relative residual {residual}",
+    kernels.TOO_MANY: "too many contacts",
 }
 """What each status means."""
 
@@ -81,6 +87,8 @@ class Equilibrium:
         Newton steps, and how often the energy was evaluated.
     state : (n, 5) [m]
         the last displacement reached, tilts times r_d, whatever became of it.
+    cost
+        what solving them would have taken, where that was too much to begin; else empty.
     """
 
     scene: Scene
@@ -95,6 +103,7 @@ class Equilibrium:
     iterations: NDArray[np.int64]
     evaluations: NDArray[np.int64]
     state: NDArray[np.float64] = field(repr=False)
+    cost: str = ""
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -150,7 +159,7 @@ class Equilibrium:
         free = [
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
-        return REASONS[code].format(
+        return self.cost or REASONS[code].format(
             free=", ".join(free), residual=scientific(float(self.residual[i]), 2)
         )
 
@@ -170,6 +179,8 @@ def equilibrium(
     scene: Scene,
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
+    *,
+    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
 
@@ -184,6 +195,9 @@ def equilibrium(
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's. Loads along
         directions that are held are carried by what holds them.
+    most_contacts
+        contacts that may be solved: cage angles times balls. Where there are more nothing is
+        begun, and `reason` says how many there would be.
 
     Returns
     -------
@@ -201,6 +215,8 @@ def equilibrium(
     else:
         angles = checks.finite("cage_angles", cage_angles, "rad")
     free = scene.active_dofs if dofs is None else check_dofs(dofs)
+    if cost := too_many_contacts(scene, angles.size, most_contacts):
+        return _not_begun(scene, free, angles, cost)
     units = packing.length_units(scene)
     load = packing.static_load(scene, free)
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
@@ -233,6 +249,45 @@ def equilibrium(
         iterations=iterations,
         evaluations=evaluations,
         state=q,
+    )
+
+
+def too_many_contacts(scene: Scene, points: int, most: int) -> str:
+    """What solving so many points of a scene would cost, where it is too much; else empty."""
+    most = checks.whole_number("most_contacts", most, at_least=1, at_most=10**12)
+    contacts = points * packing.contacts(scene.bearing).angle.size
+    if contacts <= most:
+        return ""
+    return (
+        f"too many contacts: {thousands(contacts)}, allowed are most_contacts = {thousands(most)}"
+    )
+
+
+def _not_begun(
+    scene: Scene, dofs: tuple[str, ...], angles: NDArray[np.float64], cost: str
+) -> Equilibrium:
+    """NaN everywhere, without the memory of it."""
+    n = angles.size
+
+    def all_of(value: float, *shape: int, kind: type = np.float64) -> NDArray[Any]:
+        return np.broadcast_to(np.array(value, dtype=kind), (n, *shape))
+
+    none = all_of(0, kind=np.int64)
+    balls = packing.contacts(scene.bearing).angle.size
+    return Equilibrium(
+        scene=scene,
+        dofs=dofs,
+        cage_angles=angles,
+        displacement=all_of(math.nan, 5),
+        ball_load=all_of(math.nan, balls),
+        stiffness=all_of(math.nan, 5, 5),
+        loaded_balls=none,
+        status=all_of(kernels.TOO_MANY, kind=np.int8),
+        residual=all_of(math.nan),
+        iterations=none,
+        evaluations=none,
+        state=all_of(math.nan, 5),
+        cost=cost,
     )
 
 

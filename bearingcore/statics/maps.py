@@ -21,10 +21,12 @@ from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import TWO_PI, Defect, floor_bytes, path_tables
 from bearingcore.model.scene import Scene, check_dofs
 from bearingcore.statics.equilibrium import (
+    MOST_CONTACTS,
     REASONS,
     STIFFNESS_TERMS,
     TERM_UNITS,
     default_cage_angles,
+    too_many_contacts,
 )
 from bearingcore.statics.load_capacity import runs_away
 
@@ -61,6 +63,8 @@ class Maps:
         sunk as deep, and how often the energy was evaluated.
     refusals : (m,)
         why a scene with this extent cannot be; empty where it can.
+    cost
+        what the map would have taken, where that was too much to begin; else empty.
     """
 
     scene: Scene
@@ -75,6 +79,7 @@ class Maps:
     solved: int
     evaluations: int
     refusals: tuple[str, ...]
+    cost: str = ""
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -107,6 +112,8 @@ class Maps:
 
     def reason(self, i: int, k: int) -> str:
         """In words, what became of extent i and cage angle k."""
+        if self.cost:
+            return self.cost
         if self.status[i, k] == kernels.REFUSED:
             return self.refusals[i]
         return REASONS[int(self.status[i, k])].format(
@@ -119,6 +126,8 @@ def stiffness_maps(
     extents: ArrayLike | None = None,
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
+    *,
+    most_contacts: int = MOST_CONTACTS,
 ) -> Maps:
     """Stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
 
@@ -135,6 +144,9 @@ def stiffness_maps(
         [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's.
+    most_contacts
+        contacts that may be solved: extents times cage angles times balls. Where there are more
+        nothing is begun, and `cost` says how many there would be.
 
     Returns
     -------
@@ -159,10 +171,17 @@ def stiffness_maps(
         angles = checks.finite("cage_angles", cage_angles, "rad")
     free = scene.active_dofs if dofs is None else check_dofs(dofs)
     bearing = scene.bearing
+    shape = sizes.size, angles.size
+    if cost := too_many_contacts(scene, sizes.size * angles.size, most_contacts):
+        nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
+        return Maps(
+            scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
+            np.broadcast_to(np.int8(kernels.TOO_MANY), shape), nothing[0], 0, 0,
+            ("",) * sizes.size, cost,
+        )  # fmt: skip
 
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
-    shape = sizes.size, angles.size
     status = np.full(shape, kernels.OPEN, dtype=np.int8)
     refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
     status[refused] = kernels.REFUSED

@@ -19,6 +19,7 @@ from bearingcore.model.defect import Defect
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
+    IN_ROWS,
     LIFE,
     MASS,
     MODE,
@@ -28,7 +29,6 @@ from bearingcore.sweep.outputs import (
     OUTPUTS,
     SECONDS,
     SECONDS_IN_A_ROW,
-    STATICS,
     Numbers,
     Settings,
     chosen_outputs,
@@ -187,7 +187,7 @@ class Grid:
     @property
     def in_rows(self) -> bool:
         """True where scenes that differ in extent alone are solved together."""
-        return self.needs == (STATICS,) and "extent" in self.dims
+        return set(self.needs) <= IN_ROWS and "extent" in self.dims
 
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""
@@ -217,8 +217,9 @@ class Grid:
         None takes what should be TASK_SECONDS of work, and not fewer than TASKS_AT_LEAST regions.
         """
         if scenes is None:
-            seconds = SECONDS_IN_A_ROW if self.in_rows else sum(SECONDS[n] for n in self.needs)
-            if len(self.dofs) > 2 and set(self.needs) & {MODES, MOTION, ORBIT, MASS}:
+            table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
+            seconds = sum(table[need] for need in self.needs)
+            if len(self.dofs) > 2 and set(self.needs) & {MOTION, ORBIT, MASS}:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
         left = max(scenes, 1)
@@ -293,7 +294,10 @@ class Grid:
             if together.size:
                 try:
                     scene = self.scene_at(place(together[0]))
-                    yield place(together), *of_row(scene, extents[together], self.settings)
+                    yield (
+                        place(together),
+                        *of_row(scene, extents[together], self.needs, self.labels, self.settings),
+                    )
                     alone -= set(together.tolist())
                 except ValueError:
                     pass  # what cannot be with one extent may be with another
@@ -343,7 +347,8 @@ class Grid:
         if set(self.needs) & {MODES, MOTION, ORBIT, MASS}:
             dofs = scene.active_dofs
             scene.support.stiffness(dofs)
-            scene.support.damping(dofs)
+            if self.needs != (MODES,):
+                scene.support.damping(dofs)
             for body in ("inner", "outer"):
                 scene.support.inertia(body, dofs)
         if LIFE in self.needs:

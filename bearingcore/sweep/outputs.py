@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.dynamics.modes import modes_at
+from bearingcore.dynamics.modes import undamped_bands
 from bearingcore.dynamics.motion import TOO_MANY_STEPS, simulate
 from bearingcore.dynamics.orbit import (
     NO_PERIOD,
@@ -41,13 +41,13 @@ Array = NDArray[np.float64]
 
 STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
 
-SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 8e-3, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
+SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 5e-4, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
 """Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
-a task. Five directions cost about ten times as much, but for statics and life; life takes fifteen
-times as long with a defect of the inner race."""
+a task. Five directions cost about ten times as much, but for statics, modes and life; life takes
+fifteen times as long with a defect of the inner race."""
 
-SECONDS_IN_A_ROW = 1e-4
-"""[s] of statics alone where the extent varies: a row of extents is solved together."""
+SECONDS_IN_A_ROW = {STATICS: 1e-4, MODES: 4e-4}
+"""[s] where the extent varies: a row of extents is solved together."""
 
 STATUSES = (
     "not_computed",
@@ -64,6 +64,7 @@ STATUSES = (
     "no_common_period",
     "arithmetic_failed",
     "too_many_steps",
+    "too_many_contacts",
 )
 """What became of a scene, by code: `complete`, or the first thing that kept something from being
 known. Nothing touches, a free direction and what follows: at some cage angle at least; a free
@@ -79,6 +80,7 @@ _FROM_KERNELS = {
     kernels.NOT_CARRIED: "load_not_carried",
     kernels.NOT_CONVERGED: "static_state_not_converged",
     kernels.REFUSED: "scene_refused",
+    kernels.TOO_MANY: "too_many_contacts",
 }
 _STATIC_CODES = np.array([_CODE[_FROM_KERNELS[code]] for code in sorted(_FROM_KERNELS)], np.int8)
 _FROM_ORBIT = {
@@ -177,7 +179,7 @@ def _table() -> dict[str, Output]:
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
             "Hz",
-            f"{which} natural frequency of each mode {over}",
+            f"{which} natural frequency of each mode, damping left out, {over}",
             "Natural frequencies",
             f"mode {{}}, {which}",
             MODES,
@@ -320,9 +322,8 @@ def of_scene(
         if LIFE in needs:
             codes.append(_life(scene, settings, numbers))
         if MODES in needs:
-            bands = modes_at(state).bands()
-            edges = np.array([bands.get(label, (math.nan, math.nan)) for label in labels])
-            numbers["band_least"], numbers["band_greatest"] = edges.T
+            edges = _bands(scene, terms[:, None], labels)
+            numbers |= {name: values[0] for name, values in edges.items()}
         if MOTION in needs:
             codes.append(_motion(scene, settings, numbers))
         if MASS in needs:
@@ -348,10 +349,36 @@ def of_scene(
     return _CODE[first], numbers
 
 
-def of_row(scene: Scene, extents: Array, settings: Settings) -> tuple[NDArray[np.int8], Numbers]:
-    """Codes (m,) and static outputs (m,) of `scene` with each of the extents, solved together."""
+IN_ROWS = frozenset({STATICS, MODES})
+"""What `of_row` computes."""
+
+
+def of_row(
+    scene: Scene, extents: Array, needs: Iterable[str], labels: tuple[str, ...], settings: Settings
+) -> tuple[NDArray[np.int8], Numbers]:
+    """Codes (m,) and outputs (m, ...) of `scene` with each of the extents, solved together.
+
+    `needs` are of IN_ROWS, `labels` the modes that the band edges are given for.
+    """
     maps = stiffness_maps(scene, extents, default_cage_angles(scene, settings.cage_angles))
-    return _statics(maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load)
+    codes, numbers = _statics(maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load)
+    if MODES in needs:
+        try:
+            numbers |= _bands(scene, maps.stiffness, labels)
+        except ValueError:
+            codes = np.where(codes == _CODE["complete"], _CODE["computation_refused"], codes)
+    return codes, numbers
+
+
+def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
+    """Edges (m, len(labels)) of bands, from stiffness terms (15, m, n) of m scenes."""
+    *found, own = undamped_bands(scene, terms)
+    edges = np.full((2, terms.shape[1], len(labels)), math.nan)
+    for i, names in enumerate(own):
+        place = [labels.index(name) for name in names if name in labels]
+        mine = [k for k, name in enumerate(names) if name in labels]
+        edges[:, i, place] = [each[i, mine] for each in found]
+    return {"band_least": edges[0], "band_greatest": edges[1]}
 
 
 def refused() -> int:

@@ -13,6 +13,7 @@ import time
 from bearingcore import presets, simulate
 from bearingcore.experiments.balls import BALL_METHODS, balls_experiment
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from tests.benchmarks.machine import pace
 
 
 def least(scene: Scene, duration: float, runs: int = 7) -> float:
@@ -44,9 +45,11 @@ def main() -> None:
         motion = simulate(heavy, 0.01)
         massless = least(scene.replace(balls=MASSLESS), arguments.duration)
         cost = least(heavy, arguments.duration)
+        machine = pace()
         print(
             f"  by default {motion.step_rate:.0f} steps/s in {1e3 * cost:.1f} ms, "
-            f"{cost / massless:.1f} times the massless march's {1e3 * massless:.1f} ms\n"
+            f"{cost / massless:.1f} times the massless march's {1e3 * massless:.1f} ms,\n"
+            f"  {machine.ratio(cost)}; {machine}\n"
         )
 
 

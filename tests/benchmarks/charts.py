@@ -32,6 +32,7 @@ from bearingcore.experiments import (
     statics_experiment,
 )
 from bearingcore.experiments.stability import VERDICTS
+from tests.benchmarks.machine import pace
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -197,7 +198,7 @@ def main() -> None:
             (motion, ("spectrum", "acceleration", "displacement")),
             (models, ("spectrum", "level")),
         ):
-            print(experiment.table(), flush=True)
+            print(f"{experiment.table()}\n{pace()}\n", flush=True)
             title = f"{name}: {experiment.title}"
             draw_experiment(experiment, f"{name}-{experiment.name}", title, errors)
     print(order_table(measured_orders()), flush=True)

@@ -23,6 +23,7 @@ import os
 import sys
 import threading
 import time
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -30,7 +31,9 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import Error, sync_playwright
 
-from tests.browser.helpers import chromium, explorer_server, serving
+from tests.benchmarks.machine import Pace, pace
+from tests.browser.helpers import chromium, explorer_server, free_port, serving
+from tests.helpers.balancer import balanced
 from tests.helpers.page_client import PageClient
 
 FRAME = 1.0 / 60.0
@@ -340,22 +343,38 @@ def main() -> int:
     parser.add_argument("--browsers", type=int, default=2, help="of them real")
     parser.add_argument("--seconds", type=float, default=120.0)
     parser.add_argument("--jobs", type=int, default=0, help="of them compute speed runs instead")
-    parser.add_argument("--num-procs", type=int, default=1)
+    parser.add_argument("--num-procs", type=int, default=1, help="that share a port")
+    parser.add_argument(
+        "--behind", type=int, default=0, help="so many explorers with a balancer before them"
+    )
     parser.add_argument("--leave", type=float, default=45.0, help="wait after they left [s]")
     chosen = parser.parse_args()
     options = ("--num-procs", str(chosen.num_procs)) if chosen.num_procs > 1 else ()
+    fronted = chosen.behind > 0
     found: list[Notes] = []
-    with serving(explorer_server(*options)) as server:
-        pids = family(server.process.pid)
+    machine_before = pace()
+    with ExitStack() as stack:
+        balancer = free_port()
+        if fronted:
+            options = ("--allow-websocket-origin", f"localhost:{balancer}")
+        servers = [
+            stack.enter_context(serving(explorer_server(*options)))
+            for _ in range(max(chosen.behind, 1))
+        ]
+        url = servers[0].url
+        if fronted:
+            stack.enter_context(balanced([server.port for server in servers], port=balancer))
+            url = f"http://localhost:{balancer}/"
+        pids = [pid for server in servers for pid in family(server.process.pid)]
         before = memory(pids)
         go = threading.Barrier(chosen.browsers + 1)
         threads = [
-            threading.Thread(target=browse, args=(server.url, chosen.seconds, go, found))
+            threading.Thread(target=browse, args=(url, chosen.seconds, go, found))
             for _ in range(chosen.browsers)
         ]
         for thread in threads:
             thread.start()
-        people = [Person(server.url, n) for n in range(chosen.sessions - chosen.browsers)]
+        people = [Person(url, n) for n in range(chosen.sessions - chosen.browsers)]
 
         async def class_of() -> dict[str, float]:
             return await _crowd(people, chosen.seconds, go, pids, chosen.jobs)
@@ -370,14 +389,18 @@ def main() -> int:
             runner.run(all_leave())
             time.sleep(chosen.leave)
             left = memory(pids)
-        log = server.log
-    _print(chosen, [person.notes for person in people], found, machine, before, left)
+        log = "".join(server.log for server in servers)
+    print(f"before: {machine_before}\nafter:  {pace()}")
+    _print(
+        machine_before, chosen, [person.notes for person in people], found, machine, before, left
+    )
     if "Traceback" in log:
         print("in the server's log:\n" + log[-3000:])
     return 0
 
 
 def _print(
+    quiet: Pace,
     chosen: argparse.Namespace,
     clients: list[Notes],
     browsers: list[Notes],
@@ -388,6 +411,7 @@ def _print(
     print(
         f"{chosen.sessions} sessions, {len(browsers)} of them browsers, dragging for "
         f"{machine['took']:.0f} s; {os.cpu_count()} cores, {chosen.num_procs} process(es)"
+        + (f" behind a balancer: {chosen.behind}" if chosen.behind else "")
     )
     print(f"{'':<12}{'updates':>9}{'a second':>10}{'median':>9}{'95 %':>9}{'99 %':>9}{'most':>9}")
     everyone = [*clients, *browsers]
@@ -401,7 +425,8 @@ def _print(
             continue
         shares = np.percentile(1000.0 * times, [50.0, 95.0, 99.0, 100.0])
         row = "".join(f"{share:>6.0f} ms" for share in shares)
-        print(f"{name:<12}{times.size:>9}{times.size / machine['took']:>10.0f}{row}")
+        beside = ", ".join(quiet.ratio(0.001 * share) for share in shares[:2])
+        print(f"{name:<12}{times.size:>9}{times.size / machine['took']:>10.0f}{row}   {beside}")
     wrong = sum(differences(one) for one in clients)
     firsts = sorted(one.first_picture for one in everyone)
     print(

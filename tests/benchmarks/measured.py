@@ -27,6 +27,7 @@ from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.part.parts import OUTER, PARTS
 from bearingcore.diagnosis.size.sizing import AT_MOST
 from bearingcore.signals.filter_bank import Envelope
+from tests.benchmarks.machine import pace
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
 
 RIGHT, CANNOT, WRONG = "right", "cannot tell", "wrong"
@@ -136,7 +137,7 @@ def _sum_up(counts: Counter[tuple[str, str]]) -> int:
     damaged = sum(n for (truth, _), n in counts.items() if truth in PARTS)
     named = sum(n for (truth, result), n in counts.items() if truth in PARTS and result == RIGHT)
     wrong = sum(n for (_, result), n in counts.items() if result == WRONG)
-    print(f"\nright part named: {named} of {damaged}; conclusive and wrong: {wrong}")
+    print(f"\nright part named: {named} of {damaged}; conclusive and wrong: {wrong}; {pace()}")
     return wrong
 
 

@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearingcore import DOF_NAMES, equilibrium, kernels, warm
+from tests.benchmarks.machine import pace
 from tests.helpers.box import Point, cage_angles_at, draw, scene_at
 from tests.helpers.independent import verdict
 
@@ -117,6 +118,8 @@ def report(tally: Tally, elapsed: float, processes: int) -> None:
         f"{tally.scenes / elapsed:,.0f} scenes/s on {processes} processes with the judging, "
         f"{tally.scenes / tally.solving:,.0f} scenes/s of a process in the solver; {elapsed:.0f} s"
     )
+    machine = pace()
+    print(f"a scene {machine.ratio(tally.solving / tally.scenes)} in the solver; {machine}")
 
 
 def main() -> int:

@@ -41,6 +41,7 @@ from bearingcore import (
 )
 from bearingcore.dynamics.motion import static_start
 from bearingcore.model.packing import length_units
+from tests.benchmarks.machine import pace
 from tests.benchmarks.yardstick import FAST_MATH, FLAGS, CMotion, CStatics
 from tests.browser.helpers import explorer_server, find_chromium
 
@@ -308,11 +309,13 @@ def main() -> None:
 
 def page() -> None:
     """What takes a server, and a browser where there is one."""
+    machine = pace()
     with tempfile.TemporaryDirectory() as folder:
         first, second = (start_seconds(Path(folder)) for _ in range(2))
     print(
         f"\n{'first start, nothing compiled, to the first page':54}{'20 s':>8}{first:>13.1f} s"
-        f"\n{'the next start':54}{'':>8}{second:>13.1f} s",
+        f"   {machine.ratio(first)}"
+        f"\n{'the next start':54}{'':>8}{second:>13.1f} s   {machine.ratio(second)}\n{machine}",
         flush=True,
     )
     if find_chromium() is None:

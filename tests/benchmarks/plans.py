@@ -26,6 +26,7 @@ from bearingcore.model.packing import length_units
 from bearingcore.plan import SETTLED, VIBRATION, Plan, plan
 from bearingcore.plan.cage_angles import LEAST_INTERVAL, curves_of, swings
 from bearingcore.plan.pilot import BAND, spectra_apart
+from tests.benchmarks.machine import pace
 
 SAMPLE_RATE = 65536.0
 
@@ -118,6 +119,7 @@ def report(title: str, found: list[Held]) -> bool:
     calls = [h.plan.full_evaluations / max(h.plan.evaluations, 1) for h in trusted]
     full = [h.plan.full_error / h.plan.error_budget for h in trusted]
     methods = {m: sum(h.plan.method == m for h in found) for m in {h.plan.method for h in found}}
+    machine = pace()
     planning = [held.plan.planning_seconds for held in found]
     print(
         f"{title}: {len(found)} scenes, {len(broken)} over budget unannounced, {len(unmet)} said "
@@ -129,7 +131,7 @@ def report(title: str, found: list[Held]) -> bool:
         f"  full over planned: time median {statistics.median(saved):.1f}, worst {min(saved):.2f}; "
         f"evaluations median {statistics.median(calls):.1f}, worst {min(calls):.2f}\n"
         f"  planning: median {1e3 * statistics.median(planning):.1f} ms, worst "
-        f"{1e3 * max(planning):.0f} ms",
+        f"{1e3 * max(planning):.0f} ms ({machine.ratio(max(planning))})\n  {machine}",
         flush=True,
     )
     for held in broken:

@@ -18,6 +18,7 @@ import numpy as np
 
 from bearingcore import Bearing, Defect, Load, Scene, kernels, presets
 from bearingcore.statics.ball_positions import BallPositions, ball_positions
+from tests.benchmarks.machine import pace
 from tests.two_contacts import TwoContacts
 
 TOLERANCE = 1e-7
@@ -107,7 +108,7 @@ def main() -> int:
             wrong += 1
             print(f"scene {number}: {fault}")
     seconds = time.perf_counter() - begin
-    print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong silently")
+    print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong silently; {pace()}")
     for outcome, count in outcomes.most_common():
         print(f"{count:8d}  {outcome}")
     return 1 if wrong else 0

@@ -33,6 +33,7 @@ from bearingcore import Scene, contact_damping, presets, simulate
 from bearingcore.diagnosis.size import sizing as method
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.signals.recording import Recording
+from tests.benchmarks.machine import pace
 
 SAMPLE_RATE, DURATION = 20_480.0, 1.4
 TRAINING, SCORED = 77, 2014
@@ -318,6 +319,8 @@ def main() -> None:
         f"{(time.perf_counter() - begin) / 60.0:.1f} minutes; "
         f"{np.median(seconds):.2f} s a signal (median), {max(seconds):.2f} s at most"
     )
+    machine = pace()
+    print(f"a signal {machine.ratio(float(np.median(seconds)))} (median); {machine}")
 
 
 if __name__ == "__main__":

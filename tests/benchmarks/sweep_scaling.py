@@ -26,6 +26,7 @@ from bearingcore.sweep import STATUSES, sweep
 from bearingcore.sweep import store as stores
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.run import _finished
+from tests.benchmarks.machine import pace
 
 STATICS = ("k_*", "loaded_balls_*", "ball_load_greatest", "converged_share")
 MOTION = ("acceleration_*_x", "acceleration_*_y")
@@ -51,6 +52,8 @@ class Kind(NamedTuple):
 ROWS = Kind("static, 2 directions, extent varies", RIG, ("extent", "depth", "fx", "fy"), STATICS)
 SINGLE = Kind("static, 2 directions, one by one", RIG, ("depth", "fx", "fy"), STATICS)
 FIVE = Kind("static, 5 directions, extent varies", ANGULAR, ("extent", "fx", "fy"), STATICS)
+BANDS = Kind("bands, 5 directions, extent varies", ANGULAR, ("extent", "fx", "fy"), ("band_*",))
+BANDS_ALONE = Kind("bands, 5 directions, one by one", ANGULAR, ("fx", "fy"), ("band_*",))
 MOVING = Kind("simulated 1.4 s, 2 directions", RIG, ("extent", "fy", "shaft_speed"), MOTION)
 
 RANGES = {
@@ -93,7 +96,7 @@ def workers(count: int) -> Iterator[Client]:
 
 
 def _warm() -> None:
-    for kind in (ROWS, SINGLE, FIVE, MOVING):
+    for kind in (ROWS, SINGLE, FIVE, BANDS, BANDS_ALONE, MOVING):
         Grid.of(kind.scene, grid_over(kind, 2), kind.outputs).compute()
 
 
@@ -112,6 +115,7 @@ def run(client: Client, kind: Kind, scenes: int, count: int) -> Cost:
     """Time one sweep and print its row."""
     over = grid_over(kind, scenes)
     grid = Grid.of(kind.scene, over, kind.outputs)
+    machine = pace()
     with tempfile.TemporaryDirectory() as folder:
         store = Path(folder) / "sweep.zarr"
         before = sum(client.run(_processor_time).values())
@@ -128,6 +132,7 @@ def run(client: Client, kind: Kind, scenes: int, count: int) -> Cost:
     print(
         f"{kind.words:36}{grid.size:>10,}{count:>8}{wall:>9.1f}"
         f"{1e3 * cost.wall:>11.3f}{1e3 * cost.processor:>11.3f}"
+        f"{cost.processor / machine.motion:>8.3f} C"
         f"{regions:>7}{files:>8}{size / 1e6:>8.1f}{100.0 * complete:>9.1f}",
         flush=True,
     )
@@ -203,9 +208,9 @@ def main() -> int:
     )
     parser.add_argument("--tasks", type=int, default=2000, help="tasks without work (2000)")
     chosen = parser.parse_args()
-    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} as this begins")
+    print(f"{os.cpu_count()} cores as this begins; {pace()}")
     print(
-        f"{'':36}{'scenes':>10}{'workers':>8}{'wall s':>9}{'ms·w/scene':>11}{'cpu ms':>11}"
+        f"{'':36}{'scenes':>10}{'workers':>8}{'wall s':>9}{'ms·w/scene':>11}{'cpu ms':>11}{'':>10}"
         f"{'tasks':>7}{'files':>8}{'MB':>8}{'known %':>9}"
     )
     costs: dict[tuple[Kind, int], Cost] = {}
@@ -218,6 +223,8 @@ def main() -> int:
                 (ROWS, part_static),
                 (FIVE, part_static // 2),
                 (SINGLE, part_static // 4),
+                (BANDS, part_static // 5),
+                (BANDS_ALONE, part_static // 10),
                 (MOVING, part_simulated),
             ):
                 costs[kind, count] = run(client, kind, scenes, count)
@@ -228,7 +235,7 @@ def main() -> int:
                 }
                 rate = tasks_a_second(client, chosen.tasks)
     print("\nFrom 1 to 2 workers: so many times as fast, and what the processor says it could be")
-    for kind in (ROWS, FIVE, SINGLE, MOVING):
+    for kind in (ROWS, FIVE, SINGLE, BANDS, BANDS_ALONE, MOVING):
         one, two = costs[kind, 1], costs[kind, 2]
         print(
             f"  {kind.words:36}{2.0 * one.wall / two.wall:6.2f}"
@@ -238,7 +245,7 @@ def main() -> int:
         f"\n{rate:,.0f} tasks without work a second; {1e3 * writing_a_region():.0f} ms to write "
         f"the {len(Grid.of(RIG, grid_over(ROWS, 9), STATICS).outputs)} static outputs of a region"
     )
-    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} as this ends")
+    print(f"{os.cpu_count()} cores as this ends; {pace()}")
     print(
         f"\nEstimate for {CORES} cores, from the processor time; not measured. It takes them to be "
         f"as fast as these,\nnone of them shared, the scheduler on one of its own, and a folder "

@@ -150,6 +150,9 @@ def main() -> int:
                 f"{'passed' if row.passed else 'FAILED':<8}{row.seconds:>6.0f} s  {row.words}",
                 flush=True,
             )
+    from tests.benchmarks.machine import pace  # needs the project, unlike all before it
+
+    print(pace())
     print(f"All that was printed: {chosen.log}")
     return 0 if passed else 1
 

@@ -7,7 +7,8 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from playwright.sync_api import Page, expect
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.browser.helpers import (
     ROOT,
@@ -93,3 +94,26 @@ def test_panel_serve_shows_the_page_too(watch: tuple[Page, Watch]) -> None:
         page.locator(".control-fy_n .number").press("Enter")
         page.wait_for_function("window.__mark === window.__asked")
         expect(page.locator(".view-stiffness [role=status]").first).not_to_be_empty()
+
+
+@pytest.mark.parametrize(
+    ("code", "reason", "words"),
+    [
+        (1013, "All places are taken.", "All places are taken. Reload the page in a minute."),
+        (1008, "This message was not understood.", "understood. Reload the page to go on."),
+        (4000, "", "The connection to the server is lost. Reload the page to go on."),
+    ],
+)
+def test_a_connection_that_is_over_is_told_on_the_page(
+    explorer: Server, browser: BrowserContext, code: int, reason: str, words: str
+) -> None:
+    """Too late for a place, cut off, or lost: Bokeh tells the console alone."""
+    page = browser.new_page()
+    page.route_web_socket("**/ws", lambda route: route.close(code=code, reason=reason))
+    page.goto(explorer.url)
+    line = page.get_by_role("alert")
+    expect(line).to_contain_text(words)
+    box = line.bounding_box()
+    assert box is not None
+    assert box["y"] + box["height"] <= page.viewport_size["height"] + 1  # type: ignore[index]
+    page.close()

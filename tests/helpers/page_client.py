@@ -55,6 +55,7 @@ class PageClient:
         self._news = asyncio.Event()
         self._count = 0
         self._welcome = False
+        self._cookies: list[str] = []  # as a browser gives them back: balancers know people by them
 
     # Coming and going
 
@@ -65,6 +66,8 @@ class PageClient:
         found = _TOKEN.search(response.body or b"")
         self.token = found.group(1).decode() if found else ""
         self.body = response.body or b""
+        told = response.headers.get_list("Set-Cookie")
+        self._cookies = [cookie.split(";", 1)[0] for cookie in told]
         return int(response.code)
 
     async def connect(self) -> None:
@@ -78,7 +81,10 @@ class PageClient:
     async def open_socket(self, origin: str | None = None) -> None:
         """The websocket alone."""
         address = re.sub("^http", "ws", self.url) + "ws"
-        request = HTTPRequest(address, headers={"Origin": origin} if origin else None)
+        headers = {"Origin": origin} if origin else {}
+        if self._cookies:
+            headers["Cookie"] = "; ".join(self._cookies)
+        request = HTTPRequest(address, headers=headers)
         self._socket = await websocket_connect(
             request, subprotocols=["bokeh", self.token], max_message_size=LARGEST
         )

@@ -35,6 +35,7 @@ from bearingcore.model.scene import WITH_MASS
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
     MASS,
+    MODES,
     MOTION,
     ORBIT,
     OUTPUTS,
@@ -66,7 +67,7 @@ a few lines of a spectrum."""
 
 _SIZING = "sizing"
 _SECONDS = {**SECONDS, _SIZING: 0.6}
-_MANY_DIRECTIONS = 10.0  # times the cost, for all but statics
+_MANY_DIRECTIONS = 10.0  # times the cost, for all but statics and modes
 _WITH_MASS = 10.0  # times the cost of a motion
 _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
@@ -86,6 +87,7 @@ _REASONS = {
     "no_common_period": "the motion never repeats",
     "arithmetic_failed": "the numbers are too extreme",
     "too_many_steps": "the motion takes too many steps",
+    "too_many_contacts": "there are too many contacts to solve",
     "complete": "this scene has no such mode",
 }
 """Why there is no number, by the status of a sweep."""
@@ -140,7 +142,7 @@ class MapOutput:
 
     def seconds(self, scene: Scene) -> float:
         """Rough cost of a scene [s]."""
-        many = len(scene.active_dofs) > 2 and self.needs != STATICS
+        many = len(scene.active_dofs) > 2 and self.needs not in (STATICS, MODES)
         seconds = _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
         heavy = scene.balls == WITH_MASS and self.needs == MOTION
         return seconds * (_WITH_MASS if heavy else 1.0)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from bearing_explorer.compute.endurance import endurance
 from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
@@ -143,18 +144,19 @@ def _anything(script: Script, results: Results, view: Any) -> None:
 def _bearing(script: Script, results: Results, view: Any) -> None:
     script.numpy()
     script.core("equilibrium")
-    script.part("statics.passes", "ball_drop")
+    script.part("statics.passes", "drops_now")
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
         "now = equilibrium(scene, [cage_angle])",
         "angle = now.ball_angle[0]",
         "columns = {",
-        '    "ball": np.arange(1, scene.bearing.n_balls + 1),',
+        '    "row": 1 + np.arange(angle.size) // scene.bearing.n_balls,',
+        '    "ball": 1 + np.arange(angle.size) % scene.bearing.n_balls,',
         '    "ball_angle_deg": np.degrees(angle),',
         '    "ball_load_n": now.ball_load[0],',
         '    "contact_angle_deg": np.degrees(now.contact_angle[0]),',
         *(
-            f'    "drop_into_{race}_race_um": 1e6 * ball_drop(scene, angle, cage_angle, "{race}"),'
+            f'    "drop_into_{race}_race_um": 1e6 * drops_now(scene, cage_angle, "{race}"),'
             for race in RACES
         ),
         "}",
@@ -166,11 +168,42 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
     )
 
 
+def _life(script: Script, results: Results, view: Any) -> None:
+    asked = view.asked
+    found = endurance(results.scene, asked)
+    if found.life is not None:
+        script.core("life")
+        rating = short(found.life.dynamic_load_rating)
+        script.add(
+            f'lasting = life(scene, {rating}, positions="all")  # C_r {found.rating_words}',
+            "print(lasting.sentence)",
+        )
+    if found.pressures is not None:
+        script.core("contact_pressures")
+        script.add(
+            "pressures = contact_pressures(scene)",
+            "print(pressures.inner.greatest_pressure, pressures.outer.greatest_pressure)  # Pa",
+        )
+    if found.film is not None:
+        script.core("film")
+        script.add(
+            "oil = film(",
+            f"    scene, viscosity={short(asked.viscosity)}, "
+            f"roughness_inner={short(asked.race_roughness)},",
+            f"    roughness_outer={short(asked.race_roughness)}, "
+            f"roughness_ball={short(asked.ball_roughness)},",
+            ")",
+            "print(oil.sentence)",
+        )
+
+
 def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
     script.add(
+        "rows = 1 + np.arange(scene.bearing.total_balls) // scene.bearing.n_balls",
         "columns = {",
+        '    "row": np.tile(rows, len(found.cage_angles)),',
         '    "ball_angle_deg": np.degrees(found.ball_angle.ravel()) % 360.0,',
         '    "ball_load_n": found.ball_load.ravel(),',
         f'    "{results.beside_name}_ball_angle_deg": np.degrees(grey.ball_angle.ravel()) % 360.0,',
@@ -196,7 +229,10 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
         f"angle = np.linspace({short(first)}, {short(last)}, 721)",
-        f'own = [defect for defect in scene.defects if defect.race == "{profile.race}"]',
+        "own = [",
+        f'    defect for defect in scene.defects if defect.race == "{profile.race}"',
+        f"    and defect.row in (None, {profile.row})",
+        "]",
         "depths = [",
         "    defect.surface(",
         "        angle - defect.turn_ratio(scene.bearing) * cage_angle, scene.bearing",
@@ -207,7 +243,7 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
         '    "angle_deg": np.degrees(angle),',
         '    "race_depth_um": 1e6 * np.max([np.zeros(angle.size), *depths], axis=0),',
         '    "ball_center_drop_um": 1e6',
-        f'    * ball_drop(scene, angle, cage_angle, "{profile.race}"),',
+        f'    * ball_drop(scene, angle, cage_angle, "{profile.race}", {profile.row}),',
         "}",
     )
     _plot(
@@ -562,6 +598,7 @@ def _nothing_yet(script: Script) -> None:
 
 _MAKERS: dict[str, Callable[[Script, Results, Any], None]] = {
     "bearing": _bearing,
+    "life": _life,
     "load-distribution": _load_distribution,
     "depth-profile": _depth_profile,
     "stiffness": _stiffness,

@@ -54,6 +54,11 @@ class PlanChoice(LiveComponent):
         super().__init__(spec=spec, margin=0, **params)
         self.on_msg(lambda event: asked(event.data))
 
+    @property
+    def says_compiling(self) -> bool:
+        """Whether the page says that kernels are being compiled."""
+        return bool(self.state.get("compiling", False))
+
     def show(self, results: Results, tab: str) -> None:
         """What these results, drawn on a tab, are drawn by. On the event loop only."""
         state = {

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 from bearing_explorer.compute import compiling
-from bearing_explorer.session import Inputs, _planned
+from bearing_explorer.session import Explorer, Inputs, Planned, _planned
 
 from bearingcore import kernels, orbit, presets
 from bearingcore.plan import SETTLED
+from tests.helpers.loops import run
+from tests.helpers.sections import SECTIONS
 
 
 class Helper:
@@ -57,11 +61,35 @@ def test_motions_are_not_planned_until_it_is_done(
     monkeypatch.setattr(kernels, "on_disk", lambda kernel: False)
     compiling.begin()
     assert not compiling.ready()
-    assert _planned(inputs, lambda: False) == ("load",)
+    assert _planned(inputs, lambda: False) == Planned(("load",), compiled=False)
     compiling._helper.returncode = 0
     assert compiling.ready()
-    assert _planned(inputs, lambda: False) == ("load", SETTLED)
-    assert _planned(inputs, lambda: True) == (), "overtaken"
+    assert _planned(inputs, lambda: False) == Planned(("load", SETTLED), compiled=True)
+    assert _planned(inputs, lambda: True).views == (), "overtaken"
+
+
+@pytest.mark.parametrize("last", range(1, 8))
+def test_the_page_stops_saying_that_it_compiles(monkeypatch: pytest.MonkeyPatch, last: int) -> None:
+    """Whoever is the first to hear it, a picture or a plan, and where nothing new is planned."""
+    looks = [0]
+
+    def ready() -> bool:
+        looks[0] += 1
+        return looks[0] > last
+
+    monkeypatch.setattr(compiling, "ready", ready)
+
+    async def live() -> Explorer:
+        explorer = Explorer(SECTIONS)
+        explorer.draw()
+        async with asyncio.timeout(20.0):
+            while not (explorer._idle_task.idle and explorer._worker.idle):
+                await asyncio.sleep(0.01)
+        return explorer
+
+    explorer = run(live())
+    assert looks[0] > last, "it was looked at until it was done"
+    assert not explorer.plan.state["compiling"]
 
 
 def test_where_compiling_is_switched_off_nothing_is_missing() -> None:

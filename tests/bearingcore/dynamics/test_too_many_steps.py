@@ -10,12 +10,14 @@ import math
 import numpy as np
 import pytest
 
-from bearingcore import Scene, presets, simulate
+from bearingcore import Scene, equilibrium, modes, presets, simulate, stiffness_maps
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import regions, stability_map
+from bearingcore.plan import SETTLED, VIBRATION, plan
+from bearingcore.statics.ball_positions import ball_positions
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import STATUSES, Settings
 
@@ -47,7 +49,7 @@ def test_an_orbit_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -
     found = orbit(STIFF)
     assert found.status == TOO_MANY_STEPS
     assert found.cost.startswith(f"{thousands(725688)} steps a period")
-    assert "most_steps = 1000000" in found.cost
+    assert f"most_steps = {thousands(1e6)}" in found.cost
     assert not found.stable
     assert math.isnan(found.largest_multiplier)
     assert found.right_hand_side_calls == 0
@@ -102,3 +104,85 @@ def test_a_motion_has_no_more_samples_than_memory_holds() -> None:
     scene: Scene = presets["fan-rig"]
     with pytest.raises(ValueError, match="duration"):
         simulate(scene, 1e9)
+
+
+# Contacts: cage angles, times extents, times balls
+
+
+@pytest.fixture
+def _no_solving(monkeypatch: pytest.MonkeyPatch) -> None:
+    from bearingcore import kernels
+
+    def begun(*_: object) -> None:
+        raise AssertionError("it was begun")
+
+    for name in ("static_states", "static_maps", "ball_positions"):
+        monkeypatch.setattr(kernels, name, begun)
+
+
+@pytest.mark.usefixtures("_no_solving")
+def test_too_many_contacts_are_not_begun_and_say_what_they_would_cost() -> None:
+    rig = presets["fan-rig"]
+    many = np.zeros(10_000_000)
+    words = f"too many contacts: {thousands(1.4e8)}, allowed are most_contacts = {thousands(2e7)}"
+    state = equilibrium(rig, many)
+    assert state.cost == state.reason(9_999_999) == words
+    assert not state.converged.any()
+    assert np.isnan(state.stiffness[7]).all()
+    assert state.stiffness.base is not None, "and take no memory"
+    found = modes(rig, many)
+    assert found.cost == words
+    assert set(found.label) == {"x1", "x2", "y1", "y2"}
+    assert np.isnan(found.bands()["x1"]).all()
+    places = ball_positions(rig.replace(balls="with mass"), many)
+    assert places.reason(0) == places.cost == words
+    assert np.isnan(places.load[1, 5]).all()
+    maps = stiffness_maps(rig, np.linspace(0.0, 1.0, 5000), np.linspace(0.0, 0.4, 2000))
+    assert maps.cost == maps.reason(3, 4) == words
+    assert maps.stiffness.shape == (15, 5000, 2000)
+    assert np.isnan(maps.mean_loaded_balls).all()
+
+
+def test_the_bound_of_contacts_is_an_argument() -> None:
+    rig = presets["fan-rig"]
+    angles = np.linspace(0.0, 0.4, 10)
+    assert equilibrium(rig, angles, most_contacts=140).converged.all()
+    assert "140, allowed are most_contacts = 139" in equilibrium(
+        rig, angles, most_contacts=139
+    ).reason(0)
+    assert stiffness_maps(rig, [0.1, 0.2], angles, most_contacts=280).converged.all()
+    assert stiffness_maps(rig, [0.1, 0.2], angles, most_contacts=279).cost
+    assert modes(rig, angles, most_contacts=139).cost
+    for refused in (0, -3, 2.5):
+        with pytest.raises(ValueError, match="most_contacts"):
+            equilibrium(rig, angles, most_contacts=refused)  # type: ignore[arg-type]
+
+
+# Plans
+
+
+@pytest.mark.usefixtures("_no_marching")
+@pytest.mark.parametrize("balls", ["massless", "with mass"])
+@pytest.mark.parametrize("view", [VIBRATION, SETTLED])
+def test_a_plan_of_too_many_steps_is_not_begun_and_says_what_it_would_cost(
+    view: str, balls: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # it is measured on a scene of its own
+    monkeypatch.setattr("bearingcore.plan.motions.seconds_a_call", lambda *_: 1e-6)
+    made = plan(STIFF.replace(balls=balls, density=7850.0), view, sample_rate=4e7)
+    assert made.note.startswith("too many steps to plan it: ")
+    assert f"for 0.25 s of motion, allowed are most_steps = {thousands(1e6)}" in made.note
+    assert not made.met
+    assert math.isinf(made.predicted_error)
+    assert made.orbit is None
+    assert "the budget is not met; too many steps to plan it" in made.sentence()
+
+
+def test_the_bound_of_a_plan_is_an_argument() -> None:
+    rig = presets["fan-rig"]
+    usual = plan(rig, VIBRATION, duration=0.1)
+    assert not usual.note
+    assert "too many steps" in plan(rig, VIBRATION, duration=0.1, most_steps=1000).note
+    assert plan(rig, "load", most_steps=1).met, "curves take none"
+    with pytest.raises(ValueError, match="most_steps"):
+        plan(rig, VIBRATION, most_steps=0)

@@ -338,13 +338,8 @@ class SpeedRunSpectra(JobView[Found]):
         if found is None:
             return {}
         run = found.run
-        speed, frequency = np.meshgrid(found.speeds.values, run.frequency, indexing="ij")
-        table = {SPEED: speed, "frequency_hz": frequency}
-        for index, dof in enumerate(run.dofs):
-            unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"
-            table[f"density_{dof}_{unit}"] = run.density[:, :, index]
-        orbits = np.broadcast_to(run.from_orbit[:, None], speed.shape)
-        return {**table, "from_orbit": orbits.astype(int)}
+        orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
+        return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
 def compute(job: Work, scene: Any, speeds: Sweep) -> str:

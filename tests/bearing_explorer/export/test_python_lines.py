@@ -148,7 +148,7 @@ def test_what_a_job_found_is_made_again(monkeypatch: pytest.MonkeyPatch) -> None
     namespace = run(lines_of(view, Results(presets["6205"])), monkeypatch)
     assert namespace["scene"] == view.found.map.scene
     np.testing.assert_allclose(
-        namespace["columns"]["largest_multiplier"], view.found.map.multiplier, rtol=1e-9
+        namespace["columns"]["largest_multiplier"], view.found.map.multiplier.ravel(), rtol=1e-9
     )
 
 

@@ -472,11 +472,17 @@ def _explore(script: Script, results: Results, view: Any) -> None:
     if output.in_sweep:
         script.part("sweep", "sweep")
         mode = f'.sel(mode="{output.mode}")' if output.mode else ""
+        settings = []
+        if output.band is not None:
+            script.part("sweep.outputs", "Settings")
+            low, high = (short(edge) for edge in output.band)
+            settings = [f"    settings=Settings(band_low={low}, band_high={high}),"]
         script.add(
             "swept = sweep(",
             "    scene,",
             f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
             f'    outputs=["{output.in_sweep}"],',
+            *settings,
             ")",
             f'values = swept["{output.in_sweep}"]{mode}.values',
         )

@@ -43,7 +43,7 @@ VIEWS = {
     for view in section.views
     if view.name
     in ("bearing", "load-distribution", "depth-profile", "stiffness", "maps", "modes", "orbit",
-        "vibration-time", "vibration-spectrum")
+        "vibration-time", "vibration-spectrum", "mass-time", "mass-spectrum", "mechanism")
 }  # fmt: skip
 
 

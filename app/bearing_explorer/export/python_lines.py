@@ -323,13 +323,7 @@ def _modes(script: Script, results: Results, view: Any) -> None:
     _both(script, results, "modes", results.modes, results.healthy_modes, beside)
     name = results.beside_name
     script.add(
-        'columns = {"cage_angle_deg": np.degrees(found.cage_angles)}',
-        "for i, label in enumerate(found.label):",
-        '    columns[f"{label}_hz"] = found.frequency[:, i]',
-        '    columns[f"{label}_damping_ratio"] = found.damping_ratio[:, i]',
-        f'columns["{name}_cage_angle_deg"] = np.degrees(grey.cage_angles)',
-        "for i, label in enumerate(grey.label):",
-        f'    columns[f"{name}_{{label}}_hz"] = grey.frequency[:, i]',
+        f'columns = (found.table() | grey.table().prefixed("{name}")).in_units().named()',
         "print(found.bands())  # least and greatest frequency of each mode [Hz]",
     )
     _plot(
@@ -422,11 +416,7 @@ def _orbit(script: Script, results: Results, view: Any) -> None:
     script.add(
         "found = orbit(scene)",
         "print(found.status)",
-        "columns = {",
-        '    "multiplier_real": found.multipliers.real,',
-        '    "multiplier_imaginary": found.multipliers.imag,',
-        '    "multiplier_size": np.abs(found.multipliers),',
-        "}",
+        "columns = found.table().named()",
     )
     if results.orbit is not None and results.orbit.multipliers.size:
         script.add(
@@ -464,7 +454,7 @@ def _stability_map(script: Script, results: Results, view: Any) -> None:
         ),
         ")",
         'y, x = np.meshgrid(found.y, found.x, indexing="ij")',
-        'columns = {"largest_multiplier": found.multiplier, "through": found.through}',
+        'columns = found.table().only("largest_multiplier", "outcome", "through").named()',
     )
     _plot(script, "plt.pcolormesh(x, y, np.minimum(found.multiplier, 1.5))", "plt.colorbar()")
 
@@ -525,8 +515,7 @@ def _speed_run(script: Script, results: Results, view: Any) -> None:
     script.add(
         f"speeds = np.linspace({short(speeds[0])}, {short(speeds[-1])}, {speeds.size})",
         f"run = speed_run(scene, speeds, resolution={short(float(step))})",
-        "columns = {}",
-        *_densities("density", "run.dofs", "run.density[:, :, i]"),
+        'columns = run.table().in_units({"rad/s": "Hz"}).named()',
     )
     _plot(
         script,

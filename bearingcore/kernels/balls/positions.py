@@ -198,8 +198,8 @@ def settle_ball(r, z, j, balls, places):
         )
         if not better:
             tries += 1
-            secant = slope / (slope - slope1)
-            step *= min(max(secant, 0.05), 0.6)
+            rise = slope1 - slope  # 0 where rounding has left no descent in the direction
+            step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
             if tries > 60:
                 break
             x = br + step * pr
@@ -390,7 +390,8 @@ def settle_ring(q, load, balls, places, work):
             ):
                 found = True
                 break
-            step *= min(max(slope / (slope - slope1), 0.05), 0.6)
+            rise = slope1 - slope  # 0 where rounding has left no descent in the direction
+            step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
         if not found:
             _, _, settled = ring_energy(q, F, balls, places, work.g[now], work.H[now])
             status = CONVERGED if settled and residual <= limit else NOT_CONVERGED

@@ -323,13 +323,7 @@ def _modes(script: Script, results: Results, view: Any) -> None:
     _both(script, results, "modes", results.modes, results.healthy_modes, beside)
     name = results.beside_name
     script.add(
-        'columns = {"cage_angle_deg": np.degrees(found.cage_angles)}',
-        "for i, label in enumerate(found.label):",
-        '    columns[f"{label}_hz"] = found.frequency[:, i]',
-        '    columns[f"{label}_damping_ratio"] = found.damping_ratio[:, i]',
-        f'columns["{name}_cage_angle_deg"] = np.degrees(grey.cage_angles)',
-        "for i, label in enumerate(grey.label):",
-        f'    columns[f"{name}_{{label}}_hz"] = grey.frequency[:, i]',
+        f'columns = (found.table() | grey.table().prefixed("{name}")).in_units().named()',
         "print(found.bands())  # least and greatest frequency of each mode [Hz]",
     )
     _plot(
@@ -422,11 +416,7 @@ def _orbit(script: Script, results: Results, view: Any) -> None:
     script.add(
         "found = orbit(scene)",
         "print(found.status)",
-        "columns = {",
-        '    "multiplier_real": found.multipliers.real,',
-        '    "multiplier_imaginary": found.multipliers.imag,',
-        '    "multiplier_size": np.abs(found.multipliers),',
-        "}",
+        "columns = found.table().named()",
     )
     if results.orbit is not None and results.orbit.multipliers.size:
         script.add(
@@ -464,7 +454,7 @@ def _stability_map(script: Script, results: Results, view: Any) -> None:
         ),
         ")",
         'y, x = np.meshgrid(found.y, found.x, indexing="ij")',
-        'columns = {"largest_multiplier": found.multiplier, "through": found.through}',
+        'columns = found.table().only("largest_multiplier", "outcome", "through").named()',
     )
     _plot(script, "plt.pcolormesh(x, y, np.minimum(found.multiplier, 1.5))", "plt.colorbar()")
 
@@ -483,11 +473,17 @@ def _explore(script: Script, results: Results, view: Any) -> None:
     if output.in_sweep:
         script.part("sweep", "sweep")
         mode = f'.sel(mode="{output.mode}")' if output.mode else ""
+        settings = []
+        if output.band is not None:
+            script.part("sweep.outputs", "Settings")
+            low, high = (short(edge) for edge in output.band)
+            settings = [f"    settings=Settings(band_low={low}, band_high={high}),"]
         script.add(
             "swept = sweep(",
             "    scene,",
             f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
             f'    outputs=["{output.in_sweep}"],',
+            *settings,
             ")",
             f'values = swept["{output.in_sweep}"]{mode}.values',
         )
@@ -519,8 +515,7 @@ def _speed_run(script: Script, results: Results, view: Any) -> None:
     script.add(
         f"speeds = np.linspace({short(speeds[0])}, {short(speeds[-1])}, {speeds.size})",
         f"run = speed_run(scene, speeds, resolution={short(float(step))})",
-        "columns = {}",
-        *_densities("density", "run.dofs", "run.density[:, :, i]"),
+        'columns = run.table().in_units({"rad/s": "Hz"}).named()',
     )
     _plot(
         script,

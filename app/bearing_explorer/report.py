@@ -45,12 +45,18 @@ _DEFECT_GROUP = "Defect"
 
 @dataclass(frozen=True)
 class About:
-    """What a report says about itself: bearing, where its numbers come from, link, day."""
+    """What a report says about itself: bearing, where its numbers come from, link, day.
+
+    `title`, `machine` and `remarks` are somebody's own words; they may be empty.
+    """
 
     bearing: str
     note: str
     link: str
     date: datetime
+    title: str = ""
+    machine: str = ""
+    remarks: str = ""
 
 
 def report(
@@ -114,8 +120,12 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
     crossed = [row for row in limits if row["state"] == "crossed"]
     when = about.date.strftime("%d %B %Y, %H:%M UTC")
     link = _link(about.link)
+    title = about.title.strip() or "Bearing report"
     body = [
-        f"<header><h1>Bearing report</h1><p>{_text(when)}, Bearing explorer "
+        f"<header><h1>{_text(title)}</h1>",
+        f"<p>Machine: {_text(about.machine)}</p>" if about.machine.strip() else "",
+        *(f"<p>{_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
+        f"<p>{_text(when)}, Bearing explorer "
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
         _changes(scene, about),
@@ -143,7 +153,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
         "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>Bearing report, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
+        f"<title>{_text(title)}, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
         f"<style>{asset_text('report.css')}</style></head><body>\n"
         + "\n".join(body)
         + "\n</body></html>\n"

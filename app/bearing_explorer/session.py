@@ -428,7 +428,7 @@ class Explorer:
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
         if isinstance(base := message.get("report"), str) and not self._reporting:
-            self._report(base[:2000])
+            self._report(base[:2000], message)
         if "mark" not in message:
             return
         if self.bookmarks.go(message):
@@ -448,8 +448,15 @@ class Explorer:
             self._in_background(lambda: read_asked(asked), take)
         self._asked(message)  # the mark, and a reset
 
-    def _report(self, base: str) -> None:
-        """Make a report; `base` is the address of the page without what is behind it."""
+    def _report(self, base: str, words: Mapping[Any, Any]) -> None:
+        """Make a report; `base` is the address of the page without what is behind it.
+
+        `words` may hold its title, the machine and remarks, of anybody's.
+        """
+        title, machine, remarks = (
+            str(words.get(name, ""))[:most]
+            for name, most in (("title", 120), ("machine", 200), ("remarks", 4000))
+        )
         inputs = self.inputs
         results = Results(
             inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
@@ -458,7 +465,7 @@ class Explorer:
         made = [view for views in self._views.values() for view in views]
         found = {view.name: view.found for view in made if view.found is not None}
         link = f"{base}?{self.bookmarks.state()['address']}"
-        about = About(self.editor.name, self.editor.note, link, now())
+        about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
 
         def make() -> dict[str, Any] | None:
             try:

@@ -208,6 +208,10 @@ class Bearing:
     ) -> Self:
         """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
 
+        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
+        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
+        turning the inner ring about the middle moves no ball.
+
         Parameters
         ----------
         n_balls
@@ -220,10 +224,6 @@ class Bearing:
             r_L [m].
         youngs_modulus, poisson
             E [Pa] and ν; steel by default.
-
-        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
-        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
-        turning the inner ring about the middle moves no ball.
 
         Raises
         ------

@@ -1,5 +1,6 @@
 """The report: complete, from the same numbers as the page, and closed to what strangers write."""
 
+import dataclasses
 import json
 from datetime import UTC, datetime
 from html.parser import HTMLParser
@@ -43,6 +44,17 @@ class Reader(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         self.words += data
+
+
+def test_a_report_has_the_words_of_whoever_makes_it() -> None:
+    own = dataclasses.replace(
+        about(), title="Pump 3", machine="Hall B", remarks="Loud.\nSince May."
+    )
+    words = Reader(page(Results(presets["fan-rig"]), own, [])).words
+    for part in ("Pump 3", "Machine: Hall B", "Loud.", "Since May."):
+        assert part in words
+    nasty = dataclasses.replace(about(), title=NASTY, machine=NASTY, remarks=NASTY)
+    assert "script" not in Reader(page(Results(presets["fan-rig"]), nasty, [])).tags
 
 
 @pytest.fixture(scope="module")

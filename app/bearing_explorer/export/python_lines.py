@@ -201,14 +201,15 @@ def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
     script.add(
-        "rows = 1 + np.arange(scene.bearing.total_balls) // scene.bearing.n_balls",
-        "columns = {",
-        '    "row": np.tile(rows, len(found.cage_angles)),',
-        '    "ball_angle_deg": np.degrees(found.ball_angle.ravel()) % 360.0,',
-        '    "ball_load_n": found.ball_load.ravel(),',
-        f'    "{results.beside_name}_ball_angle_deg": np.degrees(grey.ball_angle.ravel()) % 360.0,',
-        f'    "{results.beside_name}_ball_load_n": grey.ball_load.ravel(),',
-        "}  # every position of every ball",
+        "columns = {}  # every position of every ball, row after row",
+        f'for kind, answer in (("", found), ("{results.beside_name}_", grey)):',
+        "    n = answer.scene.bearing.n_balls",
+        "    for row in range(len(answer.scene.bearing.all_rows)):",
+        "        own = slice(row * n, (row + 1) * n)",
+        '        name = kind + (f"row_{row + 1}_" if row else "")',
+        "        angle = np.degrees(answer.ball_angle[:, own].ravel()) % 360.0",
+        '        columns[f"{name}ball_angle_deg"] = angle',
+        '        columns[f"{name}ball_load_n"] = answer.ball_load[:, own].ravel()',
     )
     _plot(
         script,
@@ -322,13 +323,7 @@ def _modes(script: Script, results: Results, view: Any) -> None:
     _both(script, results, "modes", results.modes, results.healthy_modes, beside)
     name = results.beside_name
     script.add(
-        'columns = {"cage_angle_deg": np.degrees(found.cage_angles)}',
-        "for i, label in enumerate(found.label):",
-        '    columns[f"{label}_hz"] = found.frequency[:, i]',
-        '    columns[f"{label}_damping_ratio"] = found.damping_ratio[:, i]',
-        f'columns["{name}_cage_angle_deg"] = np.degrees(grey.cage_angles)',
-        "for i, label in enumerate(grey.label):",
-        f'    columns[f"{name}_{{label}}_hz"] = grey.frequency[:, i]',
+        f'columns = (found.table() | grey.table().prefixed("{name}")).in_units().named()',
         "print(found.bands())  # least and greatest frequency of each mode [Hz]",
     )
     _plot(
@@ -421,11 +416,7 @@ def _orbit(script: Script, results: Results, view: Any) -> None:
     script.add(
         "found = orbit(scene)",
         "print(found.status)",
-        "columns = {",
-        '    "multiplier_real": found.multipliers.real,',
-        '    "multiplier_imaginary": found.multipliers.imag,',
-        '    "multiplier_size": np.abs(found.multipliers),',
-        "}",
+        "columns = found.table().named()",
     )
     if results.orbit is not None and results.orbit.multipliers.size:
         script.add(
@@ -463,7 +454,7 @@ def _stability_map(script: Script, results: Results, view: Any) -> None:
         ),
         ")",
         'y, x = np.meshgrid(found.y, found.x, indexing="ij")',
-        'columns = {"largest_multiplier": found.multiplier, "through": found.through}',
+        'columns = found.table().only("largest_multiplier", "outcome", "through").named()',
     )
     _plot(script, "plt.pcolormesh(x, y, np.minimum(found.multiplier, 1.5))", "plt.colorbar()")
 
@@ -482,11 +473,17 @@ def _explore(script: Script, results: Results, view: Any) -> None:
     if output.in_sweep:
         script.part("sweep", "sweep")
         mode = f'.sel(mode="{output.mode}")' if output.mode else ""
+        settings = []
+        if output.band is not None:
+            script.part("sweep.outputs", "Settings")
+            low, high = (short(edge) for edge in output.band)
+            settings = [f"    settings=Settings(band_low={low}, band_high={high}),"]
         script.add(
             "swept = sweep(",
             "    scene,",
             f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
             f'    outputs=["{output.in_sweep}"],',
+            *settings,
             ")",
             f'values = swept["{output.in_sweep}"]{mode}.values',
         )
@@ -518,8 +515,7 @@ def _speed_run(script: Script, results: Results, view: Any) -> None:
     script.add(
         f"speeds = np.linspace({short(speeds[0])}, {short(speeds[-1])}, {speeds.size})",
         f"run = speed_run(scene, speeds, resolution={short(float(step))})",
-        "columns = {}",
-        *_densities("density", "run.dofs", "run.density[:, :, i]"),
+        'columns = run.table().in_units({"rad/s": "Hz"}).named()',
     )
     _plot(
         script,

@@ -200,12 +200,12 @@ def read(name: str, given: object, limits: Mapping[str, Limits]) -> float:
     except ValueError:
         value = math.nan
     unit = _unit(quantity.unit)
-    span = f"{least:g} to {most:g}{unit}".replace("-", "−")
+    span = f"{number(least, 6)} to {number(most, 6)}{unit}"
     if not math.isfinite(value):
         shown = f"“{text}” is not a number" if text else "A number is missing"
         raise ValueError(f"{shown}: {_named(quantity)} goes from {span}.")
     if not least <= value <= most:
-        shown = f"{value:g}{unit}".replace("-", "−")
+        shown = f"{number(value, 6)}{unit}"
         raise ValueError(f"{shown} is out of range: {_named(quantity)} goes from {span}.")
     return value
 

@@ -68,6 +68,9 @@ class Caption(LiveComponent):
     compact = param.Boolean(default=False)
     leads_to = param.String()
 
+    #: whether there are no numbers behind it yet, so that none are offered
+    empty = param.Boolean(default=False)
+
     _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
@@ -200,6 +203,7 @@ class View:
         """
         self._results = results or self._results
         self._sentence.put(text=sentence)
+        self._caption.put(empty=self.is_empty)
         if results is not None and self.compares:
             self._caption.put(pinned=results.pinned.name if results.pinned else "")
 
@@ -207,6 +211,11 @@ class View:
     def compares(self) -> bool:
         """Whether it draws something in grey beside the scene."""
         return any(name.startswith("healthy_") for name in self.needs)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there are no numbers behind the figure: views of jobs before the first."""
+        return False
 
     def csv(self) -> str:
         """The table of what is drawn now as comma-separated values; empty before the first."""

@@ -189,7 +189,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       element("span", { class: "entry" }, number, element("span", { class: "unit" }, unit)))
     const twin = {
       number: element("input", { type: "text", inputmode: "decimal", autocomplete: "off",
-        spellcheck: "false", class: "number" }),
+        spellcheck: "false", class: "second" }),
       unit: element("span", { class: "unit" }),
     }
     twin.root = element("span", { class: "entry twin", hidden: "" }, twin.number, twin.unit)

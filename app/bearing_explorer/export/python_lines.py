@@ -201,14 +201,15 @@ def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
     script.add(
-        "rows = 1 + np.arange(scene.bearing.total_balls) // scene.bearing.n_balls",
-        "columns = {",
-        '    "row": np.tile(rows, len(found.cage_angles)),',
-        '    "ball_angle_deg": np.degrees(found.ball_angle.ravel()) % 360.0,',
-        '    "ball_load_n": found.ball_load.ravel(),',
-        f'    "{results.beside_name}_ball_angle_deg": np.degrees(grey.ball_angle.ravel()) % 360.0,',
-        f'    "{results.beside_name}_ball_load_n": grey.ball_load.ravel(),',
-        "}  # every position of every ball",
+        "columns = {}  # every position of every ball, row after row",
+        f'for kind, answer in (("", found), ("{results.beside_name}_", grey)):',
+        "    n = answer.scene.bearing.n_balls",
+        "    for row in range(len(answer.scene.bearing.all_rows)):",
+        "        own = slice(row * n, (row + 1) * n)",
+        '        name = kind + (f"row_{row + 1}_" if row else "")',
+        "        angle = np.degrees(answer.ball_angle[:, own].ravel()) % 360.0",
+        '        columns[f"{name}ball_angle_deg"] = angle',
+        '        columns[f"{name}ball_load_n"] = answer.ball_load[:, own].ravel()',
     )
     _plot(
         script,

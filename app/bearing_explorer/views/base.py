@@ -31,6 +31,7 @@ from bokeh.models import Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.export.python_lines import lines_of
+from bearing_explorer.figures.zoom import zoomable
 from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
 from bearingcore.common.table import as_csv
@@ -123,6 +124,8 @@ class View:
     needs: ClassVar[frozenset[str]]
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
+    #: whether its figures are drawings, in which circles are round
+    equal_aspect: ClassVar[bool] = False
     #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
     plans: ClassVar[tuple[str, ...]] = ()
     #: whether it stands in a report; one without `needs` only with what its job has found
@@ -163,6 +166,7 @@ class View:
             for tool in plot.toolbar.tools:
                 if isinstance(tool, SaveTool):
                     tool.filename = f"bearing-{self.name}"
+            zoomable(plot, self.equal_aspect)
         self.panel: pn.viewable.Viewable = pn.Column(
             self._caption,
             body,

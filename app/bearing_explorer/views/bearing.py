@@ -59,9 +59,9 @@ _EQUAL_ASPECT = """
 let w = 0, h = 0
 try { w = plot.inner_width; h = plot.inner_height } catch { return }  // not laid out yet
 if (!(w > 0 && h > 0)) return
-const unit = Math.min(w/shown.end, h/half)
-plot.x_range.setv({start: -w/unit, end: w/unit})
-plot.y_range.setv({start: -h/unit, end: h/unit})
+const unit = Math.min(w/shown.end, h/half), x = w/unit, y = h/unit
+plot.x_range.setv({start: -x, end: x, reset_start: -x, reset_end: x})
+plot.y_range.setv({start: -y, end: y, reset_start: -y, reset_end: y})
 """
 
 
@@ -76,6 +76,7 @@ class BearingDrawing(View):
         "shaft. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
+    equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
     #: where it says how deep the defect is drawn

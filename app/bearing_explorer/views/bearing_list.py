@@ -10,7 +10,7 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.state.bearing_list import entry_words
+from bearing_explorer.state.bearing_list import BearingTable, entry_words
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
@@ -85,7 +85,8 @@ class BearingList(ControlView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         editor = self.rows.editor
-        listed = [] if editor is None else [one for one, _ in editor.listed.all()]
+        known = BearingTable() if editor is None else editor.listed
+        listed = [one for one, _ in known.all()]
         return {
             "name": np.array([one.name for one in listed]),
             "balls": np.array([one.bearing.n_balls for one in listed]),

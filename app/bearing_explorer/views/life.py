@@ -163,7 +163,7 @@ class LifeOfBearing(ControlView):
         rows = [
             (group["title"], fact["label"], fact["value"])
             for group in groups
-            for fact in group["facts"]
+            for fact in (*group["facts"], {"label": "in words", "value": group["words"]})
         ]
         about, quantity, value = np.array(rows, dtype=str).reshape(-1, 3).T
         return {"about": about, "quantity": quantity, "value": value}

@@ -39,12 +39,6 @@ SURROUNDINGS = 2.0
 WANDER = 0.003
 """By how much a cage's speed may wander while it is measured, as a fraction."""
 
-TOGETHER = (3, 6, 12)
-"""Numbers of equal bands whose spectra are also averaged."""
-
-RARE_IN_A_BAND = 1e-6
-"""How often noise may reach the level in one comb of one band at which all bands compare."""
-
 RARE = 1e-3
 """How often noise may reach a level anywhere for that to be the level of noise."""
 
@@ -162,8 +156,6 @@ def listen(
         width = 1.5 / segment + 5e-4 * shaft
         cleared = without(levels, shaft if known_speed else 0.0, width)
         heard.append(Listened(direction, envelope.band, envelope.kurtosis, levels, cleared))
-    if TOGETHER:
-        heard += _together(heard, shaft if known_speed else 0.0, width)
     duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
     resolution = 1.0 / min(segment, duration)
     slowest = 0.9 * min(lines.order for lines in parts) * (1.0 - slip)
@@ -176,45 +168,6 @@ def listen(
     combs = Combs(turns, shaft, tuple(heard), frequency, level, ())
     found = tuple(_best(combs, lines, slip, given or shaft) for lines in parts)
     return Combs(turns, shaft, tuple(heard), frequency, level, found)
-
-
-def _together(heard: Sequence[Listened], spacing: float, width: float) -> list[Listened]:
-    """Means over all bands of one width, of each direction: faint knocks are heard in many.
-
-    What noise reaches in a mean of many bands is less. By as much its levels are raised, so that
-    those of all bands compare.
-    """
-    found = []
-    for direction in dict.fromkeys(one.direction for one in heard):
-        own = [one for one in heard if one.direction == direction]
-        half = max(one.band.high for one in own)
-        for parts in TOGETHER:
-            bands = [
-                one for one in own if abs((one.band.high - one.band.low) * parts / half - 1.0) < 0.1
-            ]
-            length = min((len(one.levels.level) for one in bands), default=0)
-            if len(bands) < parts or any(
-                abs(one.levels.step / bands[0].levels.step - 1.0) * length > 0.5 for one in bands
-            ):
-                continue
-            power = np.mean([10.0 ** (0.1 * one.levels.level[:length]) for one in bands], axis=0)
-            averages = bands[0].levels.averages
-            raised = noise_level(RARE_IN_A_BAND, averages) - noise_level(
-                RARE_IN_A_BAND, averages * len(bands)
-            )
-            levels = LineLevels(
-                bands[0].levels.step,
-                10.0 * np.log10(power) + raised,
-                np.mean([one.levels.depth[:length] for one in bands], axis=0),
-                averages,
-                np.mean([one.levels.floor[:length] for one in bands], axis=0),
-            )
-            kurtosis = float(np.mean([one.kurtosis for one in bands]))
-            band = Band(bands[0].band.low, bands[-1].band.high)
-            found.append(
-                Listened(direction, band, kurtosis, levels, without(levels, spacing, width))
-            )
-    return found
 
 
 def _best(combs: Combs, lines: PartLines, slip: float, given: float) -> Found:

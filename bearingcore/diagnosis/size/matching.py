@@ -77,6 +77,7 @@ class Match:
     lag: NDArray[np.float64]
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
+    path_cost: float = 0.0
 
     @property
     def score(self) -> NDArray[np.float64]:
@@ -84,6 +85,7 @@ class Match:
         return np.asarray(
             -WAVEFORM_WEIGHT * self.waveform_cost.mean(axis=1)
             - SPECTRUM_WEIGHT * np.log(SPECTRUM_FLOOR + self.spectrum_misfit).mean(axis=1)
+            - self.path_cost
         )
 
 
@@ -211,6 +213,7 @@ class Prepared:
             lag,
             weighed,
             difference,
+            self.model.cost,
         )
 
     def _cost(

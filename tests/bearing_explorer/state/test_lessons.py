@@ -116,6 +116,33 @@ def drop_in_the_middle(extent_deg: float) -> float:
     return 1e6 * float(path[0])
 
 
+PAIR = {way: presets[f"7208-{way}"].replace(extent=0.0) for way in ("back-to-back", "face-to-face")}
+
+
+def pair_mean(way: str, term: str) -> float:
+    """A stiffness term of a healthy pair, averaged over a ball spacing."""
+    return float(loads(PAIR[way]).term(term).mean())
+
+
+def centres_apart(way: str) -> float:
+    """Distance [m] of the points in which the lines of contact of two rows meet the shaft.
+
+    From where each line goes: the ball's centre is half a pitch diameter up, and the line leans.
+    """
+    bearing = PAIR[way].bearing
+    lean = 0.5 * bearing.pitch_diameter * math.tan(bearing.contact_angle)
+    low, high = (row.place - row.facing * lean for row in bearing.rows)
+    return abs(high - low)
+
+
+def tilted_by(moment: float, way: str) -> float:
+    """By how much [mrad] a moment [N·m] about x tilts a pair further."""
+    before, after = (
+        over_spacing(PAIR[way].replace(mx=m), 181).displacement[:, 3].mean() for m in (0.0, moment)
+    )
+    return 1e3 * float(after - before)
+
+
 @cache
 def fewest(edge: str) -> tuple[float, float]:
     """Extents [deg] at which fewest balls carry load and k_yy is least, on average."""
@@ -370,6 +397,22 @@ CLAIMS: dict[str, list[tuple[str, tuple[float, ...]]]] = {
         ("that is 20 to 29 kHz", tuple(1e-3 * f for f in with_mass(FAN).resonances)),
         ("a ball of 2.1 g moves a housing of 2 kg little",
          (1e3 * FAN.bearing.ball_mass, FAN.support.outer_mass)),
+    ],
+    "12": [
+        ("18 mm apart", (1e3 * PAIR["back-to-back"].bearing.row_distance,)),
+        ("leans by 25°", (math.degrees(PAIR["back-to-back"].bearing.contact_angle),)),
+        ("moment of 20 N·m to either", (20,)),
+        *((f"{said}", (value,)) for said, value in (
+            ("401 MN/m", 1e-6 * pair_mean("back-to-back", "k_yy")),
+            ("379 MN/m", 1e-6 * pair_mean("face-to-face", "k_yy")),
+            ("222 kN·m/rad", 1e-3 * pair_mean("back-to-back", "k_rxrx")),
+            ("17.1 kN·m/rad", 1e-3 * pair_mean("face-to-face", "k_rxrx")),
+            ("13 times less",
+             pair_mean("back-to-back", "k_rxrx") / pair_mean("face-to-face", "k_rxrx")),
+            ("46.0 mm back to back", 1e3 * centres_apart("back-to-back")),
+            ("10.0 mm face to face", 1e3 * centres_apart("face-to-face")))),
+        ("moment of 20 N·m tilts the shaft by a further 0.12 mrad back to back, and by 0.96 mrad",
+         (20, tilted_by(20.0, "back-to-back"), tilted_by(20.0, "face-to-face"))),
     ],
 }  # fmt: skip
 

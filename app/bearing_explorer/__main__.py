@@ -11,7 +11,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from bearing_explorer.server.log import LEVELS, begin
+# Before numpy is loaded. The page has threads of its own; those of the linear algebra would fight
+# with them over matrices of ten rows, and cost four times what they save.
+for _library in ("OPENBLAS", "MKL", "OMP"):
+    os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+from bearing_explorer.server.log import LEVELS, begin  # noqa: E402
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:

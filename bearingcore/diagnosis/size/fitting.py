@@ -26,7 +26,7 @@ from bearingcore.diagnosis.size.matching import (
     Target,
 )
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
-from bearingcore.diagnosis.size.synthesis import synthesise
+from bearingcore.diagnosis.size.synthesis import steps_of, synthesise
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.model.defect import EDGES
 from bearingcore.model.scene import Scene
@@ -255,6 +255,16 @@ def _library_part(
         np.array([each.harmonics for each in passes]),
         np.array([each.power for each in passes]),
     )
+
+
+def steps_needed(search: Search) -> int:
+    """Steps of all simulations of a search, about: those of the scene as it is given, for each."""
+    library = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / EXTENT_STEP) * (1 + DRAWS)
+    cells = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / search.scene.bearing.ball_spacing)
+    tries = 2 + len(search.tolerances.spread)
+    refined = tries * (STARTS + FURTHER * FURTHER_ROUNDS + 2 * cells)
+    frequency = search.target.measured.frequency
+    return (library + refined) * steps_of(search.scene, frequency, search.count)
 
 
 CHANCE_PARTS = 4

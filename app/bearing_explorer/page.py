@@ -20,10 +20,12 @@ from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_fo
 from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
+from bearing_explorer.views.bearing_list import BearingList
 from bearing_explorer.views.depth_profile import DepthProfile
 from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
+from bearing_explorer.views.life import LifeOfBearing
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.maps import StiffnessMaps
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
@@ -59,6 +61,7 @@ SECTIONS = (
         "Understand",
     ),
     Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
+    Section("life", "Life", (LifeOfBearing,)),
     Section("stiffness", "Stiffness", (Stiffness,)),
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("explore", "Explore", (ExplorePlane,)),
@@ -67,7 +70,7 @@ SECTIONS = (
     Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("bearing", "Bearing", (BearingEditor,), "My machine"),
+    Section("bearing", "Bearing", (BearingEditor, BearingList), "My machine"),
     Section("model", "Model", (ModelEditor, DofDifferences)),
     Section(
         "diagnosis",

@@ -23,6 +23,8 @@ from bokeh.models import Column
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
 from bearing_explorer.figures import style
+from bearing_explorer.figures.defect_words import extent_words
+from bearing_explorer.figures.element_words import row_words
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
@@ -31,7 +33,7 @@ from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
-from bearingcore import Scene, preset_notes
+from bearingcore import Scene
 from bearingcore.sweep.grid import program_version
 
 log = logging.getLogger(__name__)
@@ -43,11 +45,18 @@ _DEFECT_GROUP = "Defect"
 
 @dataclass(frozen=True)
 class About:
-    """What a report says about itself: the preset, the link if it is one, the day."""
+    """What a report says about itself: bearing, where its numbers come from, link, day.
 
-    preset: str
+    `title`, `machine` and `remarks` are somebody's own words; they may be empty.
+    """
+
+    bearing: str
+    note: str
     link: str
     date: datetime
+    title: str = ""
+    machine: str = ""
+    remarks: str = ""
 
 
 def report(
@@ -111,11 +120,15 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
     crossed = [row for row in limits if row["state"] == "crossed"]
     when = about.date.strftime("%d %B %Y, %H:%M UTC")
     link = _link(about.link)
+    title = about.title.strip() or "Bearing report"
     body = [
-        f"<header><h1>Bearing report</h1><p>{_text(when)}, Bearing explorer "
+        f"<header><h1>{_text(title)}</h1>",
+        f"<p>Machine: {_text(about.machine)}</p>" if about.machine.strip() else "",
+        *(f"<p>{_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
+        f"<p>{_text(when)}, Bearing explorer "
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
-        _changes(scene, about.preset),
+        _changes(scene, about),
         f"<p>Grey in the figures: {_text(_grey(results))}. Cage angle: "
         f"{_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
@@ -140,7 +153,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
         "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>Bearing report, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
+        f"<title>{_text(title)}, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
         f"<style>{asset_text('report.css')}</style></head><body>\n"
         + "\n".join(body)
         + "\n</body></html>\n"
@@ -181,12 +194,12 @@ def _grey(results: Results) -> str:
     return "the bearing without its defect"
 
 
-def _changes(scene: Scene, preset: str) -> str:
-    note = preset_notes.get(preset, "")
+def _changes(scene: Scene, about: About) -> str:
     several = defects_of(scene)
     sentences = [
         f"{defect.race.capitalize()} race at "
-        f"{style.in_degrees(defect.center)}: {style.in_degrees(defect.extent)} long, "
+        f"{style.in_degrees(defect.center)}{row_words(scene.bearing, defect.row)}: "
+        f"{extent_words(defect, scene.bearing)} long, "
         f"{style.with_prefix(defect.depth, 'm')} deep, "
         + "".join(f"{said}, " for choice in OF_DEFECT if (said := choice.sentence(defect)))
         + f"{floor_name(defect.floor)} floor."
@@ -195,7 +208,7 @@ def _changes(scene: Scene, preset: str) -> str:
     ]
     chosen = [f"{said}. " for choice in OF_SCENE if (said := choice.sentence(scene))]
     return (
-        f"<p>Begun from “{_text(preset)}”. {_text(note)}</p>"
+        f"<p>Bearing: {_text(about.bearing)}. {_text(about.note)}</p>"
         + (_list(sentences) if sentences else "<p>There is no defect.</p>")
         + f"<p>{_text(''.join(chosen))}Directions that can move: "
         f"{_text(', '.join(scene.active_dofs))}.</p>"
@@ -206,7 +219,7 @@ def _numbers(scene: Scene) -> Iterable[str]:
     """Tables of all numbers, a group each; those of defects once a defect."""
     facts = [[_text(f["label"]), f["symbol"], _text(f["value"])] for f in facts_of(scene)]
     yield "<h3>What follows from them</h3>" + _table(["Name", "Symbol", "Value"], facts)
-    groups = dict.fromkeys(q.group for q in QUANTITY_LIST if q.of == "scene")
+    groups = dict.fromkeys(q.group for q in QUANTITY_LIST if q.of in ("scene", "rows"))
     for group in groups:
         count = len(defects_of(scene)) if group == _DEFECT_GROUP else 1
         for number in range(count):
@@ -214,7 +227,7 @@ def _numbers(scene: Scene) -> Iterable[str]:
             rows = [
                 _row(q, values[q.name])
                 for q in QUANTITY_LIST
-                if q.group == group and q.of == "scene" and not math.isnan(values[q.name])
+                if q.group == group and q.of in ("scene", "rows") and not math.isnan(values[q.name])
             ]
             name = f"{group} {number + 1}" if count > 1 else group
             if rows:

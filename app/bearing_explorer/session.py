@@ -28,6 +28,7 @@ from bearing_explorer.report import About, now, report
 from bearing_explorer.server import log as write
 from bearing_explorer.server.live import good_byes, one_message, send_at_once
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.last_state import LastState
@@ -45,6 +46,7 @@ from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
 from bearingcore import Limit, Scene
+from bearingcore.model.bearings.catalogue import MOST_BYTES
 from bearingcore.plan import CURVES
 from bearingcore.statics.validity import summary
 
@@ -204,14 +206,15 @@ class Explorer:
 
         self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
-        self._last_state = LastState(self.editor.scene)
         self._reporting = False
-        tab = self.bookmarks.tab
-        self._shown = tab if tab in self._sections else next(iter(self._sections))
-        self.bookmarks.show(self._shown)  # links always say where one stood
         self.share = ShareBar(self._share_asked, state=self.bookmarks.state())
         self.lesson = LessonPanel(self._lesson_asked, lessons)
         self._open_lesson()
+        self._last_state = LastState(self.editor.scene)
+        tab = self.bookmarks.tab
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.bookmarks.show(self._shown)  # links always say where one stood
+        self._show_share()
         self.measurement = Measurement(
             self.editor, lambda change: one_message(self._doc, change), self.draw
         )
@@ -352,6 +355,8 @@ class Explorer:
                 self._set(typed, confirm=True)
             if isinstance(file := message.get("floor"), dict):
                 self._read(file)
+            if isinstance(file := message.get("catalogue"), dict):
+                self._read_bearings(file)
         finally:
             if self.bookmarks.follow(message):
                 self._show_share()
@@ -362,12 +367,13 @@ class Explorer:
 
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
-        was_changed = self.editor.changed
+        was_changed, waited = self.editor.changed, bool(self.editor.draft)
         refused, changed = self.editor.set(given)
         names = [name for name in changed if name not in given]
+        names += [name for name in self.editor.draft if name not in names]
         if confirm:
             names += [name for name in given if name in self.values and name not in refused]
-        if names or was_changed != self.editor.changed:
+        if names or waited or was_changed != self.editor.changed:
             self._show_controls(state=self.editor.state(names))
         if refused:
             self._show_controls(refused=refused)
@@ -387,6 +393,19 @@ class Explorer:
             self.draw()
 
         self._in_background(lambda: read_file(text), take)
+
+    def _read_bearings(self, file: Mapping[Any, Any]) -> None:
+        """Take a table of bearings out of a file's text, off the event loop."""
+        name, text = file.get("name"), file.get("text")
+        if not (isinstance(name, str) and isinstance(text, str)):
+            return
+        text = text[: MOST_BYTES + 1]
+
+        def take(found: Any) -> None:
+            self.editor.listed.take(name[:200], found)
+            self._show_controls(state=self.editor.state())
+
+        self._in_background(lambda: read_table(text), take)
 
     def _in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
         """Compute something off the event loop, then take it."""
@@ -409,7 +428,7 @@ class Explorer:
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
         if isinstance(base := message.get("report"), str) and not self._reporting:
-            self._report(base[:2000])
+            self._report(base[:2000], message)
         if "mark" not in message:
             return
         if self.bookmarks.go(message):
@@ -429,8 +448,15 @@ class Explorer:
             self._in_background(lambda: read_asked(asked), take)
         self._asked(message)  # the mark, and a reset
 
-    def _report(self, base: str) -> None:
-        """Make a report; `base` is the address of the page without what is behind it."""
+    def _report(self, base: str, words: Mapping[Any, Any]) -> None:
+        """Make a report; `base` is the address of the page without what is behind it.
+
+        `words` may hold its title, the machine and remarks, of anybody's.
+        """
+        title, machine, remarks = (
+            str(words.get(name, ""))[:most]
+            for name, most in (("title", 120), ("machine", 200), ("remarks", 4000))
+        )
         inputs = self.inputs
         results = Results(
             inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
@@ -439,7 +465,7 @@ class Explorer:
         made = [view for views in self._views.values() for view in views]
         found = {view.name: view.found for view in made if view.found is not None}
         link = f"{base}?{self.bookmarks.state()['address']}"
-        about = About(self.editor.preset, link, now())
+        about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
 
         def make() -> dict[str, Any] | None:
             try:

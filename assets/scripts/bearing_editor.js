@@ -22,7 +22,19 @@ export function render({ model }) {
 
   const fields = element("form", { class: "fields", "aria-label": "Dimensions of the bearing" })
   fields.addEventListener("submit", (event) => event.preventDefault())
-  fields.append(panel.choice("numbers"))
+  // What the bearing is called, by whoever changed it.
+  const called = element("input", { type: "text", id: "bearing-name", maxlength: "60",
+    autocomplete: "off", spellcheck: "false" })
+  called.addEventListener("change", () => panel.send({ choose: { name: called.value } }))
+  // Dimensions that wait until they fit together.
+  const waits = element("div", { class: "waits", role: "status", hidden: "" })
+  const words = element("p", {})
+  const discard = element("button", { type: "button" }, "Discard them")
+  discard.addEventListener("click", () => panel.send({ choose: { draft: "discard" } }))
+  waits.append(words, discard)
+  fields.append(
+    element("div", { class: "called" }, element("label", { for: "bearing-name" }, "Name"), called),
+    panel.choice("kind"), panel.choice("numbers"), waits)
   for (const group of spec.groups) {
     const box = element("fieldset", { "data-group": group.title }, element("legend", {}, group.title))
     box.append(...group.controls.map(panel.control))
@@ -34,13 +46,25 @@ export function render({ model }) {
   const note = element("p", { class: "origin" })
   const side = element("div", { class: "side" }, drawing.picture, about, facts, note)
 
-  let preset = "", changed = false
   const take = (state) => {
     panel.take(state)
-    preset = state.choices?.preset ?? preset
-    changed = state.changed ?? changed
-    note.textContent = (spec.notes[preset] ?? "") + (changed
-      ? " Some numbers of the bearing have been changed since; Reset brings them back." : "")
+    if (state.bearing) {
+      const { name, own, note: origin } = state.bearing
+      note.textContent = origin + (state.changed
+        ? " Some numbers of the bearing have been changed since; Reset brings them back." : "")
+      called.placeholder = name
+      if (called.getRootNode().activeElement !== called) called.value = own
+    }
+    if (state.choices?.kind) {
+      const rollers = state.choices.kind === "rollers"
+      for (const { root, label } of Object.values(panel.rows))
+        root.querySelector("label").textContent = rollers
+          ? label.replace(/\bballs\b/, "rollers").replace(/^Ball\b/, "Roller") : label
+    }
+    if (state.draft) {
+      waits.hidden = !state.draft.words
+      words.textContent = state.draft.words
+    }
     for (const box of fields.querySelectorAll("fieldset"))
       box.hidden = [...box.querySelectorAll(".control")].every((row) => row.hidden)
   }

@@ -49,47 +49,104 @@ function bearing_picture(pointed) {
   const dot = (x, y, cls = "centre") => shape("circle", { cx: x, cy: y, r: 2.6, class: cls })
   const witness = (x1, y1, x2, y2) => shape("path", { d: `M${x1} ${y1}L${x2} ${y2}`, class: "witness" })
 
-  // Half of the section through the shaft, to scale: radii are heights above its middle.
+  // Half of the section through the shaft, to scale: radii are heights above its middle, all rows
+  // beside each other.
   const section = (n) => {
     const rim = n.outer_raceway_radius + 0.42 * n.ball_diameter
-    const scale = Math.min(325 / rim, 84 / n.ball_diameter)
+    const places = n.rows.map(({ place }) => place)
+    const span = Math.max(...places) - Math.min(...places)
+    const scale = Math.min(325 / rim, 84 / n.ball_diameter, 150 / (span + 1.6 * n.ball_diameter))
     const axis = 372, middle = 155
     const up = (radius) => axis - scale * radius
     const ball = 0.5 * scale * n.ball_diameter
-    const centre = up(0.5 * n.pitch_diameter), half = 1.6 * ball
+    const rollers = n.kind === "rollers", sphere = n.kind === "self-aligning"
+    const long = rollers ? 0.5 * scale * n.roller_length : ball
+    const centre = up(0.5 * n.pitch_diameter)
+    const half = 0.5 * scale * span + (rollers ? long + 0.6 * ball : 1.6 * ball)
+    const left = middle - half, right = middle + half
+    const at = places.map((place) => middle + scale * place).sort((a, b) => b - a)
     const top = up(rim), bore = Math.min(up(Math.max(n.inner_raceway_radius - 0.42 * n.ball_diameter, 0)), axis - 6)
     const outer = up(n.outer_raceway_radius), inner = up(n.inner_raceway_radius)
     const lip = 0.42 * ball, wide = 0.8 * ball
+    const groove = (x, level, side) => rollers
+      ? `H${x + long + 1}V${level}H${x - long - 1}V${level + side * lip}`
+      : `H${x + wide}Q${x} ${level - side * lip} ${x - wide} ${level + side * lip}`
+    const arc = () => {  // the sphere, about the middle of the shaft
+      const radius = scale * n.outer_raceway_radius
+      const edge = axis - Math.sqrt(Math.max(radius * radius - half * half, 0))
+      return `V${edge}A${radius} ${radius} 0 0 0 ${left} ${edge}`
+    }
+    const flat = `V${inner}H${left}`  // rollers run on an inner ring without shoulders
+    const line = (row) => {  // the line of contact, on to the middle of the shaft
+      const x = middle + scale * row.place, lean = row.facing * Math.tan(n.contact_angle)
+      const over = 1.5 * ball
+      return shape("path", { class: "line dashed",
+        d: `M${x + over * lean} ${centre - over}L${x - (axis - centre) * lean} ${axis}` })
+    }
+    const paired = n.rows.length > 1 && !sphere && n.contact_angle > 0
     const parts = [
-      shape("path", { class: "steel", d: `M${middle - half} ${top}H${middle + half}V${outer + lip}` +
-        `H${middle + wide}Q${middle} ${outer - lip} ${middle - wide} ${outer + lip}H${middle - half}Z` }),
-      shape("path", { class: "steel", d: `M${middle - half} ${bore}H${middle + half}V${inner - lip}` +
-        `H${middle + wide}Q${middle} ${inner + lip} ${middle - wide} ${inner - lip}H${middle - half}Z` }),
-      shape("circle", { class: "ball", cx: middle, cy: centre, r: ball }),
+      shape("path", { class: "steel", d: `M${left} ${top}H${right}` + (sphere ? arc()
+        : `V${outer + lip}` + at.map((x) => groove(x, outer, 1)).join("") + `H${left}`) + "Z" }),
+      shape("path", { class: "steel", d: `M${left} ${bore}H${right}` + (rollers ? flat
+        : `V${inner - lip}` + at.map((x) => groove(x, inner, -1)).join("") + `H${left}`) + "Z" }),
+      ...at.map((x) => rollers
+        ? shape("rect", { class: "ball", x: x - long, y: centre - ball, width: 2 * long, height: 2 * ball, rx: 2 })
+        : shape("circle", { class: "ball", cx: x, cy: centre, r: ball })),
+      ...(paired ? n.rows.map(line) : []),
       shape("path", { class: "axis", d: `M14 ${axis}H296` }),
     ]
     const height = (name, x, from, level, text) => dimension(name,
       witness(from, level, x - 5 * Math.sign(from - x), level), ...arrow(x, axis, x, level),
       label(x + (x < middle ? -5 : 5), axis - 0.45 * (axis - level), text, x < middle ? "end" : "start"))
+    const first = at[0]
+    if (rollers)
+      parts.push(dimension("roller_length_mm", ...arrow(first - long, centre + 0.45 * ball, first + long, centre + 0.45 * ball),
+        label(first, centre + 0.45 * ball - 4, ["l"])))
+    if (n.rows.length > 1) {
+      const under = up(0) + 14
+      parts.push(dimension("row_distance_mm", witness(at[1], centre, at[1], under - 6),
+        witness(at[0], centre, at[0], under - 6), ...arrow(at[1], under - 8, at[0], under - 8),
+        label(middle, under - 12, ["a"])))
+    }
     return [...parts,
-      height("groove_center_radius_mm", 30, middle - half, up(n.groove_center_radius), ["r", "d"]),
-      height("pitch_diameter_mm", 72, middle - half, centre, ["D", "p", "/2"]),
-      height("inner_raceway_radius_mm", 236, middle + half, inner, ["R", "i"]),
-      height("outer_raceway_radius_mm", 266, middle + half, outer, ["R", "o"]),
-      dimension("ball_diameter_mm", ...arrow(middle - ball, centre, middle + ball, centre),
-        label(middle, centre - 5, ["D", "b"])),
-      dot(middle, centre),
-      label(155, 392, ["to scale, above the middle of the shaft"]),
+      ...(rollers || sphere ? [] : [height("groove_center_radius_mm", 26, left, up(n.groove_center_radius), ["r", "d"])]),
+      height("pitch_diameter_mm", Math.min(72, left - 6), left, centre, ["D", "p", "/2"]),
+      height("inner_raceway_radius_mm", Math.max(236, right + 8), right, inner, ["R", "i"]),
+      height("outer_raceway_radius_mm", Math.max(266, right + 38), right, outer, ["R", "o"]),
+      dimension("ball_diameter_mm", ...(rollers ? arrow(first + 0.6 * long, centre - ball, first + 0.6 * long, centre + ball)
+        : arrow(first - ball, centre, first + ball, centre)),
+        rollers ? label(first + 0.6 * long - 5, centre + 3, ["D", "b"], "end") : label(first, centre - 5, ["D", "b"])),
+      ...at.map((x) => dot(x, centre)),
+      label(155, 396, ["to scale, above the middle of the shaft"]),
     ]
   }
 
   // A ball between its grooves; what is small in a bearing is drawn large.
-  const contact = (n) => {
+  const contact = (n) => n.kind === "rollers" ? line_contact(n) : grooves(n)
+  // A roller lies on its races along its length.
+  const line_contact = (n) => {
+    const x = 440, y = 142, high = 60
+    const long = Math.min(110, Math.max(25, high * n.roller_length / n.ball_diameter))
+    const gap = n.radial_clearance > 0 ? 5 + 16 * (1 - Math.exp(-n.radial_clearance / 2e-5)) : 0
+    const race = (level, depth) => shape("rect", { class: "steel", x: x - 124, y: Math.min(level, level + depth),
+      width: 248, height: Math.abs(depth) })
+    const right = x + long + 20, low = y + high
+    return [race(y - high, -30), race(low + gap, 30),
+      shape("rect", { class: "ball", x: x - long, y: y - high, width: 2 * long, height: 2 * high, rx: 5 }),
+      ...(gap ? [dimension("radial_clearance_um",
+        ...arrow(right, low - 18, right, low, false), ...arrow(right, low + gap + 18, right, low + gap, false),
+        label(right + 8, low + 4 + 0.5 * gap, ["r", "L"], "start"))] : []),
+      label(x + 30, 270, ["a roller on its races, clearance drawn large"]),
+      label(x + 30, 288, ["no tilt, and nothing along the shaft"])]
+  }
+  const grooves = (n) => {
     const x = 440, y = 142, ball = 76
     const drawn = (radius) => ball * (0.16 + 2.4 * Math.min(Math.max(2 * radius / n.ball_diameter - 1, 0), 0.2))
     const known = n.outer_groove_radius !== null
+    const sphere = n.kind === "self-aligning"
     const likely = 0.5 * (n.groove_center_distance + n.ball_diameter)
-    const far = [n.outer_groove_radius ?? likely, n.inner_groove_radius ?? likely].map(drawn)
+    const far = [n.outer_groove_radius ?? (sphere ? n.outer_raceway_radius : likely),
+      n.inner_groove_radius ?? likely].map(drawn)
     const gap = n.radial_clearance > 0 ? 5 + 16 * (1 - Math.exp(-n.radial_clearance / 2e-5)) : 0
     const sin = Math.sin(n.contact_angle), cos = Math.cos(n.contact_angle)
     const outer = { x: x - far[0] * sin, y: y + far[0] * cos, r: ball + far[0] }
@@ -115,9 +172,9 @@ function bearing_picture(pointed) {
             `${x + 1.32 * ball * sin} ${y - 1.32 * ball * cos}` : "" }),
         label(x + 1.32 * ball * Math.sin(0.5 * n.contact_angle) + 4, y - 1.32 * ball * Math.cos(0.5 * n.contact_angle) - 5,
           ["α", "0"], "start")),
-      dimension("groove_center_distance_um", ...arrow(outer.x, outer.y, inner.x, inner.y),
+      ...(sphere ? [] : [dimension("groove_center_distance_um", ...arrow(outer.x, outer.y, inner.x, inner.y),
         dot(outer.x, outer.y), dot(inner.x, inner.y),
-        label(0.5 * (outer.x + inner.x) - 9, 0.5 * (outer.y + inner.y) + 4, ["A", "0"], "end")),
+        label(0.5 * (outer.x + inner.x) - 9, 0.5 * (outer.y + inner.y) + 4, ["A", "0"], "end"))]),
     ]
     if (known) {
       const a = at(outer, -0.62), b = at(inner, Math.PI + 0.62)
@@ -148,7 +205,8 @@ function bearing_picture(pointed) {
     })
     const circle = (radius) => shape("circle", { class: "ring", cx: x, cy: y, r: scale * radius })
     return [circle(n.outer_raceway_radius), circle(n.inner_raceway_radius),
-      dimension("n_balls", ...balls, label(x, y + 5, ["N", "b", ` = ${n.n_balls}`]))]
+      dimension("n_balls", ...balls, label(x, y + 5, ["N", "b",
+        ` = ${n.rows.length > 1 ? `${n.rows.length} · ` : ""}${n.n_balls}`]))]
   }
 
   // What a ball carries when it is pressed: the curve that K stands for.
@@ -157,13 +215,13 @@ function bearing_picture(pointed) {
     const most = 20e-6, greatest = 1.6e10
     const top = Math.min(1, Math.sqrt(n.load_deflection_factor / greatest))
     const points = Array.from({ length: 25 }, (_, i) =>
-      `${x + width * i / 24} ${y - height * top * (i / 24) ** 1.5}`)
+      `${x + width * i / 24} ${y - height * top * (i / 24) ** (n.kind === "rollers" ? 10 / 9 : 1.5)}`)
     return [
       shape("path", { class: "ring", d: `M${x} ${y - height - 8}V${y}H${x + width + 8}` }),
       dimension("load_deflection_factor",
         shape("path", { class: "line curve", d: "M" + points.join("L") }),
         shape("path", { class: "grip", d: "M" + points.join("L") }),
-        label(x + 8, y - height + 4, ["Q = K δ", "", "¹·⁵"], "start")),
+        label(x + 8, y - height + 4, ["Q = K δ", "", n.kind === "rollers" ? "¹⁰⁄⁹" : "¹·⁵"], "start")),
       label(x + width, y + 16, [`compression δ, to ${1e6 * most} µm`], "end"),
     ]
   }

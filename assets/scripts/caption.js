@@ -57,6 +57,9 @@ export function render({ model }) {
   }
   const numbers = item("csv", "Numbers (CSV)", () => ask("file"))
   const table = item("table", "Numbers as a table", () => ask("table"))
+  const has_numbers = () => { for (const one of [numbers, table]) one.hidden = model.empty }
+  model.on("empty", has_numbers)
+  has_numbers()
   const python = item("python", "Lines of Python", () => model.send_msg("python"))
 
   // The lines, to be copied or saved

@@ -6,9 +6,7 @@ const LARGEST_FILE = 1e6  // bytes of a measured floor
 
 export function render({ model }) {
   const spec = model.spec
-  const panel = make_rows(model, { changed: (name, value) => {
-    if (name === spec.speed) rows[name].extra.textContent = `${Math.round(value * 60)} rpm`
-  } })
+  const panel = make_rows(model)
   const { rows, control, choice, send } = panel
 
   const play = (name) => {

@@ -1,4 +1,6 @@
 // Something that takes a while: what it needs to know, begin, cancel, how far it is.
+const MANY = 20  // options from which on a list can be searched
+
 export function render({ model }) {
   const inputs = {}
   // Options of a list, those with the same third part under it as their heading.
@@ -18,14 +20,50 @@ export function render({ model }) {
       ? element("select", { id }, ...grouped(options))
       : element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" })
     input.value = model.values[name] ?? ""
+    const search = options?.length > MANY ? search_in(input, options, label) : null
     input.addEventListener("change", () => {
       fill(name)
       put_aside()
       if (model.spec.at_once) ask()
     })
-    const root = element("div", { class: `field field-${name}` }, element("label", { for: id }, label), input)
+    const root = element("div", { class: `field field-${name}` },
+      element("label", { for: id }, label), ...(search ? [search] : []), input)
     if (only) bound.push([root, only])
     return root
+  }
+  // Above a long list a field that leaves only what holds all its words; what is chosen stays.
+  const search_in = (select, options, label) => {
+    const search = element("input", { type: "search", class: "search", autocomplete: "off",
+      placeholder: `Search ${options.length}`, "aria-label": `Search: ${label}` })
+    search.addEventListener("input", () => {
+      const words = search.value.toLowerCase().split(/\s+/).filter(Boolean)
+      const chosen = select.value
+      const kept = options.filter(([value, text, heading = ""]) => value === chosen
+        || words.every((word) => `${text} ${heading}`.toLowerCase().includes(word)))
+      select.replaceChildren(...grouped(kept))
+      select.value = chosen
+      select.size = words.length ? Math.min(Math.max(kept.length, 2), 10) : 0
+    })
+    search.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && search.value) {
+        search.value = ""
+        search.dispatchEvent(new Event("input"))
+      }
+      if (event.key !== "Enter" && event.key !== "ArrowDown") return
+      event.preventDefault()  // into the list, at the first that was found
+      const first = [...select.options].find((option) => option.value !== select.value)
+      select.focus()
+      if (event.key === "Enter" && first && search.value) {
+        select.value = first.value
+        select.dispatchEvent(new Event("change"))
+      }
+    })
+    select.addEventListener("change", () => {
+      if (!search.value) return
+      search.value = ""
+      search.dispatchEvent(new Event("input"))
+    })
+    return search
   }
   // Fields that mean something only with certain choices in others.
   const bound = []

@@ -237,8 +237,13 @@ export function render({ model }) {
   back.addEventListener("click", () => go(next_of(model.lesson.number, -1)))
   next.addEventListener("click", () => go(next_of(model.lesson.number, 1)))
   again.addEventListener("click", () => go(model.lesson.number))
-  const heard = () => {
-    if (lesson.isConnected) toggle()
+  const heard = (event) => {
+    if (lesson.isConnected && event.detail === "first") {  // somebody asked to begin
+      open = true
+      lesson.hidden = false
+      go(next_of(-1, 1))
+      say()
+    } else if (lesson.isConnected) toggle()
     else window.removeEventListener("explorer-lessons", heard)
   }
   window.addEventListener("explorer-lessons", heard)

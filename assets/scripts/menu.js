@@ -16,7 +16,7 @@ function opens_below(opener, panel, widest) {
     panel.style.maxHeight = `${(below ? innerHeight - box.bottom : box.top) - 20}px`
   })
   panel.addEventListener("toggle", (event) => {
-    if (event.newState === "open") panel.querySelector("input, button:not([hidden])")?.focus()
+    if (event.newState === "open") panel.querySelector("input, button:not([hidden], :disabled)")?.focus()
     else if (panel.contains(panel.getRootNode().activeElement)) opener.focus()
   })
 }
@@ -30,7 +30,7 @@ function menu_of(items, attributes) {
   const menu = element("div", { role: "menu", popover: "auto", ...attributes }, ...items)
   menu.addEventListener("keydown", (event) => {
     if (event.key === "Tab") return menu.hidePopover()
-    const shown = items.filter((item) => !item.hidden)
+    const shown = items.filter((item) => !item.hidden && !item.disabled)
     const at = shown.indexOf(menu.getRootNode().activeElement)
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[event.key]
     if (to === undefined) return

@@ -47,7 +47,10 @@
   }
   const doors = {
     close: () => { end_welcome(); what.focus() },
-    lessons: () => { end_welcome(); window.dispatchEvent(new CustomEvent("explorer-lessons")) },
+    lessons: () => {
+      end_welcome()
+      window.dispatchEvent(new CustomEvent("explorer-lessons", { detail: "first" }))
+    },
     bearing: () => { end_welcome(); window.dispatchEvent(new CustomEvent("explorer-show", { detail: "bearing" })) },
     python: () => python.showModal(),
   }
@@ -67,14 +70,20 @@
 
   // A tab that is asked for is built on the server, which may take a while: say so at once.
   const waiting = document.getElementById("waiting")
-  const wait_for = (words) => {
-    main.toggleAttribute("data-waiting", words !== "")
-    main.setAttribute("aria-busy", String(words !== ""))
+  let wanted = null  // the tab that is not drawn yet
+  const wait_for = (tab, words) => {
+    wanted = tab
+    main.toggleAttribute("data-waiting", tab !== null)
+    main.setAttribute("aria-busy", String(tab !== null))
     waiting.textContent = words
   }
-  window.addEventListener("explorer-asked", (event) => wait_for(`${event.detail} is being built …`))
-  window.addEventListener("explorer-tab", () => wait_for("Computing …"))
-  window.addEventListener("explorer-drawn", () => { if (main.hasAttribute("data-waiting")) wait_for("") })
+  const stands = () => root.dataset.tab === wanted
+  window.addEventListener("explorer-asked", ({ detail: { name, title } }) =>
+    wait_for(name, name === root.dataset.tab ? "Computing …" : `${title} is being built …`))
+  window.addEventListener("explorer-tab", ({ detail: name }) => {
+    if (wanted === null || stands()) wait_for(name, "Computing …")
+  })
+  window.addEventListener("explorer-drawn", () => { if (wanted !== null && stands()) wait_for(null, "") })
 
   // Figures come and go with their tabs, each inside the shadow of another.
   const inside = function* (where) {

@@ -53,7 +53,7 @@ function put_tip(where, { label, symbol, unit, about, limit } = {}) {
 // Rows of one panel. `changed` hears of every change of a value, `touched` of the control in use.
 function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
-  let limits = {}, values = {}
+  let limits = {}, values = {}, twins = {}
   let pending = null, sent_at = 0, waiting = false
   let released = false, held = false
 
@@ -129,7 +129,20 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     row.slider.style.setProperty("--to", `${ends[1]}%`)
     row.slider.setAttribute("aria-valuetext", value === null
       ? row.number.placeholder || "no value" : `${format(value, limit.step)} ${row.unit}`)
+    show_twin(name)
     changed(name, value)
+  }
+  // The same number in its second unit, which can be typed too.
+  const show_twin = (name) => {
+    const { twin } = rows[name], known = twins[name]
+    twin.root.hidden = !known
+    if (!known || twin.root.contains(twin.number.getRootNode().activeElement)) return
+    const value = values[name]
+    twin.unit.textContent = known.unit
+    twin.number.setAttribute("aria-label", `${rows[name].label} in ${known.unit}, ${known.words}`)
+    twin.number.title = known.words
+    twin.number.value = value === null || value === undefined ? ""
+      : String(Number((value * known.factor).toPrecision(5))).replace("-", "\u2212")
   }
   const put = (name, value) => {
     const row = rows[name]
@@ -174,7 +187,13 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     const head = element("div", { class: "head" },
       element("span", { class: "named" }, title, help), extra,
       element("span", { class: "entry" }, number, element("span", { class: "unit" }, unit)))
-    const line = element("div", { class: "line" }, slider)
+    const twin = {
+      number: element("input", { type: "text", inputmode: "decimal", autocomplete: "off",
+        spellcheck: "false", class: "second" }),
+      unit: element("span", { class: "unit" }),
+    }
+    twin.root = element("span", { class: "entry twin", hidden: "" }, twin.number, twin.unit)
+    const line = element("div", { class: "line" }, slider, twin.root)
     const words = element("p", { class: "note", id: `${id}-about`, hidden: "" }, about)
     const root = element("div", { class: `control control-${name}`, "data-name": name },
       head, line, refusal, words)
@@ -189,7 +208,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     })
     head.firstChild.addEventListener("pointerleave", () => put_tip(null))
     refusal.hidden = true
-    rows[name] = { asked: 0, root, slider, number, refusal, extra, unit, line, about, label, symbol }
+    rows[name] = { asked: 0, root, slider, number, refusal, extra, unit, line, about, label, symbol, twin }
 
     slider.addEventListener("input", () => move(name, Number(slider.value)))
     slider.addEventListener("change", () => { if (!held) release() })
@@ -200,6 +219,14 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     }
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
     number.addEventListener("focus", () => number.select())
+    twin.number.addEventListener("focus", () => twin.number.select())
+    twin.number.addEventListener("blur", () => show_twin(name))
+    twin.number.addEventListener("change", () => {
+      const given = Number(twin.number.value.replace("\u2212", "-").replace(",", "."))
+      const text = twin.number.value.trim() && isFinite(given)
+        ? String(Number((given / twins[name].factor).toPrecision(12))) : twin.number.value
+      send({ typed: { [name]: text } })
+    })
     number.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         refuse(name, "")
@@ -249,6 +276,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
 
   // Values and choices that this panel does not show are other panels' business.
   const take = (state) => {
+    Object.assign(twins, state.twins ?? {})
     for (const [name, limit] of Object.entries(state.limits ?? {})) {
       if (!rows[name]) continue
       limits[name] = limit
@@ -267,9 +295,37 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       refuse(name, "")
       selects[name].show(value)
     }
+    if (state.twins) for (const name of Object.keys(rows)) show_twin(name)
+    if (state.draft) show_draft(state.draft)
+    if (state.bearing) show_own(state.bearing, state.changed)
     if (state.hidden)
       for (const [name, { root }] of [...Object.entries(rows), ...Object.entries(selects)])
         root.hidden = state.hidden.includes(name)
+  }
+
+  // Numbers that wait until all dimensions fit together, each with its fault.
+  let drafted = []
+  const show_draft = ({ waiting, faults }) => {
+    for (const name of drafted)
+      if (rows[name] && !(name in faults)) refuse(name, "")
+    drafted = [...waiting, ...Object.keys(faults)]
+    for (const name of Object.keys(rows))
+      rows[name].root.classList.toggle("drafted", waiting.includes(name))
+    for (const [name, sentence] of Object.entries(faults)) refuse(name, sentence)
+  }
+  // A bearing that is none of the list stands in it under its own name.
+  const show_own = ({ name, own }, changed) => {
+    const select = selects.preset?.select
+    if (!select) return
+    let option = select.querySelector("option[data-own]")
+    const needed = changed || own !== ""
+    if (!needed) return option?.remove()
+    if (!option) {
+      option = element("option", { value: "own bearing", "data-own": "" })
+      select.prepend(option)
+    }
+    option.textContent = name
+    select.value = option.value
   }
 
   const listen = (takes = take) => model.on("msg:custom", (message) => {

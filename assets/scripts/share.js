@@ -110,10 +110,12 @@ export function render({ model }) {
   window.addEventListener("storage", (event) => { if (event.key === KEPT) list_kept() })
 
   // Download, and back from a file
+  const about = {}
   const report = button("Report of this scene (HTML)", "One page with numbers, warnings and figures",
                         () => {
     say("Making the report \u2026")
-    model.send_msg({ report: location.origin + location.pathname })
+    const told = Object.fromEntries(Object.entries(about).map(([name, box]) => [name, box.value]))
+    model.send_msg({ report: location.origin + location.pathname, ...told })
   })
   const toml = button("Scene (TOML)", "A text file for this page and for Python: Scene.from_toml",
                       () => model.send_msg({ want: "toml" }))
@@ -125,7 +127,15 @@ export function render({ model }) {
     else ask({ file: { name: chosen.name, text: await chosen.text() } })
     file.value = ""
   })
-  const download = menu("Download", "Save and load files", "download", report, toml,
+  const own_words = (name, words, box) => {
+    about[name] = box
+    return [element("label", { for: box.id }, words), box]
+  }
+  const told_of = element("details", {}, element("summary", {}, "Title, machine and remarks of the report"),
+    ...own_words("title", "Title", element("input", { type: "text", id: "report-title", maxlength: "120" })),
+    ...own_words("machine", "Machine", element("input", { type: "text", id: "report-machine", maxlength: "200" })),
+    ...own_words("remarks", "Remarks", element("textarea", { id: "report-remarks", maxlength: "4000", rows: "3" })))
+  const download = menu("Download", "Save and load files", "download", report, told_of, toml,
     element("label", { for: "share-file" }, "Load a scene from a TOML file"), file,
     element("p", { class: "note" },
          "“Export” above each figure has its picture (PNG, SVG), its numbers (CSV) and its lines of Python."))

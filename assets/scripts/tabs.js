@@ -1,7 +1,7 @@
 // Tabs in groups, as many rows as they need; where there is little room, a list to choose from.
 // Arrow keys move between tabs, as people who use the keyboard expect. Other scripts ask for a tab by
 // the event "explorer-show" on the window, with its name; "explorer-asked" says that one is on its
-// way, with its title, and "explorer-tab" that it stands.
+// way, with its name and title, and "explorer-tab" that it stands.
 export function render({ model }) {
   const show = (name, ask) => {
     for (const tab of tabs) {
@@ -12,8 +12,7 @@ export function render({ model }) {
     select.value = name
     if (!ask) return
     model.send_msg({ show: name })
-    if (name !== model.active)
-      window.dispatchEvent(new CustomEvent("explorer-asked", { detail: titles.get(name) }))
+    window.dispatchEvent(new CustomEvent("explorer-asked", { detail: { name, title: titles.get(name) } }))
   }
   const titles = new Map(model.names)
   const groups = []

@@ -22,13 +22,14 @@ import dataclasses
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, Self, cast
 
 from bearingcore.common import checks
 from bearingcore.model import scene_file
 from bearingcore.model.bearings import drawing
 from bearingcore.model.hertz import RaceContact, in_series, race_contact, spherical_contact
-from bearingcore.model.rows import MOST_ROWS, Row, pair
+from bearingcore.model.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.model.rows import MOST_ROWS, Row, arrangement_of, pair, spaced
 
 STEEL_DENSITY = 7800.0
 """Density [kg/m³] of balls of bearing steel."""
@@ -187,7 +188,7 @@ class Bearing:
             groove_center_radius=0.5 * pitch,
             groove_center_distance=diameter,  # of no account where contacts never swivel
             radial_clearance=radial_clearance,
-            load_deflection_factor=8.06e4 * (1e3 * length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0),
+            load_deflection_factor=palmgren_factor(length),
             outer_raceway_radius=0.5 * (pitch + diameter),
             inner_raceway_radius=0.5 * (pitch - diameter),
             roller_length=length,
@@ -207,6 +208,10 @@ class Bearing:
     ) -> Self:
         """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
 
+        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
+        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
+        turning the inner ring about the middle moves no ball.
+
         Parameters
         ----------
         n_balls
@@ -219,10 +224,6 @@ class Bearing:
             r_L [m].
         youngs_modulus, poisson
             E [Pa] and ν; steel by default.
-
-        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
-        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
-        turning the inner ring about the middle moves no ball.
 
         Raises
         ------
@@ -274,6 +275,30 @@ class Bearing:
         if preload > 0.0 and self.contact_angle == 0.0:
             raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
         return dataclasses.replace(self, rows=pair(distance, arrangement, preload))
+
+    def respaced(self, distance: float | None = None, preload: float | None = None) -> Self:
+        """The pair with another distance of its rows, or another preload [m]; see `paired`.
+
+        ValueError for a bearing that is no pair.
+        """
+        if not self.arrangement:
+            raise checks.refuse("rows", len(self.all_rows), "two rows that stand as a pair")
+        if preload is not None and preload > 0.0 and self.contact_angle == 0.0:
+            raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+        return dataclasses.replace(self, rows=spaced(self.rows, distance, preload))
+
+    @property
+    def row_distance(self) -> float | None:
+        """Distance [m] of two rows along the shaft; None of another number of rows."""
+        return self.rows[1].place - self.rows[0].place if len(self.rows) == 2 else None
+
+    @property
+    def preload(self) -> float | None:
+        """How far [m] the inner grooves of a pair are pushed against each other; else None."""
+        if not self.arrangement:
+            return None
+        low, high = self.rows
+        return abs(high.offset - low.offset)
 
     @property
     def all_rows(self) -> tuple[Row, ...]:
@@ -359,13 +384,20 @@ class Bearing:
         return cls(n_balls=n_balls, **fields)
 
     def replace(self, **changes: Any) -> Self:
-        """A bearing with fields changed. Of a drawn one, what follows from the drawing follows.
+        """A bearing with fields changed. What follows from a drawing, or of rollers, follows.
 
         A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
         its proportion to it; one named in `changes` is taken as it is.
         """
+        if self.is_self_aligning and not self.is_drawn and "rows" not in changes:
+            return cast(Self, self._aligned(dict(changes)))
         changed = dataclasses.replace(self, **changes)
-        if not (self.is_drawn and changed.is_drawn):
+        if changed.is_roller != self.is_roller:
+            raise checks.refuse(
+                "roller_length", changed.roller_length, "what it was: see Bearing.cylindrical"
+            )
+        drawn = self.is_drawn and changed.is_drawn
+        if not (drawn or (self.is_roller and changed.is_roller)):
             return changed
         before, after = self._derived(), changed._derived()
         for name in drawing.Derived._fields:
@@ -374,7 +406,49 @@ class Bearing:
                 changes[name] = now if old == was else old * (now / was)
         return dataclasses.replace(self, **changes)
 
+    def _aligned(self, changes: dict[str, Any]) -> Bearing:
+        """A self-aligning bearing with what it is drawn by changed: all else follows."""
+        for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
+                     "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
+            given = changes.pop(name, None)
+            if given is not None and not math.isclose(given, getattr(self, name), rel_tol=1e-9):
+                raise checks.refuse(
+                    name, given, "what follows from ball, sphere, groove and contact angle"
+                )
+        drawn_by = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
+        if not any(changes.get(name) is not None for name in drawn_by):
+            return dataclasses.replace(self, **changes)
+
+        def built(given: dict[str, Any]) -> Bearing:
+            get = given.get
+            return Bearing.self_aligning(
+                n_balls=get("n_balls", self.n_balls),
+                ball_diameter=get("ball_diameter", self.ball_diameter),
+                sphere_radius=get("outer_raceway_radius", self.outer_raceway_radius),
+                inner_groove_radius=get("inner_groove_radius") or self.sphere_groove,
+                contact_angle=get("contact_angle", self.contact_angle),
+                radial_clearance=get("radial_clearance", self.radial_clearance),
+            )
+
+        new = built(changes)
+        stiffer = self.load_deflection_factor / built({}).load_deflection_factor
+        rows = tuple(
+            dataclasses.replace(row, place=fresh.place)
+            for row, fresh in zip(self.rows, new.rows, strict=True)
+        )
+        factor = changes.get("load_deflection_factor", new.load_deflection_factor * stiffer)
+        density = changes.get("density", self.density)
+        return dataclasses.replace(new, rows=rows, load_deflection_factor=factor, density=density)
+
     def _derived(self) -> drawing.Derived:
+        if self.roller_length is not None:
+            return drawing.Derived(
+                groove_center_radius=0.5 * self.pitch_diameter,
+                groove_center_distance=self.ball_diameter,
+                load_deflection_factor=palmgren_factor(self.roller_length),
+                outer_raceway_radius=0.5 * (self.pitch_diameter + self.ball_diameter),
+                inner_raceway_radius=0.5 * (self.pitch_diameter - self.ball_diameter),
+            )
         return drawing.derive(**{name: getattr(self, name) for name in drawing.DIMENSIONS})
 
     @property
@@ -382,12 +456,44 @@ class Bearing:
         """True where the bearing carries its groove radii and material."""
         return any(getattr(self, name) is not None for name in drawing.OPTIONAL_FIELDS)
 
-    def race_contact(self, race: str) -> RaceContact:
-        """Hertzian contact of a ball with a race, "outer" or "inner".
+    @property
+    def is_self_aligning(self) -> bool:
+        """True for two rows whose balls run on one sphere about the middle of the bearing."""
+        if len(self.rows) != 2 or self.contact_angle == 0.0:
+            return False
+        radius = self.groove_center_distance * math.cos(self.contact_angle)
+        place = self.groove_center_distance * math.sin(self.contact_angle)
+        return math.isclose(self.groove_center_radius, radius, rel_tol=1e-9) and all(
+            math.isclose(row.place, row.facing * place, rel_tol=1e-9) for row in self.rows
+        )
 
-        ValueError where the bearing does not carry its drawing.
+    @property
+    def arrangement(self) -> str:
+        """How two rows stand, out of ARRANGEMENTS; empty of one row and of any other rows."""
+        return "" if self.is_self_aligning else arrangement_of(self.rows)
+
+    @property
+    def total_balls(self) -> int:
+        """Balls or rollers of all rows."""
+        return self.n_balls * len(self.all_rows)
+
+    @property
+    def knows_contacts(self) -> bool:
+        """True where `race_contact` has an answer."""
+        return self.is_drawn or self.is_roller or self.is_self_aligning
+
+    def race_contact(self, race: str) -> RaceContact | RollerContact:
+        """Hertzian contact of a ball or roller with a race, "outer" or "inner".
+
+        Rollers are of steel. Of a self-aligning bearing groove radius and modulus follow from its
+        numbers, with a Poisson's ratio of 0.3. ValueError where a bearing does not carry its
+        drawing.
         """
         checks.choice("race", race, ("outer", "inner"))
+        if self.roller_length is not None:
+            return roller_contact(race, self.ball_diameter, self.pitch_diameter, self.roller_length)
+        if self.is_self_aligning and not self.is_drawn:
+            return self._aligning_contact(race)
         name = f"{race}_groove_radius"
         radius = getattr(self, name)
         if radius is None or self.youngs_modulus is None or self.poisson is None:
@@ -401,6 +507,34 @@ class Bearing:
             self.youngs_modulus,
             self.poisson,
         )
+
+    @property
+    def sphere_groove(self) -> float:
+        """Inner groove radius r_i = A0 + D_b − R_e [m] of a self-aligning bearing."""
+        return self.groove_center_distance + self.ball_diameter - self.outer_raceway_radius
+
+    def _aligning_contact(self, race: str) -> RaceContact:
+        """Contact of a ball of a self-aligning bearing; the modulus is the one that gives K."""
+        poisson = 0.3
+
+        def both(modulus: float) -> dict[str, RaceContact]:
+            return {
+                "inner": race_contact(
+                    "inner",
+                    self.ball_diameter,
+                    self.pitch_diameter,
+                    self.sphere_groove,
+                    self.contact_angle,
+                    modulus,
+                    poisson,
+                ),
+                "outer": spherical_contact(
+                    self.ball_diameter, self.outer_raceway_radius, modulus, poisson
+                ),
+            }
+
+        unit = in_series(*(contact.load_deflection_factor for contact in both(1.0).values()))
+        return both(self.load_deflection_factor / unit)[race]
 
     @property
     def diametral_play(self) -> float:
@@ -470,7 +604,7 @@ class Bearing:
         """
         inner, outer = (
             (self.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
-            if self.is_drawn
+            if self.is_drawn or self.is_self_aligning
             else (1.0, 1.0)
         )
         n = self.contact_exponent
@@ -487,6 +621,9 @@ class Bearing:
         if self.inner_groove_radius is not None and self.outer_groove_radius is not None:
             inner = self.inner_groove_radius - self.ball_radius
             outer = self.outer_groove_radius - self.ball_radius
+        elif self.is_self_aligning:
+            inner = self.sphere_groove - self.ball_radius
+            outer = self.outer_raceway_radius - self.ball_radius
         scale = self.groove_center_distance / (inner + outer)
         return scale * inner, scale * outer
 

@@ -6,6 +6,7 @@ A row whose contact angle has the sign of its place stands face to face with one
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -86,4 +87,32 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
     return (
         Row(-half, -upper, offset=-upper * push),
         Row(half, upper, offset=upper * push),
+    )
+
+
+def arrangement_of(rows: tuple[Row, ...]) -> str:
+    """Which of ARRANGEMENTS two rows are as `pair` makes them; empty where they are none of it."""
+    if len(rows) != 2:
+        return ""
+    low, high = rows
+    if low.place != -high.place or low.offset != -high.offset or high.place < 0.0:
+        return ""
+    if low.facing == high.facing:
+        return "tandem" if high.offset == 0.0 else ""
+    if high.offset * high.facing < 0.0:
+        return ""
+    return "face-to-face" if high.facing == 1 else "back-to-back"
+
+
+def spaced(rows: tuple[Row, ...], distance: float | None, preload: float | None) -> tuple[Row, ...]:
+    """A pair of rows with another distance or preload [m]; all else of each row stays."""
+    low, high = rows
+    made = pair(
+        high.place - low.place if distance is None else distance,
+        arrangement_of(rows),
+        abs(high.offset - low.offset) if preload is None else preload,
+    )
+    return tuple(
+        dataclasses.replace(row, place=new.place, offset=new.offset)
+        for row, new in zip(rows, made, strict=True)
     )

@@ -120,10 +120,14 @@ class Scene:
         """The directions that can move: all five, unless a smaller set is exact.
 
         A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
-        symmetry: z, rx and ry stay zero and only x and y are needed.
+        symmetry: z, rx and ry stay zero and only x and y are needed. The inner ring of a
+        self-aligning bearing tilts freely, so nothing but another bearing keeps the shaft from it:
+        x, y and z, as for cylindrical rollers x and y.
         """
         if self.bearing.is_roller:
             return DOF_NAMES[:2]  # it carries nothing else
+        if self.bearing.is_self_aligning:
+            return DOF_NAMES[:3]  # its ring tilts freely: what holds it is the shaft
         flat = self.bearing.is_flat
         radial = self.load.fz == self.load.mx == self.load.my == 0.0
         return DOF_NAMES[:2] if flat and radial else DOF_NAMES

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
@@ -64,11 +65,12 @@ class BallComparison:
     def sentence(self) -> str:
         """In a line: up to where massless balls will do, and what mass costs."""
         if math.isnan(self.massless_up_to):
-            told = f"massless: more than {self.budget:g} dB off from {LOWEST / 1e3:.1f} kHz on"
+            told = f"more than {number(self.budget)} dB off from {with_prefix(LOWEST, 'Hz')} on"
         else:
-            told = f"massless: within {self.budget:g} dB up to {self.massless_up_to / 1e3:.1f} kHz"
+            up_to = with_prefix(self.massless_up_to, "Hz", 2)
+            told = f"within {number(self.budget)} dB up to {up_to}"
         times = self.seconds / max(self.massless_seconds, 1e-9)
-        return f"{told}, with mass {times:.0f} times the time"
+        return f"massless: {told}; with mass {number(times, 2)} times the time"
 
     def enough_up_to(self, frequency: float) -> bool:
         """Whether massless balls are within the budget up to a frequency [Hz], or all compared."""

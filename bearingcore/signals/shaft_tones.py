@@ -13,6 +13,8 @@ HARMONICS = 12
 REACH = 0.01
 """By how much the shaft's speed may be off, as a fraction."""
 
+TRIALS = 401
+
 STANDS_OUT = 4.0
 """Times the median of its surroundings from which a line counts as a tone."""
 
@@ -29,24 +31,28 @@ def without_shaft_tones(
     passing
         ball-pass frequency [Hz]: harmonics of the shaft beside one of its own are left in.
     """
-    from scipy.fft import next_fast_len, rfft  # imported late: see `spectrum`
+    from scipy.fft import rfft  # imported late: see `spectrum`
+    from scipy.signal import zoom_fft
 
     count = len(signal)
     duration = count / sample_rate
-    size = next_fast_len(4 * count, real=True)
-    height = np.abs(rfft(signal * np.hanning(count)[:, None], size, axis=0)).sum(axis=1)
-    step = sample_rate / size
+    faded = signal * np.hanning(count)[:, None]
+    height = np.abs(rfft(faded, axis=0)).sum(axis=1)
+    step = sample_rate / count
     order = np.arange(1, min(HARMONICS, int(0.4 * sample_rate / shaft)) + 1)
     nearest = passing * np.maximum(np.rint(order * shaft / passing), 1.0)
     order = order[np.abs(order * shaft - nearest) > 2.5 / duration + 0.01 * nearest]
     if not len(order):
         return signal
-    trials = shaft * (1.0 + np.linspace(-REACH, REACH, 401))
-    index = np.rint(np.outer(trials, order) / step).astype(int)
-    # each line by its height over the surroundings', so that the loudest does not speak alone
-    around = np.array([_surroundings(height, k * shaft / step, 3.0 * shaft / step) for k in order])
-    over = height[index] / around
-    best = int(np.minimum(over, 3.0 * STANDS_OUT).sum(axis=1).argmax())
+    trials = shaft * (1.0 + np.linspace(-REACH, REACH, TRIALS))
+    lines = [
+        np.abs(zoom_fft(faded, k * trials[[0, -1]], TRIALS, fs=sample_rate, endpoint=True, axis=0))
+        for k in order.tolist()
+    ]
+    # lines that stand out by their height over the surroundings, so that not one speaks alone
+    around = [_surroundings(height, k * shaft / step, 3.0 * shaft / step) for k in order]
+    over = np.stack([line.sum(axis=1) for line in lines], axis=1) / around
+    best = int(np.log(np.maximum(over / STANDS_OUT, 1.0)).sum(axis=1).argmax())
     tones = order[over[best] >= STANDS_OUT]
     if not len(tones):
         return signal

@@ -233,6 +233,8 @@ def film(
         )
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
+    if scene.bearing.is_roller:
+        raise checks.refuse("bearing", "of cylindrical rollers", "one of balls: Hamrock and Dowson")
     contacts = {race: scene.bearing.race_contact(race) for race in RACES}
     if state is None:
         state = equilibrium(scene)

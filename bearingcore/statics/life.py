@@ -183,9 +183,10 @@ def life(
     Parameters
     ----------
     scene
-        bearing, defects, load, speed. The bearing needs its groove radii.
+        bearing, defects, load, speed. A ball bearing needs its groove radii.
     dynamic_load_rating
-        C_r [N] from the catalogue; `dynamic_load_rating(bearing)` gives that of ISO 281.
+        C_r [N] of the whole bearing, with all its rows, from the catalogue;
+        `dynamic_load_rating(bearing)` gives that of ISO 281 for ball bearings.
     positions
         "load line": loads with a ball on the line of the radial load (cage angle 0 without a radial
         load), as the standard's examples and commercial codes take them; for a healthy bearing
@@ -227,15 +228,16 @@ def life(
         raise checks.refuse(
             "turning_race", turning_race, '"inner" for a damaged bearing: its load stands still'
         )
+    contact = LINE_CONTACT if scene.bearing.is_roller else POINT_CONTACT
     Q_ci, Q_ce = ratings = race_ratings(scene.bearing, C)
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
     healthy = _loads(healthy_scene, positions, turning_race)
     loads = _loads(scene, positions, turning_race) if damaged else healthy
-    L = million_revolutions(POINT_CONTACT, ratings, (loads.inner, loads.outer))
-    L_healthy = million_revolutions(POINT_CONTACT, ratings, (healthy.inner, healthy.outer))
+    L = million_revolutions(contact, ratings, (loads.inner, loads.outer))
+    L_healthy = million_revolutions(contact, ratings, (healthy.inner, healthy.outer))
     turns_an_hour = scene.shaft_speed / (2.0 * math.pi) * 3600.0
     hours = 1e6 * L / turns_an_hour if turns_an_hour else math.nan
-    P = 0.0 if math.isinf(L) else C * L ** (-1.0 / POINT_CONTACT.load_exponent)
+    P = 0.0 if math.isinf(L) else C * L ** (-1.0 / contact.load_exponent)
     return Life(
         scene=scene,
         dynamic_load_rating=C,
@@ -258,21 +260,31 @@ def life(
 def race_ratings(bearing: Bearing, dynamic_load_rating: float) -> tuple[float, float]:
     """Q_ci, Q_ce [N]: the loads of a ball under which inner and outer race last 10⁶ turns.
 
-    (ISO 16281.) ValueError where the bearing does not carry its groove radii.
+    Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
+    carry its groove radii.
     """
+    cosine = math.cos(bearing.contact_angle)
+    return ratings_of_races(
+        LINE_CONTACT if bearing.is_roller else POINT_CONTACT,
+        dynamic_load_rating / (bearing.n_balls * cosine),
+        bearing.ball_diameter * cosine / bearing.pitch_diameter,
+        1.0 if bearing.is_roller else _groove_ratio(*_conformities(bearing)),
+        len(bearing.all_rows),
+    )
+
+
+def _conformities(bearing: Bearing) -> tuple[float, float]:
+    """Groove radii of the inner and outer race over the ball diameter."""
+    if bearing.is_self_aligning:
+        inner, outer = bearing.sphere_groove, bearing.outer_raceway_radius
+        return inner / bearing.ball_diameter, outer / bearing.ball_diameter
     conformity = []
     for name in ("inner_groove_radius", "outer_groove_radius"):
         radius = getattr(bearing, name)
         if radius is None:
             raise checks.refuse(name, radius, "a number, where life is asked for")
         conformity.append(radius / bearing.ball_diameter)
-    cosine = math.cos(bearing.contact_angle)
-    return ratings_of_races(
-        POINT_CONTACT,
-        dynamic_load_rating / (bearing.n_balls * cosine),
-        bearing.ball_diameter * cosine / bearing.pitch_diameter,
-        _groove_ratio(*conformity),
-    )
+    return conformity[0], conformity[1]
 
 
 def ratings_of_races(
@@ -314,13 +326,22 @@ def _groove_ratio(f_i: float, f_e: float) -> float:
 def dynamic_load_rating(bearing: Bearing) -> float:
     """Basic dynamic load rating C_r [N] of a ball bearing from its dimensions, by ISO 281.
 
-    C_r = b_m f_c (cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm, b_m = 1.3.
+    C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm, for i
+    rows of Z balls, b_m = 1.3.
     f_c is the standard's table as a formula, 0.2 % from each of its numbers: it holds for grooves
     of 0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones
     lower it, and a bearing whose grooves are not known counts as one with those. Catalogues give
     more where a maker vouches for better steel.
+
+    ValueError for rollers and for self-aligning bearings, whose factors the standard tabulates
+    apart: their rating comes from the catalogue.
     """
-    D, Z = bearing.ball_diameter * 1e3, bearing.n_balls
+    if bearing.is_roller or bearing.is_self_aligning:
+        kind = "cylindrical rollers" if bearing.is_roller else "a self-aligning bearing"
+        raise checks.refuse(
+            "dynamic_load_rating", f"to be computed for {kind}", "that of the catalogue"
+        )
+    D, Z, rows = bearing.ball_diameter * 1e3, bearing.n_balls, len(bearing.all_rows)
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
     full = _capacity_factor(gamma, USUAL_CONFORMITY["inner"], USUAL_CONFORMITY["inner"])
@@ -333,7 +354,7 @@ def dynamic_load_rating(bearing: Bearing) -> float:
         gamma, USUAL_CONFORMITY["inner"], USUAL_CONFORMITY["outer"]
     )
     size = D**1.8 if D <= LARGE_BALL else 3.647 * D**1.4
-    C = MATERIAL_FACTOR * full * min(wider, 1.0) * cosine**0.7 * Z ** (2.0 / 3.0) * size
+    C = MATERIAL_FACTOR * full * min(wider, 1.0) * (rows * cosine) ** 0.7 * Z ** (2.0 / 3.0) * size
     return float(C)
 
 
@@ -347,7 +368,8 @@ def _capacity_factor(gamma: float, f_i: float, f_e: float) -> float:
 
 @lru_cache(maxsize=256)
 def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
-    law = POINT_CONTACT.load_exponent, POINT_CONTACT.scatter
+    contact = LINE_CONTACT if scene.bearing.is_roller else POINT_CONTACT
+    law = contact.load_exponent, contact.scatter
     if positions == "all":
         return race_loads(scene, *law, turning_race)
     load = scene.load

@@ -36,17 +36,33 @@ class Crossing(NamedTuple):
 
 
 def ball_drop(
-    scene: Scene, ball_angle: ArrayLike, cage_angle: ArrayLike = 0.0, race: str | None = None
+    scene: Scene,
+    ball_angle: ArrayLike,
+    cage_angle: ArrayLike = 0.0,
+    race: str | None = None,
+    row: int = 0,
 ) -> NDArray[np.float64]:
     """Drop d(φ) [m] of ball centres at `ball_angle` [rad] over all defects of a scene.
 
     `cage_angle` [rad] moves inner-race defects. `race` asks for the drop into that race alone;
-    None for both together, as the contacts see it. Shapes broadcast.
+    None for both together, as the contacts see it; `row` for balls of that row. Shapes broadcast.
     """
     if race is not None:
         checks.choice("race", race, RACES)
     defects = tuple(d for d in scene.defects if race is None or d.race == race)
-    return drop_into(defects, scene.bearing, ball_angle, cage_angle)
+    return drop_into(defects, scene.bearing, ball_angle, cage_angle, row)
+
+
+def drops_now(scene: Scene, cage_angle: float, race: str | None = None) -> NDArray[np.float64]:
+    """Drop [m] of each ball of the bearing with the cage at an angle [rad], row after row."""
+    n = scene.bearing.n_balls
+    angles = cage_angle + contacts(scene.bearing).angle
+    return np.concatenate(
+        [
+            ball_drop(scene, angles[k * n : (k + 1) * n], cage_angle, race, k)
+            for k in range(len(scene.bearing.all_rows))
+        ]
+    )
 
 
 def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:

@@ -25,6 +25,9 @@ other: the two means of ISO 16281. A defect breaks this up, as it stands in one 
 - in the inner race it turns against the load, so that every place of either race sees varying
   loads, and places of one race differ: both averages are needed for both races.
 
+Each row has races of its own. They all have to live, so that their lives combine as those of places
+do: a bearing of several rows lives as under (Σ over rows Q_e^(p e))^(1/(p e)).
+
 The integrals are taken over panels that end where a ball meets an edge or a floor.
 """
 
@@ -89,13 +92,8 @@ def snapshot_loads(
     state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     if unknown := _unknown(state):
         return unknown
-    Q = state.ball_load[:1]
-    even = np.full(1, 1.0)
-    return _in_order(
-        turning_race,
-        turning=_mean(Q, even, load_exponent),
-        standing=_mean(Q, even, load_exponent * scatter),
-        heaviest=float(Q.max()),
+    return _averaged(
+        scene, state.ball_load[:1], np.full(1, 1.0), load_exponent, scatter, turning_race
     )
 
 
@@ -109,17 +107,32 @@ def race_loads(
     state = equilibrium(scene, places)
     if unknown := _unknown(state):
         return unknown
-    return _in_order(
-        turning_race,
-        turning=_mean(state.ball_load, weights, load_exponent),
-        standing=_mean(state.ball_load, weights, load_exponent * scatter),
-        heaviest=float(state.ball_load.max()),
-    )
+    return _averaged(scene, state.ball_load, weights, load_exponent, scatter, turning_race)
 
 
-def _in_order(turning_race: str, turning: float, standing: float, heaviest: float) -> RaceLoads:
+def _averaged(
+    scene: Scene,
+    loads: Array,
+    weights: Array,
+    load_exponent: float,
+    scatter: float,
+    turning_race: str,
+) -> RaceLoads:
+    """Both races under loads (n, balls) with weights (n,) where nothing turns against the load."""
+    rows = np.split(loads, len(scene.bearing.all_rows), axis=1)
+    power = load_exponent * scatter
+    turning = _together([_mean(row, weights, load_exponent) for row in rows], power)
+    standing = _together([_mean(row, weights, power) for row in rows], power)
     inner, outer = (turning, standing) if turning_race == "inner" else (standing, turning)
-    return RaceLoads(inner, outer, heaviest)
+    return RaceLoads(inner, outer, float(loads.max()))
+
+
+def _together(loads: list[float], power: float) -> float:
+    """The one load that tires a row as much as each of these its own: (Σ Q^power)^(1/power)."""
+    size = max(loads)
+    if len(loads) == 1 or size == 0.0:
+        return size
+    return float(size * sum((load / size) ** power for load in loads) ** (1.0 / power))
 
 
 def _mean(loads: Array, weights: Array, power: float) -> float:
@@ -145,7 +158,13 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
     defects = [defect for defect in scene.defects if defect.race == race]
     rough = any(defect.floor is not None for defect in defects)
     even = np.linspace(0.0, spacing, (PANELS_ON_A_FLOOR if rough else PANELS) + 1)
-    corners = [corner % spacing for defect in defects for corner in _corners(defect, scene)]
+    turns = {row.turn for row in scene.bearing.all_rows}
+    corners = [
+        (corner - turn) % spacing
+        for defect in defects
+        for corner in _corners(defect, scene)
+        for turn in turns
+    ]
     ends = np.unique(np.concatenate([even, corners]))
     ends = ends[np.diff(ends, prepend=-1.0) > 1e-12]
     x, w = _gauss(POINTS)
@@ -181,7 +200,7 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     # a ball at the cage angle c is at θ = c − ψ of an inner race turned by ψ = ψ_0 + c/ratio
     first = 2.0 * math.pi * np.arange(n) / n * (ratio - 1.0) / ratio
     offset = places / (ratio - 1.0)  # ψ at the first of the n steps
-    loads = np.empty((n, places.size, bearing.n_balls))
+    loads = np.empty((n, places.size, bearing.total_balls))
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
         state = equilibrium(turned, (places + psi_0) * ratio / (ratio - 1.0))
@@ -191,18 +210,22 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     size = float(loads.max())
     if size == 0.0:
         return RaceLoads(0.0, 0.0, 0.0)
-    used = (loads / size) ** load_exponent
-    inner = weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1)
-    # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between steps
-    theta = places[:, None] + bearing.ball_spacing * np.arange(bearing.n_balls)
-    series = np.fft.rfft(used, axis=0) / n
-    order = np.arange(series.shape[0])[:, None, None]
-    shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
-    along = np.mean(shifted, axis=2) @ weights
-    passing = np.fft.irfft(along, FINER * n) * (FINER * n)
-    outer = np.mean(np.maximum(passing, 0.0) ** scatter)
+    inner = outer = 0.0
+    order = np.arange(n // 2 + 1)[:, None, None]
+    for row, own in zip(
+        bearing.all_rows, np.split(loads, len(bearing.all_rows), axis=2), strict=True
+    ):
+        used = (own / size) ** load_exponent
+        inner += float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
+        # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between
+        theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
+        series = np.fft.rfft(used, axis=0) / n
+        shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
+        along = np.mean(shifted, axis=2) @ weights
+        passing = np.fft.irfft(along, FINER * n) * (FINER * n)
+        outer += float(np.mean(np.maximum(passing, 0.0) ** scatter))
     root = 1.0 / (load_exponent * scatter)
-    return RaceLoads(size * float(inner) ** root, size * float(outer) ** root, size)
+    return RaceLoads(size * inner**root, size * outer**root, size)
 
 
 def _turned(scene: Scene, angle: float) -> tuple[Defect, ...]:

@@ -38,6 +38,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import count, number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.bearing import Bearing
 from bearingcore.model.hertz import in_series
 from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
@@ -50,6 +51,9 @@ ANGLES = 361
 
 STATIC_PRESSURE = 4.2e9
 """Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
+
+ROLLER_PRESSURE, ALIGNING_PRESSURE = 4.0e9, 4.6e9
+"""The same for roller bearings, and for self-aligning ball bearings."""
 
 CENTRIFUGAL_SHARE = {"most": 0.1, "least": 1.0}
 """Centrifugal force over contact load up to which it may be left out. On the most loaded ball a
@@ -169,16 +173,21 @@ def limits(
     in_motion = None
     if dynamic_load is not None:
         in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
-    found = [
+    roller = scene.bearing.is_roller
+    found: list[Limit | None] = [
         _pressure(scene, "inner", heaviest),
         _pressure(scene, "outer", heaviest),
         _pressure_in_motion(scene, in_motion),
-        _shoulder(scene, state, height),
+        # the sphere of a self-aligning bearing has no shoulders, its inner grooves have
+        _askew() if roller else _shoulder(scene, state, height),
         *_centrifugal(scene, state, heaviest),
-        _compression(scene, heaviest),
-        _compression_in_motion(scene, in_motion),
-        _stiffness(scene),
     ]
+    if not roller:
+        found += [
+            _compression(scene, heaviest),
+            _compression_in_motion(scene, in_motion),
+            _stiffness(scene),
+        ]
     if step_rate is not None:
         rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
@@ -194,6 +203,26 @@ def _unknown(name: str, limit: float, unit: str, why: str) -> Limit:
     return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
 
 
+def _askew() -> Limit:
+    """Rollers do not tilt here: what a tilted ring does to them is not known."""
+    sentence = (
+        "Tilt of the rollers: not known, as rollers stay parallel to the shaft in this model. A "
+        "ring that tilts presses their ends on the races."
+    )
+    return Limit("tilt of the rollers", math.nan, math.nan, "rad", False, sentence)
+
+
+def static_pressure(bearing: Bearing) -> float:
+    """Contact pressure [Pa] that ISO 76 allows this kind of bearing at rest."""
+    if bearing.is_roller:
+        return ROLLER_PRESSURE
+    return ALIGNING_PRESSURE if bearing.is_self_aligning else STATIC_PRESSURE
+
+
+def _element(bearing: Bearing) -> str:
+    return "roller" if bearing.is_roller else "ball"
+
+
 NO_DRAWING = "the groove radii of this bearing are not known"
 NO_STATE = "no cage angle has a static equilibrium"
 NO_MOTION = "no motion of this scene has been simulated yet"
@@ -202,45 +231,47 @@ NO_MOTION = "no motion of this scene has been simulated yet"
 def _pressure(scene: Scene, race: str, load: float) -> Limit:
     """Greatest pressure between the most loaded ball and a race."""
     name = f"contact pressure, {race} race"
-    if not scene.bearing.is_drawn:
-        return _unknown(name, STATIC_PRESSURE, "Pa", NO_DRAWING)
+    allowed = static_pressure(scene.bearing)
+    if not scene.bearing.knows_contacts:
+        return _unknown(name, allowed, "Pa", NO_DRAWING)
     if math.isnan(load):
-        return _unknown(name, STATIC_PRESSURE, "Pa", NO_STATE)
+        return _unknown(name, allowed, "Pa", NO_STATE)
     p = float(scene.bearing.race_contact(race).greatest_pressure(load))
-    crossed = p > STATIC_PRESSURE
+    crossed = p > allowed
     sentence = (
-        f"The most loaded ball presses on the {race} race with {number(p / 1e9)} GPa (load "
-        f"{with_prefix(load, 'N')}), {_DENTS[crossed]}"
+        f"The most loaded {_element(scene.bearing)} presses on the {race} race with "
+        f"{number(p / 1e9)} GPa (load {with_prefix(load, 'N')}), {_dents(crossed, allowed)}"
     )
-    return Limit(name, p, STATIC_PRESSURE, "Pa", crossed, sentence)
+    return Limit(name, p, allowed, "Pa", crossed, sentence)
 
 
-_DENTS = {
-    False: "below the 4.2 GPa that ISO 76 allows.",
-    True: "above the 4.2 GPa that ISO 76 allows: it dents the race, and elastic contact no longer "
-    "holds.",
-}
+def _dents(crossed: bool, allowed: float) -> str:
+    limit = f"the {allowed / 1e9:.1f} GPa that ISO 76 allows"
+    if not crossed:
+        return f"below {limit}."
+    return f"above {limit}: it dents the race, and elastic contact no longer holds."
 
 
 def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
     """Greatest pressure of a simulated motion, on the race where it is greater."""
     if scene.shaft_speed == 0.0:
         return None
-    name = "contact pressure in motion"
-    if not scene.bearing.is_drawn:
-        return _unknown(name, STATIC_PRESSURE, "Pa", NO_DRAWING)
+    name, allowed = "contact pressure in motion", static_pressure(scene.bearing)
+    if not scene.bearing.knows_contacts:
+        return _unknown(name, allowed, "Pa", NO_DRAWING)
     if load is None:
-        return _unknown(name, STATIC_PRESSURE, "Pa", NO_MOTION)
+        return _unknown(name, allowed, "Pa", NO_MOTION)
     p, race = max(
         (float(scene.bearing.race_contact(race).greatest_pressure(load)), race)
         for race in ("inner", "outer")
     )
-    crossed = p > STATIC_PRESSURE
+    crossed = p > allowed
     sentence = (
-        f"In the simulated motion a ball carries up to {with_prefix(load, 'N')} and presses on the "
-        f"{race} race with {number(p / 1e9)} GPa, {_DENTS[crossed]}"
+        f"In the simulated motion a {_element(scene.bearing)} carries up to "
+        f"{with_prefix(load, 'N')} and presses on the {race} race with {number(p / 1e9)} GPa, "
+        f"{_dents(crossed, allowed)}"
     )
-    return Limit(name, p, STATIC_PRESSURE, "Pa", crossed, sentence)
+    return Limit(name, p, allowed, "Pa", crossed, sentence)
 
 
 def _shoulder(scene: Scene, state: Equilibrium, height: float) -> Limit:
@@ -258,18 +289,18 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float) -> Limit:
     if not carries.any():
         return _unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
     reach, angles = angles[carries], angles[carries]
-    if bearing.is_drawn:
-        half = [
-            bearing.race_contact(race).semi_axes(loads[carries])[0] for race in ("inner", "outer")
-        ]
-        spread = np.arcsin(np.minimum(np.maximum(*half) / bearing.ball_radius, 1.0))
+    known = bearing.knows_contacts
+    if known:
+        races = ("inner",) if bearing.is_self_aligning else ("inner", "outer")
+        half = [bearing.race_contact(race).semi_axes(loads[carries])[0] for race in races]
+        spread = np.arcsin(np.minimum(np.maximum.reduce(half) / bearing.ball_radius, 1.0))
         reach = angles + spread
     worst = int(np.argmax(reach))
     value = float(reach[worst])
     crossed = value > limit
     at = math.degrees(angles[worst])
     told = f"a contact angle of {at:.1f}°"
-    if bearing.is_drawn:
+    if known:
         told += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
     else:
         told += " (half the contact ellipse comes on top, not known without groove radii)"
@@ -297,19 +328,20 @@ def _centrifugal(scene: Scene, state: Equilibrium, heaviest: float) -> tuple[Lim
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
     lightest = lightest[np.isfinite(lightest)]
     median = float(np.median(lightest)) if lightest.size else math.nan
+    element = _element(scene.bearing)
     most = _share(
-        "most loaded ball",
+        f"most loaded {element}",
         force,
         heaviest,
         CENTRIFUGAL_SHARE["most"],
         "the model leaves it out, and here it shifts loads and contact angles",
     )
     least = _share(
-        "least loaded ball",
+        f"least loaded {element}",
         force,
         median,
         CENTRIFUGAL_SHARE["least"],
-        "it lifts that ball off the inner race, and the ball may skid",
+        f"it lifts that {element} off the inner race, and the {element} may skid",
     )
     return most, least
 
@@ -321,7 +353,8 @@ def _share(which: str, force: float, load: float, limit: float, so_what: str) ->
     share = force / load
     crossed = share > limit
     sentence = (
-        f"A ball's centrifugal force of {with_prefix(force, 'N')} is {percent(share)} of the "
+        f"The centrifugal force of a {which.split()[-1]}, {with_prefix(force, 'N')}, is "
+        f"{percent(share)} of the "
         f"{with_prefix(load, 'N')} on the {which}"
         + (f": {so_what}." if crossed else f", less than the {percent(limit)} that matter.")
     )

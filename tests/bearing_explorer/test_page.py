@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.diagnoses import answered
 from bearing_explorer.page import SECTIONS
@@ -101,3 +102,11 @@ def test_views_say_which_slow_answers_they_read(view: type[View]) -> None:
     made.data(results)
     made.sentence(results)
     assert asked & Results.slow <= view.needs
+
+
+def test_the_lines_of_python_on_the_first_page_run(capsys: pytest.CaptureFixture[str]) -> None:
+    exec(compile(asset_text("notebooks/first_lines.py"), "first_lines.py", "exec"), {})
+    said = capsys.readouterr().out
+    assert "N at most on a ball" in said
+    assert "y1" in said
+    assert "loudest lines" in said

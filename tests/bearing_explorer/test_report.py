@@ -1,5 +1,6 @@
 """The report: complete, from the same numbers as the page, and closed to what strangers write."""
 
+import dataclasses
 import json
 from datetime import UTC, datetime
 from html.parser import HTMLParser
@@ -24,7 +25,9 @@ NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7
 
 
 def about(link: str = "http://localhost:5006/?v=1&preset=fan-rig&fy_n=-120") -> About:
-    return About("fan-rig", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC))
+    return About(
+        "fan-rig", "Where its numbers come from.", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC)
+    )
 
 
 class Reader(HTMLParser):
@@ -41,6 +44,17 @@ class Reader(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         self.words += data
+
+
+def test_a_report_has_the_words_of_whoever_makes_it() -> None:
+    own = dataclasses.replace(
+        about(), title="Pump 3", machine="Hall B", remarks="Loud.\nSince May."
+    )
+    words = Reader(page(Results(presets["fan-rig"]), own, [])).words
+    for part in ("Pump 3", "Machine: Hall B", "Loud.", "Since May."):
+        assert part in words
+    nasty = dataclasses.replace(about(), title=NASTY, machine=NASTY, remarks=NASTY)
+    assert "script" not in Reader(page(Results(presets["fan-rig"]), nasty, [])).tags
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +85,8 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
         "04 May 2026, 12:30 UTC",
         "0.1.0",
         "open this scene",
-        "Outer race at 270°: 12.9° long, 50 µm deep",
+        "Outer race at 270°: 12.9° (5.97 mm) long, 50 µm deep",
+        "Bearing: fan-rig. Where its numbers come from.",
         "Groove centre distance",
         "BPFO",
         "Converged",

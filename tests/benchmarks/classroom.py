@@ -68,8 +68,9 @@ class Notes:
 class Person:
     """A websocket client that drags."""
 
-    def __init__(self, url: str, number: int) -> None:
+    def __init__(self, url: str, number: int, tab: str) -> None:
         self.notes = Notes()
+        self._tab = tab
         self._client = PageClient(url, self._packet)
         self._number = number
         self._asked: dict[int, float] = {}
@@ -91,6 +92,7 @@ class Person:
         if not await self._client.until_drawn(seconds=120.0):
             self.notes.troubles.append("no first picture")
         self.notes.first_picture = time.perf_counter() - began
+        await self._client.show(self._tab)
         await self._ask({"depth_um": self.depth, "fy_n": self.load, "extent_deg": 20.0})
         await self._client.until_drawn(seconds=60.0)
 
@@ -159,7 +161,7 @@ class Person:
             self.notes.compared.append((dict(values), shown))
 
 
-def differences(notes: Notes) -> int:
+def differences(notes: Notes, tab: str) -> int:
     """How many of the pictures kept are not those of their scene."""
     from bearing_explorer.compute.results import Results
     from bearing_explorer.page import SECTIONS
@@ -168,7 +170,7 @@ def differences(notes: Notes) -> int:
     from bearing_explorer.state.scene_editor import SceneEditor
 
     packed = PackedSource()
-    views = [view(packed) for s in SECTIONS if s.name == "load" for view in s.views]
+    views = [view(packed) for s in SECTIONS if s.name == tab for view in s.views]
     wrong = 0
     for values, shown in notes.compared:
         editor = SceneEditor("fan-rig")
@@ -228,7 +230,7 @@ _NOTE_TIMES = """() => {
 }"""
 
 
-def browse(url: str, seconds: float, go: Any, found: list[Notes]) -> None:
+def browse(url: str, seconds: float, go: Any, found: list[Notes], tab: str) -> None:
     """One real browser with a hand on a slider."""
     notes = Notes()
     found.append(notes)
@@ -237,7 +239,7 @@ def browse(url: str, seconds: float, go: Any, found: list[Notes]) -> None:
             page = context.new_page()
             page.on("pageerror", lambda error: notes.troubles.append(str(error)))
             began = time.perf_counter()
-            page.goto(url, timeout=120_000)
+            page.goto(f"{url}?v=1&preset=fan-rig&tab={tab}", timeout=120_000)
             page.wait_for_function(_FIRST_PAINT, timeout=120_000)
             notes.first_picture = time.perf_counter() - began
             page.evaluate(_NOTE_TIMES)
@@ -342,6 +344,7 @@ def main() -> int:
     parser.add_argument("--sessions", type=int, default=30)
     parser.add_argument("--browsers", type=int, default=2, help="of them real")
     parser.add_argument("--seconds", type=float, default=120.0)
+    parser.add_argument("--tab", default="load", help="that all look at")
     parser.add_argument("--jobs", type=int, default=0, help="of them compute speed runs instead")
     parser.add_argument("--num-procs", type=int, default=1, help="that share a port")
     parser.add_argument(
@@ -369,12 +372,12 @@ def main() -> int:
         before = memory(pids)
         go = threading.Barrier(chosen.browsers + 1)
         threads = [
-            threading.Thread(target=browse, args=(url, chosen.seconds, go, found))
+            threading.Thread(target=browse, args=(url, chosen.seconds, go, found, chosen.tab))
             for _ in range(chosen.browsers)
         ]
         for thread in threads:
             thread.start()
-        people = [Person(url, n) for n in range(chosen.sessions - chosen.browsers)]
+        people = [Person(url, n, chosen.tab) for n in range(chosen.sessions - chosen.browsers)]
 
         async def class_of() -> dict[str, float]:
             return await _crowd(people, chosen.seconds, go, pids, chosen.jobs)
@@ -427,7 +430,7 @@ def _print(
         row = "".join(f"{share:>6.0f} ms" for share in shares)
         beside = ", ".join(quiet.ratio(0.001 * share) for share in shares[:2])
         print(f"{name:<12}{times.size:>9}{times.size / machine['took']:>10.0f}{row}   {beside}")
-    wrong = sum(differences(one) for one in clients)
+    wrong = sum(differences(one, chosen.tab) for one in clients)
     firsts = sorted(one.first_picture for one in everyone)
     print(
         f"first picture after {firsts[len(firsts) // 2]:.1f} s (median), {firsts[-1]:.1f} s (last)"

@@ -40,6 +40,9 @@ class Case:
 
 
 CASES = (
+    Case("overview", "extent_deg", MOVING),
+    Case("overview", "fy_n", MOVING),
+    Case("overview", "cage_angle_deg", MOVING),
     Case("load", "extent_deg"),
     Case("load", "depth_um"),
     Case("load", "cage_angle_deg"),

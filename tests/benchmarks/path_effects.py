@@ -31,7 +31,7 @@ from bearingcore.diagnosis.path_effects import PathEffects, Resonance, recorded_
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
 
-SCORED, TRAINING = 4711, 17
+SCORED, TRAINING = 4712, 4711
 TOGETHER = 8
 """Signals of one speed and load: what is simulated to explain them serves for all of them."""
 EFFECTS = ("cage_wander", "resonances", "knock", "shaft_tones", "noise")
@@ -144,7 +144,7 @@ def table(answers: Sequence[Answer]) -> str:
     right = sum(a.right for a in answers)
     told = [a for a in answers if a.conclusive]
     errors = [abs(a.extent - a.truth) for a in answers if a.right]
-    ratio = [(a.extent - a.truth) / a.uncertainty for a in told]
+    ratio = [(a.extent - a.truth) / a.uncertainty for a in told if a.right]
     rows = [
         ("right k", f"{right} of {count} ({right / count:.0%})"),
         ("right k and conclusive", f"{sum(a.right for a in told)}"),

@@ -292,7 +292,7 @@ def train(answers: list[Answer]) -> None:
     right = [a for a in answers if a.right_turns()]
     strays = np.array([abs(a.extent - a.truth) / a.uncertainty for a in right])
     print(
-        f"uncertainties as they are (factor {method.SPREAD_FACTOR:g}): within one "
+        f"uncertainties as they are (temperature {method.WITHIN_TEMPERATURE:g}): within one "
         f"{share(strays <= 1.0)} %, within two {share(strays <= 2.0)} %; quantiles of error over "
         f"uncertainty: {np.quantile(strays, 0.683):.2f}, {np.quantile(strays, 0.954):.2f}"
     )

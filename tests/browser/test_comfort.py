@@ -181,6 +181,7 @@ def test_a_phone_has_room_for_figures_and_lessons(
 def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
+    show(page, "load")
     extent = slider(page, "extent_deg")
     extent.focus()
     for key, expected in (
@@ -213,7 +214,7 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     expect(page.locator(".tab-stiffness")).to_be_focused()
     expect(page.locator(".section-stiffness.on-screen")).to_be_visible()
     page.keyboard.press("Home")
-    expect(page.locator(".section-load.on-screen")).to_be_visible()
+    expect(page.locator(".section-overview.on-screen")).to_be_visible()
     settle(page)
     # from the top of the page: where the focus is can be seen, wherever it is
     skip = page.get_by_role("link", name="To the figures")
@@ -278,6 +279,7 @@ def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) ->
 def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
+    show(page, "load")
     settle(page)
     view = page.locator(".view-bearing")
     export(view, "table").click()
@@ -395,8 +397,8 @@ def test_the_projector_has_large_type_and_fewer_controls(
     page.goto(f"{explorer.url}?lesson=what-a-ball-carries")
     page.wait_for_function("window.__frames >= 1")
     settle(page)
-    size = """getComputedStyle(document.querySelector('.lesson-place'))
-      .getPropertyValue('--lesson-type')"""
+    size = """() => getComputedStyle(document.querySelector(".lesson-place"))
+      .getPropertyValue("--lesson-type")"""
     assert page.evaluate(size) == ""
     labels = """() => [...Bokeh.documents[0]._all_models.values()]
       .filter(m => m.type == "LinearAxis")

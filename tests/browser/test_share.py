@@ -102,7 +102,7 @@ def test_the_address_follows_the_hand_and_steps_go_back(
     undo.click()
     page.wait_for_function("!location.search.includes('fy_n')")
     page.get_by_role("button", name="Reset", exact=True).click()
-    page.wait_for_function("location.search == '?v=1&preset=fan-rig'")
+    page.wait_for_function("location.search == '?v=1&preset=fan-rig&tab=overview'")
     undo.click()
     page.wait_for_function("location.search.includes('extent_deg')")
     assert page.evaluate("history.length") == entries, "Back leaves the page"

@@ -13,7 +13,7 @@ MODELS = "[...Bokeh.documents.flatMap(d => [...d._all_models.values()])]"
 
 
 def open_explorer(page: Page, explorer: Server) -> None:
-    page.goto(explorer.url)
+    page.goto(f"{explorer.url}?v=1&preset=fan-rig&tab=load")
     page.wait_for_function("window.__frames > 0")
 
 

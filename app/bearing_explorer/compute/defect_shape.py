@@ -20,12 +20,18 @@ class Span(NamedTuple):
     extent: float
     depth: float
     race: str
+    row: int | None = None
+
+    def meets(self, row: int | None) -> bool:
+        """Whether balls of a row meet it; None: of any row."""
+        return row is None or self.row is None or self.row == row
 
 
-def spans(scene: Scene, cage_angle: float) -> list[Span]:
+def spans(scene: Scene, cage_angle: float, row: int | None = None) -> list[Span]:
     """The defects of `scene` with the cage at `cage_angle` [rad]; `start` between 0 and 2π.
 
-    An inner-race defect has turned with the shaft, further than the cage.
+    An inner-race defect has turned with the shaft, further than the cage. `row` asks for those
+    that the balls of that row meet.
     """
     return [
         Span(
@@ -36,8 +42,10 @@ def spans(scene: Scene, cage_angle: float) -> list[Span]:
             extent=defect.extent,
             depth=defect.depth,
             race=defect.race,
+            row=defect.row,
         )
         for defect in scene.defects
+        if row is None or defect.row in (None, row)
     ]
 
 
@@ -49,12 +57,17 @@ def pieces(span: Span) -> list[tuple[float, float]]:
     return [(span.start, TWO_PI), (0.0, end - TWO_PI)]
 
 
-def race_depth(scene: Scene, cage_angle: float, race: str, angle: ArrayLike) -> NDArray[np.float64]:
-    """Depth [m] of what is missing from `race` at the angles [rad], the floor as it was cut."""
+def race_depth(
+    scene: Scene, cage_angle: float, race: str, angle: ArrayLike, row: int | None = None
+) -> NDArray[np.float64]:
+    """Depth [m] of what is missing from `race` at the angles [rad], the floor as it was cut.
+
+    `row`: of that row's race alone.
+    """
     angles = np.asarray(angle, dtype=float)
     depth = np.zeros_like(angles)
     for defect in scene.defects:
-        if defect.race == race:
+        if defect.race == race and (row is None or defect.row in (None, row)):
             turned = angles - defect.turn_ratio(scene.bearing) * cage_angle
             depth = np.maximum(depth, defect.surface(turned, scene.bearing))
     return depth

@@ -41,8 +41,11 @@ def other_dofs(scene: Scene) -> tuple[str, ...]:
     """What the free directions of `scene` are to be compared with.
 
     What the scene needs, where others are forced on it; else all five, which shows that leaving
-    some out changes nothing.
+    some out changes nothing. Cylindrical rollers carry nothing along the others, and a
+    self-aligning ring tilts freely: there is nothing to compare with.
     """
+    if scene.bearing.is_roller or scene.bearing.is_self_aligning:
+        return scene.needed_dofs
     return scene.needed_dofs if scene.active_dofs != scene.needed_dofs else DOF_NAMES
 
 

@@ -170,12 +170,12 @@ def _all_outputs() -> dict[str, MapOutput]:
         )
     )
     groups = list(dict.fromkeys(output.group for output in made))
-    made.sort(key=lambda output: groups.index(output.group))
+    made.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
     return {output.name: output for output in made}
 
 
 MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
-"""All that can be mapped, by name, groups together: every output of a sweep, and the sizing."""
+"""All that can be mapped, by name, in sorted groups: every output of a sweep, and the sizing."""
 
 
 @dataclass(frozen=True)

@@ -18,16 +18,18 @@ BINS = 720
 SAME_PLACE = 1e-9  # [rad]
 
 
-def load_curve(equilibrium: Equilibrium) -> Curve:
-    """Angle from 0 to 2π [rad] and load [N] of a ball there, every position of every ball.
+def load_curve(equilibrium: Equilibrium, row: int = 0) -> Curve:
+    """Angle from 0 to 2π [rad] and load [N] of a ball there, every position of the row's balls.
 
     With a defect that stands still the load depends on the ball's angle alone and this is one
     curve. A defect of the inner race comes by everywhere: then the greatest load at each half
     degree is given.
     """
-    angle = np.mod(equilibrium.ball_angle, TWO_PI).ravel()
+    n = equilibrium.scene.bearing.n_balls
+    own = slice(row * n, (row + 1) * n)
+    angle = np.mod(equilibrium.ball_angle[:, own], TWO_PI).ravel()
     angle[angle > TWO_PI - SAME_PLACE] = 0.0
-    load = equilibrium.ball_load.ravel()
+    load = equilibrium.ball_load[:, own].ravel()
     if any(defect.race == "inner" for defect in equilibrium.scene.defects):
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")

@@ -20,12 +20,16 @@ LEAST_WIDTH = math.radians(12.0)
 
 @dataclass(frozen=True)
 class Profile:
-    """angle (n,) [rad], rising, perhaps past 2π; depth of the race and drop of the ball [m]."""
+    """angle (n,) [rad], rising, perhaps past 2π; depth of the race and drop of the ball [m].
+
+    Of the race of one `row`, counted from 0.
+    """
 
     race: str
     angle: NDArray[np.float64]
     depth: NDArray[np.float64]
     path: NDArray[np.float64]
+    row: int = 0
 
 
 def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
@@ -36,11 +40,12 @@ def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
         return Profile("outer", angle, np.zeros(3), np.zeros(3))
     first = found[focus]
     middle = first.start + 0.5 * first.extent
+    row = first.row or 0
     half = min(max((0.5 + MARGIN) * first.extent, LEAST_WIDTH), math.pi)
     edges = [
         edge
         for span in found
-        if span.race == first.race
+        if span.race == first.race and span.meets(row)
         for at in (span.start, span.start + span.extent)
         for edge in (at - 1e-9, at + 1e-9)
     ]
@@ -54,6 +59,7 @@ def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
     return Profile(
         first.race,
         angle,
-        race_depth(scene, cage_angle, first.race, angle),
-        ball_drop(scene, angle, cage_angle, first.race),
+        race_depth(scene, cage_angle, first.race, angle, row),
+        ball_drop(scene, angle, cage_angle, first.race, row),
+        row,
     )

@@ -49,7 +49,7 @@ from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.plan.balls import BallComparison, compare_balls
 from bearingcore.statics.equilibrium import default_cage_angles
-from bearingcore.statics.passes import ball_drop
+from bearingcore.statics.passes import drops_now
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
@@ -210,7 +210,7 @@ def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
 
 def _step_cost(scene: Scene) -> float:
     """What a step costs in steps of a contact of a flat bearing whose balls have no mass."""
-    cost = scene.bearing.n_balls * (1.0 if is_planar(scene) else GENERAL_COST)
+    cost = scene.bearing.total_balls * (1.0 if is_planar(scene) else GENERAL_COST)
     return cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
 
 
@@ -306,6 +306,10 @@ orbits = SingleFlightCache(_orbit, 256)
 hasty_orbits = SingleFlightCache(_hasty_orbit, 256)
 plans = SingleFlightCache(_plan, 256)
 motion_plans = SingleFlightCache(_plan, 24)  # with their orbits, some MB where those are long
+
+
+def _load_curves(found: Equilibrium) -> list[Curve]:
+    return [load_curve(found, row) for row in range(len(found.scene.bearing.all_rows))]
 
 
 class Results:
@@ -521,14 +525,24 @@ class Results:
         return equilibria(self.pinned.scene, *own.stretch)
 
     @cached_property
-    def load_curve(self) -> Curve:
-        """Load [N] of a ball over its angle [rad]."""
-        return load_curve(self.equilibrium)
+    def load_curves(self) -> list[Curve]:
+        """Load [N] of a ball over its angle [rad], a curve a row."""
+        return _load_curves(self.equilibrium)
 
-    @cached_property
+    @property
+    def load_curve(self) -> Curve:
+        """That of the first row."""
+        return self.load_curves[0]
+
+    @property
     def healthy_load_curve(self) -> Curve:
         """The same without the defect."""
-        return load_curve(self.healthy_all_around)
+        return self.healthy_load_curves[0]
+
+    @cached_property
+    def healthy_load_curves(self) -> list[Curve]:
+        """The same without the defect."""
+        return _load_curves(self.healthy_all_around)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -590,8 +604,7 @@ class Results:
     @cached_property
     def drop(self) -> dict[str, np.ndarray]:
         """Drop [m] of each ball's centre into the outer and the inner race, by race."""
-        angle = self.now.ball_angle[0]
-        return {race: ball_drop(self.scene, angle, self.cage_angle, race) for race in RACES}
+        return {race: drops_now(self.scene, self.cage_angle, race) for race in RACES}
 
     @cached_property
     def profile(self) -> Profile:

@@ -18,6 +18,9 @@ ORBITS = frozenset({"orbit", "orbit_spectra"})
 MOTIONS = frozenset({"motion", "excerpt", "spectra", "late_spectra"})
 """Attributes that are of a simulated motion."""
 
+BALLS = frozenset({"ball_mass"})
+"""Attributes that compare motions without and with the mass of balls."""
+
 LOST = {
     "-1": "Unstable: the period doubles",
     "pair": "Unstable: a second frequency is added",
@@ -43,9 +46,11 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     place where a machine stays.
     """
     static = of_statics(results)
-    if static.mood != "good" or not shown & (ORBITS | MOTIONS):
+    if static.mood != "good" or not shown & (ORBITS | MOTIONS | BALLS):
         return static
     try:
+        if shown & BALLS and results.ball_mass.broke_off:
+            return Verdict("bad", f"The motion {results.ball_mass.broke_off}")
         if shown & MOTIONS and (moving := of_motion(results)).mood != "good":
             return moving
         if shown & ORBITS:

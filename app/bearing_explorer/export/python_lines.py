@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from bearing_explorer.compute.endurance import endurance
 from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
@@ -143,18 +144,19 @@ def _anything(script: Script, results: Results, view: Any) -> None:
 def _bearing(script: Script, results: Results, view: Any) -> None:
     script.numpy()
     script.core("equilibrium")
-    script.part("statics.passes", "ball_drop")
+    script.part("statics.passes", "drops_now")
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
         "now = equilibrium(scene, [cage_angle])",
         "angle = now.ball_angle[0]",
         "columns = {",
-        '    "ball": np.arange(1, scene.bearing.n_balls + 1),',
+        '    "row": 1 + np.arange(angle.size) // scene.bearing.n_balls,',
+        '    "ball": 1 + np.arange(angle.size) % scene.bearing.n_balls,',
         '    "ball_angle_deg": np.degrees(angle),',
         '    "ball_load_n": now.ball_load[0],',
         '    "contact_angle_deg": np.degrees(now.contact_angle[0]),',
         *(
-            f'    "drop_into_{race}_race_um": 1e6 * ball_drop(scene, angle, cage_angle, "{race}"),'
+            f'    "drop_into_{race}_race_um": 1e6 * drops_now(scene, cage_angle, "{race}"),'
             for race in RACES
         ),
         "}",
@@ -166,16 +168,48 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
     )
 
 
+def _life(script: Script, results: Results, view: Any) -> None:
+    asked = view.asked
+    found = endurance(results.scene, asked)
+    if found.life is not None:
+        script.core("life")
+        rating = short(found.life.dynamic_load_rating)
+        script.add(
+            f'lasting = life(scene, {rating}, positions="all")  # C_r {found.rating_words}',
+            "print(lasting.sentence)",
+        )
+    if found.pressures is not None:
+        script.core("contact_pressures")
+        script.add(
+            "pressures = contact_pressures(scene)",
+            "print(pressures.inner.greatest_pressure, pressures.outer.greatest_pressure)  # Pa",
+        )
+    if found.film is not None:
+        script.core("film")
+        script.add(
+            "oil = film(",
+            f"    scene, viscosity={short(asked.viscosity)}, "
+            f"roughness_inner={short(asked.race_roughness)},",
+            f"    roughness_outer={short(asked.race_roughness)}, "
+            f"roughness_ball={short(asked.ball_roughness)},",
+            ")",
+            "print(oil.sentence)",
+        )
+
+
 def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
     script.add(
-        "columns = {",
-        '    "ball_angle_deg": np.degrees(found.ball_angle.ravel()) % 360.0,',
-        '    "ball_load_n": found.ball_load.ravel(),',
-        f'    "{results.beside_name}_ball_angle_deg": np.degrees(grey.ball_angle.ravel()) % 360.0,',
-        f'    "{results.beside_name}_ball_load_n": grey.ball_load.ravel(),',
-        "}  # every position of every ball",
+        "columns = {}  # every position of every ball, row after row",
+        f'for kind, answer in (("", found), ("{results.beside_name}_", grey)):',
+        "    n = answer.scene.bearing.n_balls",
+        "    for row in range(len(answer.scene.bearing.all_rows)):",
+        "        own = slice(row * n, (row + 1) * n)",
+        '        name = kind + (f"row_{row + 1}_" if row else "")',
+        "        angle = np.degrees(answer.ball_angle[:, own].ravel()) % 360.0",
+        '        columns[f"{name}ball_angle_deg"] = angle',
+        '        columns[f"{name}ball_load_n"] = answer.ball_load[:, own].ravel()',
     )
     _plot(
         script,
@@ -196,7 +230,10 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
         f"angle = np.linspace({short(first)}, {short(last)}, 721)",
-        f'own = [defect for defect in scene.defects if defect.race == "{profile.race}"]',
+        "own = [",
+        f'    defect for defect in scene.defects if defect.race == "{profile.race}"',
+        f"    and defect.row in (None, {profile.row})",
+        "]",
         "depths = [",
         "    defect.surface(",
         "        angle - defect.turn_ratio(scene.bearing) * cage_angle, scene.bearing",
@@ -207,7 +244,7 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
         '    "angle_deg": np.degrees(angle),',
         '    "race_depth_um": 1e6 * np.max([np.zeros(angle.size), *depths], axis=0),',
         '    "ball_center_drop_um": 1e6',
-        f'    * ball_drop(scene, angle, cage_angle, "{profile.race}"),',
+        f'    * ball_drop(scene, angle, cage_angle, "{profile.race}", {profile.row}),',
         "}",
     )
     _plot(
@@ -286,13 +323,7 @@ def _modes(script: Script, results: Results, view: Any) -> None:
     _both(script, results, "modes", results.modes, results.healthy_modes, beside)
     name = results.beside_name
     script.add(
-        'columns = {"cage_angle_deg": np.degrees(found.cage_angles)}',
-        "for i, label in enumerate(found.label):",
-        '    columns[f"{label}_hz"] = found.frequency[:, i]',
-        '    columns[f"{label}_damping_ratio"] = found.damping_ratio[:, i]',
-        f'columns["{name}_cage_angle_deg"] = np.degrees(grey.cage_angles)',
-        "for i, label in enumerate(grey.label):",
-        f'    columns[f"{name}_{{label}}_hz"] = grey.frequency[:, i]',
+        f'columns = (found.table() | grey.table().prefixed("{name}")).in_units().named()',
         "print(found.bands())  # least and greatest frequency of each mode [Hz]",
     )
     _plot(
@@ -385,11 +416,7 @@ def _orbit(script: Script, results: Results, view: Any) -> None:
     script.add(
         "found = orbit(scene)",
         "print(found.status)",
-        "columns = {",
-        '    "multiplier_real": found.multipliers.real,',
-        '    "multiplier_imaginary": found.multipliers.imag,',
-        '    "multiplier_size": np.abs(found.multipliers),',
-        "}",
+        "columns = found.table().named()",
     )
     if results.orbit is not None and results.orbit.multipliers.size:
         script.add(
@@ -427,7 +454,7 @@ def _stability_map(script: Script, results: Results, view: Any) -> None:
         ),
         ")",
         'y, x = np.meshgrid(found.y, found.x, indexing="ij")',
-        'columns = {"largest_multiplier": found.multiplier, "through": found.through}',
+        'columns = found.table().only("largest_multiplier", "outcome", "through").named()',
     )
     _plot(script, "plt.pcolormesh(x, y, np.minimum(found.multiplier, 1.5))", "plt.colorbar()")
 
@@ -446,11 +473,17 @@ def _explore(script: Script, results: Results, view: Any) -> None:
     if output.in_sweep:
         script.part("sweep", "sweep")
         mode = f'.sel(mode="{output.mode}")' if output.mode else ""
+        settings = []
+        if output.band is not None:
+            script.part("sweep.outputs", "Settings")
+            low, high = (short(edge) for edge in output.band)
+            settings = [f"    settings=Settings(band_low={low}, band_high={high}),"]
         script.add(
             "swept = sweep(",
             "    scene,",
             f'    over={{"{y[0]}": {y[1]}, "{x[0]}": {x[1]}}},',
             f'    outputs=["{output.in_sweep}"],',
+            *settings,
             ")",
             f'values = swept["{output.in_sweep}"]{mode}.values',
         )
@@ -482,8 +515,7 @@ def _speed_run(script: Script, results: Results, view: Any) -> None:
     script.add(
         f"speeds = np.linspace({short(speeds[0])}, {short(speeds[-1])}, {speeds.size})",
         f"run = speed_run(scene, speeds, resolution={short(float(step))})",
-        "columns = {}",
-        *_densities("density", "run.dofs", "run.density[:, :, i]"),
+        'columns = run.table().in_units({"rad/s": "Hz"}).named()',
     )
     _plot(
         script,
@@ -562,6 +594,7 @@ def _nothing_yet(script: Script) -> None:
 
 _MAKERS: dict[str, Callable[[Script, Results, Any], None]] = {
     "bearing": _bearing,
+    "life": _life,
     "load-distribution": _load_distribution,
     "depth-profile": _depth_profile,
     "stiffness": _stiffness,

@@ -16,6 +16,10 @@ FILE = "bearing-scene.toml"
 _DEGREES = frozenset({"extent", "center", "contact_angle"})
 
 
+NEEDED = {"matplotlib": "pip install matplotlib", "bearingcore.sweep": 'pip install ".[scale]"'}
+"""What lines may import that is not installed with the explorer, and how to get it."""
+
+
 class Script:
     """Lines that grow, and what they import."""
 
@@ -51,9 +55,13 @@ class Script:
         """All lines."""
         standard = sorted(m for m in self._modules if m == "import math" or "pathlib" in m)
         others = sorted(self._modules - set(standard))
+        needed = [
+            how for name, how in NEEDED.items() if any(name in m for m in [*others, *self._from])
+        ]
+        told = [f"# beside the explorer this takes: {how}" for how in needed]
         core = [f"from bearingcore import {', '.join(sorted(self._core))}"] if self._core else []
         core += [f"from {m} import {', '.join(sorted(n))}" for m, n in sorted(self._from.items())]
-        blocks = [block for block in (standard, others, core) if block]
+        blocks = [block for block in (told, standard, others, core) if block]
         return "\n\n".join("\n".join(block) for block in [*blocks, self._body]) + "\n"
 
     # The scene

@@ -16,6 +16,7 @@ import numpy as np
 
 from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
+from bearingcore.common.numbers import number, span
 from bearingcore.signals.files.facts import Finding
 from bearingcore.signals.files.units import STANDARD_GRAVITY, UNITS, VOLTAGES, kind_of
 
@@ -244,7 +245,9 @@ def _speed(text: str) -> float:
     value = number_of(bare, words, "rpm" if per_minute else unit, 0.0, math.inf)
     value = value / 60.0 if per_minute else value
     if not least <= value <= most:
-        raise ValueError(f"{words} of {value:g} Hz is not possible: {least:g} to {most:g} Hz are.")
+        raise ValueError(
+            f"{words} of {number(value, 6)} Hz is not possible: {span(least, most, 'Hz', 6)} are."
+        )
     return value
 
 
@@ -259,8 +262,12 @@ def number_of(text: str, words: str, unit: str, least: float, most: float) -> fl
     except ValueError:
         raise ValueError(f"{words} must be a number, not “{text[:20]}”.") from None
     if not math.isfinite(value) or not least <= value <= most:
-        span = f"{least:g} to {most:g}" if math.isfinite(most) else f"at least {least:g}"
-        raise ValueError(f"{words} is {value:g}; possible: {span}{f' {unit}' if unit else ''}.")
+        allowed = (
+            span(least, most, unit, 6).rstrip()
+            if math.isfinite(most)
+            else f"at least {number(least, 6)} {unit}".rstrip()
+        )
+        raise ValueError(f"{words} is {number(value, 6)}; possible: {allowed}.")
     return value
 
 

@@ -59,6 +59,10 @@ def load_distribution(
     )
 
 
+_DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot") * 2
+"""Of several grey curves, so that each can be told from the next."""
+
+
 def stiffness(
     state: Equilibrium,
     terms: Sequence[str] = ("k_xx", "k_yy"),
@@ -80,13 +84,13 @@ def stiffness(
     axes = Axes(style.CAGE_ANGLE, quantity)
     drawn = [
         hv.Curve((np.degrees(given.cage_angles), given.term(term)), _CAGE_ANGLE, value, label=label)
-        .opts(color=color, line_width=width)
+        .opts(color=color, line_width=width, line_dash=dash)
         for given, width in ((healthy, 1.5), (state, 2.0))
         if given is not None
-        for term, own in zip(terms, _COLORS, strict=False)
-        for label, color in (
-            [(TERM_SYMBOLS[term], own)] if given is state
-            else [(f"{TERM_SYMBOLS[term]} without the defect", style.HEALTHY)]
+        for term, own, grey_dash in zip(terms, _COLORS, _DASHES, strict=False)
+        for label, color, dash in (
+            [(TERM_SYMBOLS[term], own, "solid")] if given is state
+            else [(f"{TERM_SYMBOLS[term]} without the defect", style.HEALTHY, grey_dash)]
         )
     ]  # fmt: skip
     return hv.Overlay(drawn).opts(**curve_options(axes, legend_position="right"))

@@ -12,6 +12,8 @@ The array is, in float32:
     (range, start, end) for each range sent,
     the columns of the sources sent, one after the other.
 
+A range that somebody has zoomed into stays where it is; it only learns where to go back to.
+
 Whole numbers up to 2**24 pass through float32 unharmed; NaN passes as NaN, a gap in a line.
 A source whose numbers are those of last time is not sent again, so its figure is not repainted.
 
@@ -45,8 +47,13 @@ for (let i = 0; i < n_sources; i++, head += 3) {
   blocks.push([sources[p[head]], data])
 }
 // Ranges first: a figure then paints its new lines once, at their new places.
-for (let i = 0; i < n_ranges; i++, head += 3)
-  ranges[p[head]].setv({start: p[head + 1], end: p[head + 2]})
+for (let i = 0; i < n_ranges; i++, head += 3) {
+  const range = ranges[p[head]], start = p[head + 1], end = p[head + 2]
+  const {reset_start, reset_end} = range
+  const zoomed = reset_start !== null && (range.start !== reset_start || range.end !== reset_end)
+  const home = {reset_start: start, reset_end: end}
+  range.setv(zoomed ? home : {start, end, ...home})
+}
 for (const [source, data] of blocks)
   source.data = data
 window.__frames = (window.__frames || 0) + 1

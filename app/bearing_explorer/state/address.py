@@ -20,6 +20,8 @@ The rules of version 1, which later versions go on reading:
 - `race`, `edge`, `law`, `balls`, `dofs` (``auto`` or names with dots between) are words. `floor` is
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.
+- `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
+  between them, and ``~`` between rows. `name` is what a person calls the bearing.
 - `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
   open; alone it stands for the scene that the lesson begins with.
 - `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
@@ -44,6 +46,7 @@ from functools import cache, lru_cache
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from bearing_explorer.state.bearing_kinds import MOST_SHOWN_ROWS
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
 from bearing_explorer.state.quantities import (
     DEFECT_FIELDS,
@@ -57,7 +60,7 @@ from bearing_explorer.state.quantities import (
 )
 from bearing_explorer.state.quantities import read as read_number
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
-from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor
+from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor, clean_name
 from bearingcore import (
     DOF_NAMES,
     Defect,
@@ -68,6 +71,7 @@ from bearingcore import (
 )
 from bearingcore.model.bearings.drawing import OPTIONAL_FIELDS
 from bearingcore.model.floor import MOST_ROWS
+from bearingcore.model.rows import Row
 
 TOO_LONG = "too-long"
 """Version of an address that the server put in place of one that was far too long."""
@@ -86,13 +90,15 @@ FORMER_TABS = {"sizing": "diagnosis"}
 """What tabs were called in links that people have."""
 
 _OWN_WORDS = (
-    *("v", "preset", "defects", "selected", "dofs", "tab", CAGE_ANGLE),
+    *("v", "preset", "defects", "selected", "dofs", "tab", "rows", "name", CAGE_ANGLE),
     *(choice.name for choice in OF_SCENE),
 )
 _DEFECT_WORDS = (*(choice.name for choice in OF_DEFECT), "floor", "points")
 _OF_DEFECT = [q for q in QUANTITY_LIST if q.field in DEFECT_FIELDS]
 _OF_FLOOR = [q for q in QUANTITY_LIST if q.of == "floor"]
 _OF_SCENE = [q for q in QUANTITY_LIST if q.of == "scene" and q.field not in DEFECT_FIELDS]
+_MAY_BE_NONE = (*OPTIONAL_FIELDS, "roller_length")
+_OF_ROW = tuple(Row.__dataclass_fields__)
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(SI)?", re.IGNORECASE | re.ASCII)
 
 
@@ -110,6 +116,7 @@ class Place:
     cage_angle: float = 0.0
     tab: str = ""
     note: str = ""
+    name: str = ""
 
 
 def write(place: Place, longest: int | None = None) -> str:
@@ -162,7 +169,9 @@ def opened(text: str, editor: SceneEditor) -> Place:
         place = read(text)
         if place is not None:
             tab, note = place.tab, place.note
-            editor.take_scene(place.scene, place.preset, place.selected, place.cage_angle)
+            editor.take_scene(
+                place.scene, place.preset, place.selected, place.cage_angle, place.name
+            )
     except ValueError as error:
         what = str(error) if str(error).endswith(".") else refusal(error)
         note = f"The address could not be opened. {what} Shown is a bearing to begin with."
@@ -191,7 +200,8 @@ def holds_scene(text: str) -> bool:
 
 def place_of(editor: SceneEditor, tab: str = "") -> Place:
     """Where the editor stands."""
-    return Place(editor.scene, editor.preset, editor.selected, editor.values[CAGE_ANGLE], tab)
+    angle = editor.values[CAGE_ANGLE]
+    return Place(editor.scene, editor.preset, editor.selected, angle, tab, name=editor.own_name)
 
 
 # Writing
@@ -214,6 +224,10 @@ def _written(place: Place, without_floors: bool) -> str:
         value, was = _value(scene, quantity), _value(base, quantity)
         if value != was:
             pairs.append((quantity.name, number_text(quantity, value)))
+    if scene.bearing.rows != base.bearing.rows:
+        pairs.append(("rows", rows_text(scene.bearing.rows)))
+    if place.name:
+        pairs.append(("name", place.name))
     pairs += _choice_pairs(OF_SCENE, scene, base)
     if scene.dofs != base.dofs:
         pairs.append(("dofs", "auto" if scene.dofs is None else ".".join(scene.dofs)))
@@ -270,6 +284,13 @@ def number_text(quantity: Quantity, value: float | None) -> str:
     return _short(value) + "SI"
 
 
+def rows_text(rows: tuple[Row, ...]) -> str:
+    """Rows of balls as a word; `_rows` makes the very same of it."""
+    if not rows:
+        return "one"
+    return "~".join("_".join(_short(getattr(row, name)) for name in _OF_ROW) for row in rows)
+
+
 def _short(value: float) -> str:
     """The shortest text of a float, whole numbers without a point."""
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
@@ -324,6 +345,8 @@ def _read(given: dict[str, str]) -> Place:
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
     tab = FORMER_TABS.get(tab, tab)
+    name = clean_name(given.pop("name", ""))
+    rows = {"rows": _rows(given.pop("rows"))} if "rows" in given else {}
     defects, notes = [], []
     for number in range(count):
         own = {
@@ -342,7 +365,7 @@ def _read(given: dict[str, str]) -> Place:
         raise ValueError(f"“{_shown(next(iter(given)))}” is about a defect that is not there.")
     scene = dataclasses.replace(
         base,
-        bearing=_part(base.bearing, fields),
+        bearing=_part(base.bearing, fields, **rows),
         defect=defects[0] if count == 1 else tuple(defects),
         load=_part(base.load, fields),
         support=_part(base.support, fields),
@@ -350,7 +373,20 @@ def _read(given: dict[str, str]) -> Place:
         **_own_of(base, fields),
     )
     scene = scene.replace(**chosen) if chosen else scene
-    return Place(scene, preset, selected, cage_angle, tab[:40], " ".join(notes))
+    return Place(scene, preset, selected, cage_angle, tab[:40], " ".join(notes), name)
+
+
+def _rows(text: str) -> tuple[Row, ...]:
+    if text == "one":
+        return ()
+    rows: list[Row] = []
+    for word in text.split("~"):
+        numbers = [_parsed(number, "rows")[0] for number in word.split("_")]
+        if len(numbers) != len(_OF_ROW) or len(rows) == MOST_SHOWN_ROWS:
+            raise ValueError(f"“{_shown(text)}” are not the rows of a bearing.")
+        given = dict(zip(_OF_ROW, numbers, strict=True))
+        rows.append(Row(**{**given, "facing": int(given["facing"])}))  # type: ignore[arg-type]
+    return tuple(rows)
 
 
 def _own_of(part: Any, fields: Mapping[str, float | None]) -> dict[str, Any]:
@@ -360,10 +396,10 @@ def _own_of(part: Any, fields: Mapping[str, float | None]) -> dict[str, Any]:
     }
 
 
-def _part(part: Any, fields: Mapping[str, float | None]) -> Any:
-    own = _own_of(part, fields)
+def _part(part: Any, fields: Mapping[str, float | None], **others: Any) -> Any:
+    own = {**_own_of(part, fields), **others}
     for name, value in own.items():
-        if value is not None and name == "n_balls":
+        if name == "n_balls" and isinstance(value, float):
             own[name] = int(value) if value == int(value) else value
     return dataclasses.replace(part, **own)
 
@@ -391,7 +427,7 @@ def _defect(given: dict[str, str], usual: Defect) -> Defect:
 
 def _number(text: str, quantity: Quantity) -> float | None:
     """A number in SI; ValueError with a sentence where it is none."""
-    if text == "none" and (quantity.optional or quantity.field in OPTIONAL_FIELDS):
+    if text == "none" and (quantity.optional or quantity.field in _MAY_BE_NONE):
         return None
     value, is_si = _parsed(text, quantity.name)
     if is_si:

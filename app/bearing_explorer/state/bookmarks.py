@@ -159,7 +159,9 @@ class Bookmarks:
             self.say(f"“{asked.name}” is pinned: grey shows it beside every scene.")
             return True
         try:
-            self._editor.take_scene(found.scene, found.preset, found.selected, found.cage_angle)
+            self._editor.take_scene(
+                found.scene, found.preset, found.selected, found.cage_angle, found.name
+            )
         except ValueError as error:
             text = str(error)
             self.say(f"{asked.name}: {text if text.endswith('.') else refusal(error)}")

@@ -11,7 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from bearing_explorer.state.quantities import defects_of
-from bearingcore import MeasuredFloor, RoughFloor, Scene, preset_notes, presets
+from bearingcore import Bearing, MeasuredFloor, RoughFloor, Scene, preset_notes, presets
+
+NOTHING = object()
+"""What an option is in the core that is None there."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,8 @@ class Option:
     @property
     def value(self) -> Any:
         """What the field of the scene is then."""
+        if self.in_core is NOTHING:
+            return None
         return self.name if self.in_core is None else self.in_core
 
 
@@ -108,6 +113,14 @@ _PRESET_LABELS = {
     "7208-25deg": "7208, angular contact, 25°",
     "7208-40deg": "7208, angular contact, 40°",
     "seven-ball": "Seven balls, commercial code",
+    "6203": "6203, deep groove bearing",
+    "209": "209, deep groove bearing (Harris)",
+    "7208-back-to-back": "7208 pair, back to back (O)",
+    "7208-face-to-face": "7208 pair, face to face (X)",
+    "7208-tandem": "7208 pair, tandem",
+    "3208": "3208, double row, angular contact",
+    "1208": "1208, self-aligning",
+    "nu208": "NU 208, cylindrical rollers",
 }
 
 PRESET = Choice(
@@ -138,6 +151,21 @@ RACE = Choice(
     ),
     of="defect",
     field="race",
+    first=True,
+    beside_words=True,
+)
+
+ROW = Choice(
+    "row",
+    "Row",
+    "Defect",
+    (
+        Option("all", "All rows", "It reaches across all rows of balls.", NOTHING),
+        Option("1", "Row 1", "Only the balls of the first row meet it, lowest on the shaft.", 0),
+        Option("2", "Row 2", "Only the balls of the second row meet it.", 1),
+    ),
+    of="defect",
+    field="row",
     first=True,
     beside_words=True,
 )
@@ -264,7 +292,43 @@ NUMBERS = Choice(
     not_in_lessons=frozenset({"direct", "drawing"}),
 )
 
-CHOICE_LIST: tuple[Choice, ...] = (PRESET, RACE, EDGE, FLOOR, LAW, BALLS, NUMBERS)
+KIND = Choice(
+    "kind",
+    "Kind of bearing",
+    "",
+    (
+        Option("single", "One row of balls", "Deep groove, or angular contact with an angle."),
+        Option(
+            "back-to-back",
+            "Pair, back to back (O)",
+            "Two rows whose lines of contact meet the shaft far apart: stiff against tilt.",
+        ),
+        Option(
+            "face-to-face",
+            "Pair, face to face (X)",
+            "Two rows whose lines of contact meet the shaft close together: soft against tilt.",
+        ),
+        Option("tandem", "Pair, tandem", "Two rows that share an axial load one way."),
+        Option(
+            "self-aligning",
+            "Self-aligning, two rows",
+            "Two rows on one spherical outer race: the inner ring tilts freely, which is left to "
+            "the shaft's other bearing. Ball, sphere, inner groove and contact angle are given.",
+        ),
+        Option(
+            "rollers",
+            "Cylindrical rollers",
+            "Line contact between cylindrical races, stiff by Palmgren's formula for steel. Radial "
+            "loads only: axial loads and moments are taken out of the scene. Rollers do not tilt.",
+        ),
+    ),
+    first=True,
+    not_in_lessons=frozenset(
+        {"single", "back-to-back", "face-to-face", "tandem", "self-aligning", "rollers"}
+    ),
+)
+
+CHOICE_LIST: tuple[Choice, ...] = (*(PRESET, KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS),)
 """All choices, in the order in which several are taken."""
 
 CHOICES: Mapping[str, Choice] = {choice.name: choice for choice in CHOICE_LIST}
@@ -280,6 +344,15 @@ def floor_name(floor: object) -> str:
     return next((name for kind, name in kinds.items() if isinstance(floor, kind)), "flat")
 
 
+def kind_of(bearing: Bearing) -> str:
+    """The option of KIND that a bearing is; empty where it is none of them."""
+    if bearing.is_roller:
+        return "rollers"
+    if bearing.is_self_aligning:
+        return "self-aligning"
+    return bearing.arrangement if bearing.rows else "single"
+
+
 def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
     """The options that a scene has, of its `selected` defect where they are one's."""
     defect = defects_of(scene)[selected]
@@ -287,5 +360,6 @@ def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
         **{choice.name: choice.name_of(defect) for choice in OF_DEFECT},
         FLOOR.name: floor_name(defect.floor),
         **{choice.name: choice.name_of(scene) for choice in OF_SCENE},
+        KIND.name: kind_of(scene.bearing),
         NUMBERS.name: "drawing" if scene.bearing.is_drawn else "direct",
     }

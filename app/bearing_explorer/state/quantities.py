@@ -81,6 +81,8 @@ def values_of(scene: Scene, selected: int = 0) -> Values:
             values[quantity.name] = in_unit(quantity, _find(scene, defect, quantity.field))
         elif quantity.of == "floor":
             values[quantity.name] = in_unit(quantity, getattr(rough, quantity.last_name))
+        elif quantity.of == "rows":
+            values[quantity.name] = in_unit(quantity, getattr(scene.bearing, quantity.last_name))
         else:
             values[quantity.name] = 0.0
     return values
@@ -90,6 +92,8 @@ def _find(scene: Scene, defect: Defect, field: str) -> Any:
     if field in DEFECT_FIELDS:
         return getattr(defect, field)
     part = _PART_OF[field]
+    if field == "inner_groove_radius" and scene.bearing.is_self_aligning:
+        return scene.bearing.sphere_groove
     return getattr(getattr(scene, part) if part else scene, field)
 
 
@@ -147,6 +151,9 @@ def limits_of(base: Scene) -> dict[str, Limits]:
         CAGE_ANGLE: Limits(0.0, 360.0, 0.1),
         **{name: Limits(-force, force, force / 500.0, *pull) for name in ("fx_n", "fy_n", "fz_n")},
         **{name: Limits(-moment, moment, moment / 500.0, *turn) for name in ("mx_nm", "my_nm")},
+        "row_distance_mm": Limits(0.0, 100.0, 0.1, 0.0, 10_000.0),
+        "preload_um": Limits(0.0, 50.0, 0.1, 0.0, 1000.0),
+        "roller_length_mm": Limits(1.0, 100.0, 0.1, 0.0, 1000.0),
         "n_balls": Limits(3.0, 30.0, 1.0, 1.0, 100.0),
         "contact_angle_deg": Limits(0.0, 45.0, 0.5, 0.0, 80.0),
         "radial_clearance_um": Limits(0.0, 50.0, 0.1, 0.0, 1000.0),
@@ -169,7 +176,7 @@ _FIXED = frozenset(
     {quantity.name for quantity in QUANTITY_LIST if quantity.of != "scene"}
     | {quantity.name for quantity in QUANTITY_LIST if quantity.group in ("Defect", "Load")}
     | {"shaft_speed_hz", "n_balls", "contact_angle_deg", "radial_clearance_um"}
-    | {*GROOVES, "youngs_modulus_gpa", "poisson"}
+    | {*GROOVES, "youngs_modulus_gpa", "poisson", "roller_length_mm"}
 )
 
 
@@ -193,12 +200,12 @@ def read(name: str, given: object, limits: Mapping[str, Limits]) -> float:
     except ValueError:
         value = math.nan
     unit = _unit(quantity.unit)
-    span = f"{least:g} to {most:g}{unit}".replace("-", "−")
+    span = f"{number(least, 6)} to {number(most, 6)}{unit}"
     if not math.isfinite(value):
         shown = f"“{text}” is not a number" if text else "A number is missing"
         raise ValueError(f"{shown}: {_named(quantity)} goes from {span}.")
     if not least <= value <= most:
-        shown = f"{value:g}{unit}".replace("-", "−")
+        shown = f"{number(value, 6)}{unit}"
         raise ValueError(f"{shown} is out of range: {_named(quantity)} goes from {span}.")
     return value
 

@@ -14,8 +14,9 @@ class Quantity:
     """One number of the page.
 
     `field` says what it is of: a name that `Scene.replace` knows, ``floor.`` and the name of a
-    field of a `RoughFloor`, or nothing where it is no part of the scene. `unit_si` is how much one
-    unit is in SI; `symbol` and `about` may hold simple HTML. `optional`: it may be left open.
+    field of a `RoughFloor`, ``rows.`` and a property of a bearing of two rows, or nothing where it
+    is no part of the scene. `unit_si` is how much one unit is in SI; `symbol` and `about` may hold
+    simple HTML. `optional`: it may be left open.
     """
 
     name: str
@@ -30,7 +31,7 @@ class Quantity:
 
     @property
     def of(self) -> str:
-        """What the field belongs to: "scene", "floor" or nothing."""
+        """What the field belongs to: "scene", "floor", "rows" or nothing."""
         head, _, tail = self.field.partition(".")
         return head if tail else "scene" if head else ""
 
@@ -117,7 +118,7 @@ _TURNING = (
         "Hz",
         2.0 * math.pi,
         "Turning",
-        "Scheduler of the shaft a second. Static answers do not depend on it.",
+        "Turns of the shaft a second. Static answers do not depend on it.",
     ),
     Quantity(
         CAGE_ANGLE,
@@ -214,6 +215,39 @@ _BALLS = (
         1e-3,
         "Balls",
         "Diameter of the circle on which the centres of the balls run.",
+    ),
+    Quantity(
+        "roller_length_mm",
+        "roller_length",
+        "Roller length",
+        "l",
+        "mm",
+        1e-3,
+        "Balls",
+        "Length of a roller that lies on the races: the longer, the stiffer.",
+    ),
+)
+
+_ROWS = (
+    Quantity(
+        "row_distance_mm",
+        "rows.row_distance",
+        "Distance of the rows",
+        "a",
+        "mm",
+        1e-3,
+        "Rows",
+        "From the centre of one row of balls to that of the other, along the shaft.",
+    ),
+    Quantity(
+        "preload_um",
+        "rows.preload",
+        "Axial preload",
+        "",
+        "µm",
+        1e-6,
+        "Rows",
+        "How far the inner grooves of both rows are pushed against each other along the shaft.",
     ),
 )
 
@@ -434,7 +468,7 @@ _CONTACT_DAMPING = (
 )
 
 SCENE_GROUPS = ("Defect", "Turning", "Load")
-BEARING_GROUPS = ("Balls", "Drawing", "Contact", "Races")
+BEARING_GROUPS = ("Balls", "Rows", "Drawing", "Contact", "Races")
 MODEL_GROUPS = ("Bodies", "Contact of a moving ball", "Support, stiffness", "Support, damping")
 
 QUANTITY_LIST: tuple[Quantity, ...] = (
@@ -442,6 +476,7 @@ QUANTITY_LIST: tuple[Quantity, ...] = (
     *_TURNING,
     *_LOAD,
     *_BALLS,
+    *_ROWS,
     *_DRAWING,
     *_CONTACT,
     *_RACES,

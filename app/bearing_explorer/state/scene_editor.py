@@ -13,10 +13,17 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from bearing_explorer.state.choice_list import CHOICE_LIST, Choice, chosen_of
+from bearing_explorer.state.bearing_draft import OF_BEARING, faults_of, words_of
+from bearing_explorer.state.bearing_kinds import (
+    MOST_SHOWN_ROWS,
+    as_kind,
+    hidden_of,
+    scene_with,
+)
+from bearing_explorer.state.bearing_list import BearingTable, origin_words
+from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice, chosen_of
 from bearing_explorer.state.quantities import (
     FIRST_ROUGHNESS,
-    GROOVES,
     QUANTITIES,
     Limits,
     Values,
@@ -32,6 +39,7 @@ from bearing_explorer.state.quantities import (
     values_of,
 )
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST
+from bearing_explorer.state.twins import twins_of
 from bearingcore import (
     DOF_NAMES,
     Bearing,
@@ -39,26 +47,21 @@ from bearingcore import (
     MeasuredFloor,
     RoughFloor,
     Scene,
+    preset_notes,
     presets,
     read_floor,
 )
 from bearingcore.model.bearings.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
 
 MOST_DEFECTS = 6
+LONGEST_NAME = 60
+"""Characters of the name of a bearing."""
 LARGEST_FILE = 1_000_000
 """Characters of a file with a measured floor."""
 
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _NO_FILE = "No file yet: the floor is flat."
 _OF_FLOOR = [quantity for quantity in QUANTITY_LIST if quantity.of == "floor"]
-_DRAWN_ONLY = (*GROOVES, "youngs_modulus_gpa", "poisson")
-_DERIVED = (
-    "groove_center_distance_um",
-    "groove_center_radius_mm",
-    "load_deflection_factor",
-    "outer_raceway_radius_mm",
-    "inner_raceway_radius_mm",
-)
 
 Refused = dict[str, str]
 """Sentences by the names of the controls that they belong to."""
@@ -88,6 +91,8 @@ class Snapshot:
     preset: str
     cage_angle: float
     kinds: tuple[str, ...]
+    own_name: str
+    origin: str
     selected: int = field(compare=False)
     values: Values = field(compare=False)
     limits: dict[str, Limits] = field(compare=False)
@@ -104,6 +109,15 @@ class SceneEditor:
     limits: dict[str, Limits] = field(init=False)
     selected: int = field(init=False)
     floors: list[FloorChoice] = field(init=False)
+    own_name: str = field(init=False, default="")
+    """What a person calls the bearing; empty where nobody has named it."""
+    origin: str = field(init=False, default="")
+    """Where its numbers come from, of a bearing out of a list."""
+    draft: Values = field(init=False, default_factory=dict)
+    """Dimensions that were entered and wait until they fit together."""
+    faults: Refused = field(init=False, default_factory=dict)
+    listed: BearingTable = field(init=False, default_factory=BearingTable)
+    """Bearings by designation."""
 
     def __post_init__(self) -> None:
         self.take_preset(self.preset)
@@ -112,6 +126,8 @@ class SceneEditor:
         """Back to the numbers of a preset."""
         self.preset = name
         self.scene = presets[name]
+        self.own_name = self.origin = ""
+        self.drop_draft()
         self.selected = 0
         self.floors = [_choice_of(defect) for defect in self.defects]
         self.limits = limits_of(self.scene)
@@ -119,7 +135,12 @@ class SceneEditor:
         self._write_values(cage_angle=0.0)
 
     def take_scene(
-        self, scene: Scene, preset: str = "", selected: int = 0, cage_angle: float = 0.0
+        self,
+        scene: Scene,
+        preset: str = "",
+        selected: int = 0,
+        cage_angle: float = 0.0,
+        name: str = "",
     ) -> None:
         """Show a scene that comes from a link or a file, at a cage angle in degrees.
 
@@ -132,6 +153,9 @@ class SceneEditor:
         defects = [_turned(defect) for defect in defects_of(scene)]
         if len(defects) > MOST_DEFECTS:
             raise ValueError(f"defects are {len(defects)}; allowed here: at most {MOST_DEFECTS}")
+        if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
+            rows = len(scene.bearing.all_rows)
+            raise ValueError(f"rows of balls are {rows}; allowed here: at most {MOST_SHOWN_ROWS}")
         if not 0 <= selected < len(defects):
             raise ValueError(f"selected is defect {selected + 1} of {len(defects)}")
         scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
@@ -139,6 +163,8 @@ class SceneEditor:
         for number in range(len(defects)):
             check_values({**values_of(scene, number), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
+        self.own_name, self.origin = clean_name(name), ""
+        self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
         self.limits = limits
         self.values = {}
@@ -151,6 +177,8 @@ class SceneEditor:
             preset=self.preset,
             cage_angle=self.values[CAGE_ANGLE],
             kinds=tuple(floor.kind for floor in self.floors),
+            own_name=self.own_name,
+            origin=self.origin,
             selected=self.selected,
             values=dict(self.values),
             limits=dict(self.limits),
@@ -160,6 +188,8 @@ class SceneEditor:
     def restore(self, kept: Snapshot) -> None:
         """All as it was when the snapshot was taken."""
         self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
+        self.own_name, self.origin = kept.own_name, kept.origin
+        self.drop_draft()
         self.values, self.limits = dict(kept.values), dict(kept.limits)
         self.floors = [dataclasses.replace(floor) for floor in kept.floors]
 
@@ -172,6 +202,35 @@ class SceneEditor:
     def changed(self) -> bool:
         """Whether the bearing is no longer that of the preset."""
         return self.scene.bearing != presets[self.preset].bearing
+
+    @property
+    def name(self) -> str:
+        """What the bearing is called: by whoever named it, else by the preset it began from."""
+        label = next((o.label for o in PRESET.options if o.name == self.preset), self.preset)
+        return self.own_name or (f"{label}, changed" if self.changed else label)
+
+    @property
+    def note(self) -> str:
+        """Where the numbers of the bearing come from."""
+        if not self.changed:
+            return preset_notes.get(self.preset, "")
+        begun = f"Begun from “{self.preset}”; its numbers have been changed since, so that the "
+        return self.origin or begun + "sources of that bearing do not stand for this one."
+
+    def drop_draft(self) -> None:
+        """Forget the dimensions that wait."""
+        self.draft, self.faults = {}, {}
+
+    def take_bearing(self, bearing: Bearing, name: str, origin: str) -> None:
+        """Put a bearing out of a list in the place of the one that is shown.
+
+        ValueError, and nothing changed, where the scene's defects do not go with it.
+        """
+        self._take(scene_with(self.scene, bearing))
+        self.limits = limits_of(self.scene)
+        self._write_values()
+        self.own_name, self.origin = clean_name(name), origin
+        self.drop_draft()
 
     @property
     def focus(self) -> int:
@@ -191,10 +250,21 @@ class SceneEditor:
                 taken[str(name)] = read(str(name), value, self.limits)
             except ValueError as error:
                 refused[str(name)[:60]] = str(error)
+        whole = dict(taken)
+        if any(name in OF_BEARING for name in taken):
+            whole = {**{n: v for n, v in self.draft.items() if n not in taken}, **taken}
         try:
-            scene = self._scene_with(taken)
+            scene = self._scene_with(whole)
         except ValueError as error:
-            return refused | {name: refusal(error) for name in taken}, {}
+            waiting = {n: v for n, v in whole.items() if n in OF_BEARING}
+            if not waiting:
+                return refused | {name: refusal(error) for name in taken}, {}
+            self.draft = waiting
+            self.faults = faults_of(self.scene.bearing, waiting, error)
+            return refused | self.faults, {}
+        if whole is not taken and any(name in OF_BEARING for name in taken):
+            taken = whole
+            self.drop_draft()
         before = self.values
         self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
         self.values |= taken
@@ -208,13 +278,19 @@ class SceneEditor:
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
         rough: dict[str, Any] = {}
+        rows: dict[str, Any] = {}
         for name, value in taken.items():
             quantity = QUANTITIES[name]
             if quantity.of == "scene":
                 fields[quantity.field] = in_si(quantity, value)
             elif quantity.of == "floor":
                 rough[quantity.last_name] = in_si(quantity, value)
+            elif quantity.of == "rows":
+                rows[quantity.last_name] = in_si(quantity, value)
         bearing = self.scene.bearing
+        if bearing.is_self_aligning and "ball_diameter" in fields:
+            ratio = fields["ball_diameter"] / bearing.ball_diameter
+            fields.setdefault("inner_groove_radius", bearing.sphere_groove * ratio)
         if "ball_diameter" in fields and bearing.is_drawn:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
@@ -226,6 +302,9 @@ class SceneEditor:
             if choice.kind == "rough":
                 fields["floor"] = floor
         scene = scene_with_fields(self.scene, fields, self.selected)
+        if rows:
+            spaced = scene.bearing.respaced(rows.get("row_distance"), rows.get("preload"))
+            scene = scene.replace(bearing=spaced)
         if rough:
             choice.rough = floor
         return scene
@@ -264,6 +343,7 @@ class SceneEditor:
             "preset": self.take_preset,
             "floor": self._take_floor_kind,
             "numbers": self._take_numbers,
+            "kind": self._take_kind,
         }
         for known in CHOICE_LIST:
             name = _one_of(choice.get(known.name), known.names)
@@ -272,6 +352,12 @@ class SceneEditor:
                 refused |= self._tried(known.name, act, name)
         if isinstance(defect := choice.get("defect"), str):
             refused |= self._tried("defect", self._take_defect, defect)
+        if isinstance(name := choice.get("name"), str):
+            self.own_name = clean_name(name)
+        if isinstance(listed := choice.get("bearing"), str):
+            refused |= self._tried("bearing", self._take_listed, listed)
+        if choice.get("draft") == "discard":
+            self.drop_draft()
         if isinstance(dofs := choice.get("dofs"), str):
             refused |= self._tried("dofs", self._take_dofs, dofs[:40])
         return refused
@@ -295,6 +381,17 @@ class SceneEditor:
         self._with_defects(
             [dataclasses.replace(defect, **fields) for defect in self.defects], self.selected
         )
+
+    def _take_listed(self, name: str) -> None:
+        found = self.listed.find(name)
+        origin = origin_words(found, found.name in self.listed.own)
+        self.take_bearing(found.bearing, found.name, origin)
+
+    def _take_kind(self, kind: str) -> None:
+        self._take(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
+        self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
+        self._write_values()
+        self.drop_draft()
 
     def _take_floor_kind(self, kind: str) -> None:
         floors = self.floors[self.selected]
@@ -369,10 +466,16 @@ class SceneEditor:
             )
             return
         floor, extent, depth, center = found
-        turned = center % (2.0 * math.pi)
+        stays = math.degrees(self.defects[self.selected].center) % 360.0
+        of_file = math.degrees(center) % 360.0
         words = f"{shown}: {len(floor.places)} points"
+        if abs(math.remainder(of_file - stays, 360.0)) > 0.05:
+            words += (
+                f". Its middle is at {of_file:.4g}° in the file; the defect stays at {stays:.4g}°, "
+                "where Centre moves it"
+            )
         try:
-            self._change(floor=floor, extent=extent, depth=depth, center=turned)
+            self._change(floor=floor, extent=extent, depth=depth)
         except ValueError as error:
             self.floors[self.selected] = dataclasses.replace(
                 choice, kind="measured", words=f"{shown}: {refusal(error)}", bad=True
@@ -387,21 +490,29 @@ class SceneEditor:
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
         """All that the browser needs to know; `values` asks for those alone."""
         wanted = self.values if values is None else {name: self.values[name] for name in values}
+        shown = {name: self.draft.get(name, v) for name, v in wanted.items()}
         state: dict[str, Any] = {
-            "values": {name: None if math.isnan(v) else v for name, v in wanted.items()},
+            "values": {name: None if math.isnan(v) else v for name, v in shown.items()},
             "limits": {
                 name: {"least": limit.least, "most": limit.most, "step": limit.step}
                 for name, limit in self.limits.items()
                 if name in wanted
             },
             "changed": self.changed,
+            "twins": twins_of(self.scene, self.selected, self.draft),
+            "draft": {
+                "waiting": list(self.draft),
+                "faults": self.faults,
+                "words": words_of(self.draft),
+            },
+            "bearing": {"name": self.name, "own": self.own_name, "note": self.note},
         }
         return state if values is not None else state | self._choices_state()
 
     def _choices_state(self) -> dict[str, Any]:
         scene, floor = self.scene, self.floors[self.selected]
         hidden = [] if floor.kind == "rough" else [quantity.name for quantity in _OF_FLOOR]
-        hidden += _DERIVED if scene.bearing.is_drawn else _DRAWN_ONLY
+        hidden += hidden_of(scene.bearing)
         return {
             "choices": {
                 **chosen_of(scene, self.selected),
@@ -435,11 +546,17 @@ def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | No
         return None, f"{error}."
 
 
+def clean_name(text: str) -> str:
+    """A name for a bearing out of what a stranger wrote: short and on one line, or empty."""
+    clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
+    return " ".join(clean.split())[:LONGEST_NAME].rstrip()
+
+
 def drawn(bearing: Bearing) -> Bearing:
     """A bearing of steel with a drawing that is nearest to its numbers, grooves alike."""
     groove = 0.5 * (bearing.groove_center_distance + bearing.ball_diameter)
     groove = min(groove, WIDEST_CONFORMITY * bearing.ball_diameter)
-    return Bearing.from_drawing(
+    made = Bearing.from_drawing(
         n_balls=bearing.n_balls,
         ball_diameter=bearing.ball_diameter,
         pitch_diameter=bearing.pitch_diameter,
@@ -448,6 +565,7 @@ def drawn(bearing: Bearing) -> Bearing:
         contact_angle=bearing.contact_angle,
         diametral_clearance=2.0 * bearing.radial_clearance,
     )
+    return dataclasses.replace(made, rows=bearing.rows)
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

@@ -31,6 +31,7 @@ from bokeh.models import Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.export.python_lines import lines_of
+from bearing_explorer.figures.zoom import zoomable
 from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
 from bearingcore.common.table import as_csv
@@ -66,6 +67,9 @@ class Caption(LiveComponent):
     #: a small one: a title that leads to the tab of this name, and what there is to say
     compact = param.Boolean(default=False)
     leads_to = param.String()
+
+    #: whether there are no numbers behind it yet, so that none are offered
+    empty = param.Boolean(default=False)
 
     _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
@@ -120,6 +124,8 @@ class View:
     needs: ClassVar[frozenset[str]]
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
+    #: whether its figures are drawings, in which circles are round
+    equal_aspect: ClassVar[bool] = False
     #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
     plans: ClassVar[tuple[str, ...]] = ()
     #: whether it stands in a report; one without `needs` only with what its job has found
@@ -160,6 +166,7 @@ class View:
             for tool in plot.toolbar.tools:
                 if isinstance(tool, SaveTool):
                     tool.filename = f"bearing-{self.name}"
+            zoomable(plot, self.equal_aspect)
         self.panel: pn.viewable.Viewable = pn.Column(
             self._caption,
             body,
@@ -196,6 +203,7 @@ class View:
         """
         self._results = results or self._results
         self._sentence.put(text=sentence)
+        self._caption.put(empty=self.is_empty)
         if results is not None and self.compares:
             self._caption.put(pinned=results.pinned.name if results.pinned else "")
 
@@ -203,6 +211,11 @@ class View:
     def compares(self) -> bool:
         """Whether it draws something in grey beside the scene."""
         return any(name.startswith("healthy_") for name in self.needs)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there are no numbers behind the figure: views of jobs before the first."""
+        return False
 
     def csv(self) -> str:
         """The table of what is drawn now as comma-separated values; empty before the first."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.compute.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.figures import style
+from bearing_explorer.figures.element_words import element_name, elements
 from bearing_explorer.figures.heat_map import color_bar
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
@@ -20,7 +21,7 @@ from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-    from bearingcore import Load, Scene
+    from bearingcore import Bearing, Load, Scene
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
 HALF_WIDTH = 1.56
@@ -29,6 +30,8 @@ BAR_LENGTH = 0.32  # of a ball that carries the greatest load of the colour bar
 TOP_LINE, LINE_HEIGHT = 1.47, 0.1
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
+
+POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
 
 # pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
 LOAD_PALETTE = list(magma(256))[40:246][::-1]
@@ -49,12 +52,16 @@ _SCALE_WORDS = """
 return row.scale > 0 ? `Defect drawn ${row.scale >= 1 ? row.scale : rounded(row.scale, 2)}× as deep`
                      : 'No defect'
 """
+_ROW_WORDS = """
+return `Row ${row.row} at z = ${rounded(1000*row.place, 3)} mm`
+"""
 _EQUAL_ASPECT = """
-const w = plot.inner_width, h = plot.inner_height
+let w = 0, h = 0
+try { w = plot.inner_width; h = plot.inner_height } catch { return }  // not laid out yet
 if (!(w > 0 && h > 0)) return
-const x = half*Math.max(1, w/h), y = half*Math.max(1, h/w)
-plot.x_range.setv({start: -x, end: x})
-plot.y_range.setv({start: -y, end: y})
+const unit = Math.min(w/shown.end, h/half), x = w/unit, y = h/unit
+plot.x_range.setv({start: -x, end: x, reset_start: -x, reset_end: x})
+plot.y_range.setv({start: -y, end: y, reset_start: -y, reset_end: y})
 """
 
 
@@ -64,11 +71,12 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "What the balls carry now, seen along the shaft. Bars and colours: their loads. Grey rim:"
-        " the same without the defect. Arrow: the load on the shaft. The keyway turns with the "
-        "shaft; z points towards you."
+        "What the balls carry now, seen along the shaft, several rows side by side. Bars and "
+        "colours: their loads. Grey rim: the same without the defect. Arrow: the load on the "
+        "shaft. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
+    equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
     #: where it says how deep the defect is drawn
@@ -81,7 +89,9 @@ class BearingDrawing(View):
         plot = self._figure(
             Range1d(-half, half, syncable=False), Range1d(-half, half, syncable=False)
         )
-        aspect = CustomJS(args={"plot": plot, "half": half}, code=_EQUAL_ASPECT)
+        shown = packed.range(f"{self.prefix}_width", -half, half)
+        aspect = CustomJS(args={"plot": plot, "half": half, "shown": shown}, code=_EQUAL_ASPECT)
+        shown.js_on_change("end", aspect)
         plot.js_on_change("inner_width", aspect)
         plot.js_on_change("inner_height", aspect)
         colors = LinearColorMapper(
@@ -191,6 +201,15 @@ class BearingDrawing(View):
             line_color="#6B7480",
             line_width=1.2,
         )
+        plot.circle(
+            "x",
+            "y",
+            radius="radius",
+            source=packed.source(f"{self.prefix}_roller_ends", "x", "y", "radius"),
+            fill_color=None,
+            line_color="#6B7480",
+            line_width=1.0,
+        )
         plot.text(
             "x",
             "y",
@@ -218,6 +237,15 @@ class BearingDrawing(View):
         }
         loads = packed.source(f"{self.prefix}_load_words", "x", "y", "kind", "value", "angle")
         plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
+        rows = packed.source(f"{self.prefix}_row_words", "x", "y", "row", "place")
+        plot.text(
+            "x",
+            "y",
+            text=style.words_of(rows, _ROW_WORDS),
+            source=rows,
+            text_align="center",
+            **look,
+        )
         scale = packed.source(f"{self.prefix}_scale_words", "x", "y", "scale")
         plot.text(
             "x",
@@ -229,51 +257,79 @@ class BearingDrawing(View):
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        scene, load = results.scene, results.now.ball_load[0]
+        scene, now = results.scene, results.now
         load_range = self._load_range.fit(
             results.equilibrium.ball_load, results.healthy_equilibrium.ball_load
         )
         top = load_range[1]
-        drawn = Shapes(scene, results.cage_angle)
+        rows = scene.bearing.all_rows
+        wide = HALF_WIDTH * len(rows)
+        healthy = results.healthy_load_curves
+        several: list[Sources] = []
+        for row in range(len(rows)):
+            own = slice(row * scene.bearing.n_balls, (row + 1) * scene.bearing.n_balls)
+            load = now.ball_load[0, own]
+            drawn = Shapes(scene, results.cage_angle, row)
+            drop = {race: drops[own] for race, drops in results.drop.items()}
+            balls = drawn.balls(drop, load)
+            shapes = {
+                "rings": drawn.rings(),
+                "defect": drawn.defects(),
+                "marks": drawn.angle_marks(),
+                "balls": balls,
+                "roller_ends": roller_ends(scene, balls),
+                "bars": drawn.bars(load, top),
+                "arrow": drawn.load_arrow(),
+                "healthy_loads": drawn.load_rim(*healthy[row], top)
+                if row < len(healthy)  # a pinned scene may have fewer rows
+                else polar(),
+            }
+            several.append(moved(shapes, (2 * row + 1) * HALF_WIDTH - wide))
         sources = {
-            f"{self.prefix}_rings": drawn.rings(),
-            f"{self.prefix}_defect": drawn.defects(),
-            f"{self.prefix}_marks": drawn.angle_marks(),
-            f"{self.prefix}_balls": drawn.balls(results.drop, load),
-            f"{self.prefix}_bars": drawn.bars(load, top),
-            f"{self.prefix}_healthy_loads": drawn.load_rim(*results.healthy_load_curve, top),
-            f"{self.prefix}_arrow": drawn.load_arrow(),
-            f"{self.prefix}_load_words": load_words(scene.load),
+            f"{self.prefix}_{name}": one_after_other(
+                [one[name] for one in several], gaps=name in POLYGONS
+            )
+            for name in several[0]
+        }
+        sources |= {
+            f"{self.prefix}_load_words": load_words(scene.load, wide),
+            f"{self.prefix}_row_words": row_words(scene, wide),
             f"{self.prefix}_scale_words": {
-                "x": np.array([HALF_WIDTH]),
-                "y": np.array([self.scale_line]),
+                "x": np.array([wide]),
+                "y": load_words(scene.load, wide)["y"][:1] + self.scale_line - TOP_LINE,
                 "scale": np.array([drawn.depth_scale]),
             },
         }
-        return sources, {f"{self.prefix}_load": load_range}
+        return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
 
     def sentence(self, results: Results) -> str:
         now = results.now
         where = f"With the cage at {style.in_degrees(results.cage_angle)}"
-        n_balls = results.scene.bearing.n_balls
+        bearing = results.scene.bearing
+        total, names = bearing.total_balls, elements(bearing)
         load = now.ball_load[0]
         if not np.all(np.isfinite(load)):
             return f"{where} there is no equilibrium to draw: {now.reason(0)}."
-        inside = np.flatnonzero(results.drop["outer"] + results.drop["inner"] > 0.0) + 1
+        drop = results.drop["outer"] + results.drop["inner"]
+        inside = _inside_words(bearing, np.flatnonzero(drop > 0.0))
         loaded = int(now.loaded_balls[0])
         if loaded == 0:
-            return f"{where} none of the {n_balls} balls carries load{_inside_words(inside)}."
+            return f"{where} none of the {total} {names} carries load{inside}."
         most = int(np.argmax(load))
         return (
-            f"{where}, {loaded} of {n_balls} balls {'carry' if loaded > 1 else 'carries'} load; "
-            f"ball {most + 1} carries the most, {style.with_prefix(load[most], 'N')} at "
-            f"{style.in_degrees(now.ball_angle[0, most])}{_inside_words(inside)}."
+            f"{where}, {loaded} of {total} {names} {'carry' if loaded > 1 else 'carries'} load; "
+            f"{element_name(bearing, most)} carries the most, "
+            f"{style.with_prefix(load[most], 'N')} at "
+            f"{style.in_degrees(now.ball_angle[0, most])}{inside}."
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         now = results.now
         return {
-            "ball": np.arange(1, results.scene.bearing.n_balls + 1),
+            "row": 1
+            + np.arange(results.scene.bearing.total_balls) // results.scene.bearing.n_balls,
+            "ball": 1
+            + np.arange(results.scene.bearing.total_balls) % results.scene.bearing.n_balls,
             "ball_angle_deg": np.degrees(now.ball_angle[0]),
             "ball_load_n": now.ball_load[0],
             "contact_angle_deg": np.degrees(now.contact_angle[0]),
@@ -282,18 +338,66 @@ class BearingDrawing(View):
         }
 
 
-def _inside_words(balls: NDArray[np.int64]) -> str:
+def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
+    """Which balls, counted from 0, are in a defect, row by row."""
     if balls.size == 0:
         return ""
-    names = style.list_words([str(ball) for ball in balls])
-    return f"; {'ball' if balls.size == 1 else 'balls'} {names} {_in_defect(balls.size)}"
+    told = []
+    for row in range(len(bearing.all_rows)):
+        own = balls[balls // bearing.n_balls == row] % bearing.n_balls + 1
+        if own.size:
+            of_row = f" of row {row + 1}" if bearing.rows else ""
+            names = style.list_words([str(ball) for ball in own])
+            told.append(f"{elements(bearing, own.size)} {names}{of_row}")
+    return f"; {style.list_words(told)} {_in_defect(balls.size)}"
 
 
 def _in_defect(count: int) -> str:
     return "is in the defect" if count == 1 else "are in the defect"
 
 
-def load_words(load: Load) -> dict[str, np.ndarray]:
+def moved(shapes: Sources, to_right: float) -> Sources:
+    """Shapes moved to the right, all their columns that say where."""
+    return {
+        name: {
+            column: values + to_right if column in ("x", "x0", "x1") else values
+            for column, values in columns.items()
+        }
+        for name, columns in shapes.items()
+    }
+
+
+def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
+    """Columns of several shapes as one, polygons with NaN between those that are not empty."""
+    if not gaps:
+        return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}
+    parts = [part for part in parts if part["x"].size] or parts[:1]
+    gap = np.array([np.nan])
+    return {
+        column: np.concatenate([piece for part in parts for piece in (part[column], gap)][:-1])
+        for column in parts[0]
+    }
+
+
+def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The rim of a roller's end, which a ball has not."""
+    kept = slice(None) if scene.bearing.is_roller else slice(0)
+    return {"x": balls["x"][kept], "y": balls["y"][kept], "radius": 0.72 * balls["radius"][kept]}
+
+
+def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
+    """Which row is which and where on the shaft, below each; nothing of a single row."""
+    rows = scene.bearing.rows
+    number = np.arange(float(len(rows)))
+    return {
+        "x": (2.0 * number + 1.0) * HALF_WIDTH - wide,
+        "y": np.full(number.size, -HALF_WIDTH - 0.12),
+        "row": number + 1.0,
+        "place": np.array([row.place for row in rows], dtype=float),
+    }
+
+
+def load_words(load: Load, wide: float = HALF_WIDTH) -> dict[str, np.ndarray]:
     """Rows of text in the corner: the radial load always, the others where there are any."""
     radial = (math.hypot(load.fx, load.fy), math.degrees(math.atan2(load.fy, load.fx)) % 360.0)
     rows = [(0, *radial)]
@@ -303,9 +407,12 @@ def load_words(load: Load) -> dict[str, np.ndarray]:
         if value != 0.0
     ]
     kind, value, angle = np.array(rows, dtype=float).T
+    # several rows of balls are drawn smaller, with room above them
+    line = LINE_HEIGHT * wide / HALF_WIDTH
+    above = 0 if wide == HALF_WIDTH else kind.size
     return {
-        "x": np.full(kind.size, -HALF_WIDTH),
-        "y": TOP_LINE - LINE_HEIGHT * np.arange(kind.size),
+        "x": np.full(kind.size, -wide),
+        "y": TOP_LINE + line * (above - np.arange(kind.size)),
         "kind": kind,
         "value": value,
         "angle": angle,
@@ -313,15 +420,15 @@ def load_words(load: Load) -> dict[str, np.ndarray]:
 
 
 class Shapes:
-    """Shapes of one scene at one cage angle [rad], lengths in outer raceway radii.
+    """Shapes of one row of a scene at one cage angle [rad], lengths in outer raceway radii.
 
     Shapes of several parts are one polygon with NaN between the parts; a part inside another is a
     hole in it.
     """
 
-    def __init__(self, scene: Scene, cage_angle: float) -> None:
+    def __init__(self, scene: Scene, cage_angle: float, row: int = 0) -> None:
         bearing = scene.bearing
-        self.scene, self.cage_angle = scene, cage_angle
+        self.scene, self.cage_angle, self.row = scene, cage_angle, row
         self.unit = bearing.outer_raceway_radius
         self.ball = bearing.ball_radius / self.unit
         self.inner_race = bearing.inner_raceway_radius / self.unit
@@ -329,8 +436,8 @@ class Shapes:
         self.pitch = 0.5 * (1.0 + self.inner_race)
         self.rim = 1.0 + 1.1 * min(self.ball, 0.18)
         self.bore = max(self.inner_race - 1.1 * self.ball, 0.35 * self.inner_race)
-        self.spans = spans(scene, cage_angle)
-        deepest = max((span.depth for span in self.spans), default=0.0)
+        self.spans = spans(scene, cage_angle, row)
+        deepest = max((defect.depth for defect in scene.defects), default=0.0)
         self.depth_scale = (
             round_down(DRAWN_DEPTH * self.ball * self.unit / deepest) if deepest > 0.0 else 0.0
         )
@@ -341,7 +448,7 @@ class Shapes:
     def _race(self, race: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Angle and radius along a race with its defects, exaggerated."""
         angle = race_angles(self.spans, race)
-        depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle))
+        depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle, self.row))
         return angle, 1.0 + depth if race == "outer" else self.inner_race - depth
 
     def rings(self) -> dict[str, np.ndarray]:
@@ -370,7 +477,7 @@ class Shapes:
             angle = np.linspace(span.start, span.start + span.extent, 121)
             race, outwards = (1.0, 1.0) if span.race == "outer" else (self.inner_race, -1.0)
             inside = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
-            depth = race_depth(self.scene, self.cage_angle, span.race, inside)
+            depth = race_depth(self.scene, self.cage_angle, span.race, inside, self.row)
             floor = race + outwards * self._drawn(depth)
             parts.append(
                 (
@@ -383,7 +490,9 @@ class Shapes:
     def angle_marks(self) -> dict[str, np.ndarray]:
         """0°, 90°, 180° and 270° on the outer ring."""
         degrees = np.array([0.0, 90.0, 180.0, 270.0])
-        deepest = self._drawn(race_depth(self.scene, self.cage_angle, "outer", np.radians(degrees)))
+        deepest = self._drawn(
+            race_depth(self.scene, self.cage_angle, "outer", np.radians(degrees), self.row)
+        )
         radius = 0.5 * (1.0 + deepest + self.rim)
         return {
             "x": radius * np.cos(np.radians(degrees)),
@@ -396,7 +505,7 @@ class Shapes:
         """Angle of each ball [rad]."""
         bearing = self.scene.bearing
         offsets = bearing.ball_spacing * np.arange(bearing.n_balls, dtype=np.float64)
-        return self.cage_angle + offsets
+        return self.cage_angle + bearing.all_rows[self.row].turn + offsets
 
     def balls(
         self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]

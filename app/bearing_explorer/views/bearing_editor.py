@@ -10,14 +10,14 @@ import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.figures import style
+from bearing_explorer.figures.element_words import elements
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.state.choice_list import NUMBERS
+from bearing_explorer.state.choice_list import KIND, NUMBERS, kind_of
 from bearing_explorer.state.quantities import in_unit
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
-from bearingcore import preset_notes
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -51,8 +51,7 @@ class BearingEditor(ControlView):
     picture = True
 
     def build(self, packed: PackedSource) -> Any:
-        spec = spec_of(BEARING_GROUPS, NUMBERS)
-        self.rows = BearingRows(self.forward, spec={**spec, "notes": dict(preset_notes)})
+        self.rows = BearingRows(self.forward, spec=spec_of(BEARING_GROUPS, KIND, NUMBERS))
         return self.rows
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -62,10 +61,16 @@ class BearingEditor(ControlView):
         bearing = results.scene.bearing
         ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
         angle = math.degrees(bearing.contact_angle)
-        return (
-            f"{bearing.n_balls} balls of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
-            f"{'no contact angle' if angle == 0.0 else f'{angle:.4g}° contact angle'}."
-        )
+        rows = "two rows of " if bearing.rows else ""
+        names = elements(bearing, bearing.n_balls)
+        told = f"{rows}{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
+        if bearing.roller_length is not None:
+            told += f"{1e3 * bearing.roller_length:.4g} mm long."
+        else:
+            told += f"{'no contact angle' if angle == 0.0 else f'{angle:.4g}° contact angle'}"
+            kind = kind_of(bearing)
+            told += "." if kind == "single" else f", {kind.replace('-', ' ')}."
+        return told[0].upper() + told[1:]
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -78,7 +83,7 @@ class BearingEditor(ControlView):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         bearing = results.scene.bearing
         rows = [q for q in QUANTITY_LIST if q.group in BEARING_GROUPS]
-        values = [in_unit(q, getattr(bearing, q.field)) for q in rows]
+        values = [in_unit(q, getattr(bearing, q.last_name)) for q in rows]
         facts = facts_of(results.scene)
         return {
             "quantity": np.array([q.label for q in rows] + [fact["label"] for fact in facts]),
@@ -90,9 +95,19 @@ class BearingEditor(ControlView):
         }
 
 
-def shape_of(bearing: Bearing) -> dict[str, float | None]:
-    """What the picture is drawn from: the fields of the bearing, in SI."""
-    return {q.field: getattr(bearing, q.field) for q in QUANTITY_LIST if q.group in BEARING_GROUPS}
+def shape_of(bearing: Bearing) -> dict[str, Any]:
+    """What the picture is drawn from: the fields of the bearing, in SI, and which kind it is."""
+    shape = {
+        q.last_name: getattr(bearing, q.last_name)
+        for q in QUANTITY_LIST
+        if q.group in BEARING_GROUPS
+    }
+    if bearing.is_self_aligning:
+        shape["inner_groove_radius"] = bearing.sphere_groove
+    return shape | {
+        "kind": kind_of(bearing),
+        "rows": [{"place": row.place, "facing": row.facing} for row in bearing.all_rows],
+    }
 
 
 def facts_of(scene: Scene) -> list[dict[str, str]]:
@@ -115,33 +130,25 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             hertz(bearing.bpfi(speed)),
             "How often a point of the inner race meets a ball.",
         ),
-        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Scheduler of the cage a second."),
-        ("A ball spins", "BSF", hertz(bearing.bsf(speed)), "Scheduler of a ball about itself."),
+        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
         (
-            "Free contact angle",
-            "α<sub>f</sub>",
-            _free_angle(bearing),
-            "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
-        ),
-        (
-            "Diametral play",
-            "s",
-            style.with_prefix(bearing.diametral_play, "m"),
-            "From contact to contact across the shaft: what contact angle and clearance stand for.",
-        ),
-        (
-            "Load-deflection factor",
-            "K",
-            f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹·⁵",
-            "Stiffness of both contacts of a ball in series.",
-        ),
-        (
-            "Groove centre distance",
-            "A<sub>0</sub>",
-            style.with_prefix(bearing.groove_center_distance, "m", 4),
-            "Both groove radii together less a ball diameter.",
+            "A ball spins",
+            "BSF",
+            hertz(bearing.bsf(speed)),
+            "Turns of a ball about itself a second.",
         ),
     ]
+    if bearing.roller_length is not None:
+        facts.append(
+            (
+                "Load-deflection factor",
+                "K",
+                f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹⁰⁄⁹",
+                "Stiffness of both line contacts of a roller in series, by Palmgren's formula.",
+            )
+        )
+    else:
+        facts += _of_balls(bearing)
     if bearing.is_drawn:
         facts += [
             (
@@ -173,6 +180,64 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
         ]
     keys = ("label", "symbol", "value", "about")
     return [dict(zip(keys, fact, strict=True)) for fact in facts]
+
+
+def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
+    return [
+        *_of_rows(bearing),
+        *([] if bearing.is_self_aligning else _of_play(bearing)),
+        (
+            "Load-deflection factor",
+            "K",
+            f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹·⁵",
+            "Stiffness of both contacts of a ball in series.",
+        ),
+        (
+            "Groove centre distance",
+            "A<sub>0</sub>",
+            style.with_prefix(bearing.groove_center_distance, "m", 4),
+            "Both groove radii together less a ball diameter.",
+        ),
+    ]
+
+
+def _of_play(bearing: Bearing) -> list[tuple[str, str, str, str]]:
+    return [
+        (
+            "Free contact angle",
+            "α<sub>f</sub>",
+            _free_angle(bearing),
+            "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
+        ),
+        (
+            "Diametral play",
+            "s",
+            style.with_prefix(bearing.diametral_play, "m"),
+            "From contact to contact across the shaft: what contact angle and clearance stand for.",
+        ),
+    ]
+
+
+def _of_rows(bearing: Bearing) -> list[tuple[str, str, str, str]]:
+    """Where the lines of contact of a pair meet the shaft: that decides what tilts it."""
+    distance = bearing.row_distance
+    if bearing.is_self_aligning and distance is not None:
+        about = "Along the shaft; it follows from the sphere, the inner groove and the angle."
+        return [("Rows apart", "a", style.with_prefix(distance, "m", 4), about)]
+    if distance is None or bearing.arrangement == "tandem" or not bearing.arrangement:
+        return []
+    reach = bearing.pitch_diameter * math.tan(bearing.contact_angle)
+    back = bearing.arrangement == "back-to-back"
+    apart = distance + reach if back else abs(distance - reach)
+    return [
+        (
+            "Pressure centres apart",
+            "a<sub>p</sub>",
+            style.with_prefix(apart, "m", 4),
+            "Where the lines of contact of both rows meet the shaft: the farther apart, the "
+            "stiffer against tilt.",
+        )
+    ]
 
 
 def _free_angle(bearing: Bearing) -> str:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bearing_explorer.figures import style
+from bearing_explorer.figures.defect_words import extent_words
+from bearing_explorer.figures.element_words import element, row_words
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -72,7 +74,9 @@ class DepthProfile(View):
         angle = np.degrees(profile.angle)
         deepest = self._range.fit(1.15 * profile.depth)[1]
         start, end = float(angle[0]), float(angle[-1])
-        balls = np.degrees(results.now.ball_angle[0])
+        n = results.scene.bearing.n_balls
+        own = slice(profile.row * n, (profile.row + 1) * n)
+        balls = np.degrees(results.now.ball_angle[0, own])
         # the picture may run past 360°: a ball is drawn in whichever turn it is seen
         balls = start + (balls - start) % 360.0
         balls[balls > end] = np.nan
@@ -83,7 +87,7 @@ class DepthProfile(View):
                 "bottom": np.full(angle.size, deepest),
             },
             "depth_profile_path": {"angle": angle, "drop": profile.path},
-            "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race]},
+            "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race][own]},
         }
         return sources, {
             "depth_profile_angle": (start, end),
@@ -100,22 +104,25 @@ class DepthProfile(View):
             if defect.race == "inner"
             else ""
         )
+        turning = row_words(scene.bearing, defect.row) + turning
+        ball = element(scene.bearing)
+        length = extent_words(defect, scene.bearing)
         deepest = float(np.max(profile.path))
         if defect.floor is not None:
             return (
-                f"The {defect.race}-race defect is {style.number(np.degrees(defect.extent))}° "
+                f"The {defect.race}-race defect is {length} "
                 f"long and up to {style.with_prefix(float(np.max(profile.depth)), 'm')} deep; "
-                f"a ball's centre sinks by at most {style.with_prefix(deepest, 'm')}{turning}."
+                f"a {ball}'s centre sinks by at most {style.with_prefix(deepest, 'm')}{turning}."
             )
         floor = style.with_prefix(defect.depth, "m")
         reaches = (
-            f"a ball reaches its floor of {floor}"
+            f"a {ball} reaches its floor of {floor}"
             if deepest >= defect.depth * (1.0 - 1e-9)
-            else f"a ball sinks {style.with_prefix(deepest, 'm')} and does not reach the floor "
+            else f"a {ball} sinks {style.with_prefix(deepest, 'm')} and does not reach the floor "
             f"of {floor}"
         )
         return (
-            f"The {defect.race}-race defect is {style.number(np.degrees(defect.extent))}° long; "
+            f"The {defect.race}-race defect is {length} long; "
             f"with {EDGE_WORDS[defect.edge]} {reaches}{turning}."
         )
 

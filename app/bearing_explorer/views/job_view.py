@@ -86,6 +86,11 @@ class JobView(View, Generic[Found]):
         self._jobs, self._editor, self._draw = jobs, editor, draw
         self.job.values, self.job.fills = self.form(editor)
 
+    @property
+    def is_empty(self) -> bool:
+        """Before a job has found anything."""
+        return self.found is None
+
     def fields(self) -> list[dict[str, Any]]:
         """The fields of the form, see `JobPanel.spec`."""
         raise NotImplementedError

@@ -9,13 +9,19 @@ from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.compute.defect_shape import pieces, spans
 from bearing_explorer.figures import style
+from bearing_explorer.figures.element_words import element, elements
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
+    from bearing_explorer.compute.load_curve import Curve
     from bearing_explorer.compute.results import Results
     from bearingcore import Scene
+
+
+OTHER_ROWS = style.DIRECTION_COLORS[1]
+"""Colour of the rows after the first."""
 
 
 class LoadDistribution(View):
@@ -26,7 +32,7 @@ class LoadDistribution(View):
     about = (
         "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
         "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
-        " of the shaft."
+        " of the shaft. A second row is orange, and dashed without the defect."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
@@ -57,13 +63,24 @@ class LoadDistribution(View):
             line_color=style.HEALTHY,
             line_width=2.0,
         )
-        curve = plot.line(
+        plot.line(
             "angle",
             "load",
-            source=packed.source("load_distribution_curve", "angle", "load"),
-            line_color=style.DEFECTIVE,
+            source=packed.source("load_distribution_other_healthy", "angle", "load"),
+            line_color=style.HEALTHY,
             line_width=2.0,
+            line_dash=[6, 4],
         )
+        curves = [
+            plot.line(
+                "angle",
+                "load",
+                source=packed.source(f"load_distribution_{which}", "angle", "load"),
+                line_color=color,
+                line_width=2.0,
+            )
+            for which, color in (("other_rows", OTHER_ROWS), ("curve", style.DEFECTIVE))
+        ]
         plot.scatter(
             "angle",
             "load",
@@ -74,9 +91,21 @@ class LoadDistribution(View):
             line_width=1.6,
             level="annotation",  # whole, also on the edge of the frame
         )
+        names = packed.source("load_distribution_rows", "angle", "load", "row")
+        plot.text(
+            "angle",
+            "load",
+            text=style.words_of(names, "return `row ${row.row}`"),
+            source=names,
+            y_offset=-5,
+            text_align="center",
+            text_font={"value": style.FONT},
+            text_font_size=style.SMALL_TEXT_SIZE,
+            text_color=style.INK,
+        )
         plot.add_tools(
             HoverTool(
-                renderers=[curve],
+                renderers=curves,
                 visible=False,  # no button: it is always on
                 mode="vline",
                 line_policy="nearest",
@@ -86,10 +115,13 @@ class LoadDistribution(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        angle, load = results.load_curve
-        healthy_angle, healthy_load = results.healthy_load_curve
+        (angle, load), *others = results.load_curves
+        (healthy_angle, healthy_load), *healthy_others = results.healthy_load_curves
         now = results.now
         sources = {
+            "load_distribution_other_rows": _one_line(others),
+            "load_distribution_other_healthy": _one_line(healthy_others),
+            "load_distribution_rows": _names(results.load_curves),
             "load_distribution_defect": shaded(results.scene, results.cage_angle),
             "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
             "load_distribution_healthy": {"angle": np.degrees(healthy_angle), "load": healthy_load},
@@ -98,40 +130,75 @@ class LoadDistribution(View):
                 "load": now.ball_load[0],
             },
         }
-        return sources, {"load_distribution_load": self._range.fit(load, healthy_load)}
+        room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
+        loads = [room * one for _, one in (*results.load_curves, *results.healthy_load_curves)]
+        return sources, {"load_distribution_load": self._range.fit(*loads)}
 
     def sentence(self, results: Results) -> str:
-        angle, load = results.load_curve
+        bearing = results.scene.bearing
         if not results.equilibrium.converged.any():
             return f"There is no load distribution: {results.equilibrium.reason(0)}."
-        most = int(np.nanargmax(load))
-        words = (
-            f"A ball carries most, {style.with_prefix(load[most], 'N')}, at "
-            f"{style.in_degrees(angle[most])}"
-        )
-        _, healthy = results.healthy_load_curve
-        if results.beside_words and np.isfinite(healthy).any():
-            words += f"; {results.beside_words} {style.with_prefix(np.nanmax(healthy), 'N')}"
+        told: list[str] = []
+        curves = zip(results.load_curves, results.healthy_load_curves, strict=False)
+        for row, ((angle, load), (_, healthy)) in enumerate(curves):
+            most = int(np.nanargmax(load))
+            which = f" of row {row + 1}" if bearing.rows else ""
+            part = (
+                f"{'a' if told else 'A'} {element(bearing)}{which} carries most, "
+                f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
+            )
+            if results.beside_words and np.isfinite(healthy).any():
+                part += f"; {results.beside_words} {style.with_prefix(np.nanmax(healthy), 'N')}"
+            told.append(part)
+        words = ", ".join(told)
         if results.over_shaft:
             words += " (the most at each angle while the shaft makes this turn)"
         now = results.now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
             words += (
-                f". At this cage angle {count} of {results.scene.bearing.n_balls} balls "
+                f". At this cage angle {count} of {bearing.total_balls} {elements(bearing)} "
                 f"{'carries' if count == 1 else 'carry'} load"
             )
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        angle, load = results.load_curve
-        healthy_angle, healthy_load = results.healthy_load_curve
-        return {
-            "ball_angle_deg": np.degrees(angle[1:-1]),
-            "ball_load_n": load[1:-1],
-            f"{results.beside_name}_ball_angle_deg": np.degrees(healthy_angle[1:-1]),
-            f"{results.beside_name}_ball_load_n": healthy_load[1:-1],
-        }
+        beside = results.beside_name
+        table = {}
+        for row, (angle, load) in enumerate(results.load_curves):
+            own = _row_column(row)
+            table[f"{own}ball_angle_deg"] = np.degrees(angle[1:-1])
+            table[f"{own}ball_load_n"] = load[1:-1]
+        for row, (angle, load) in enumerate(results.healthy_load_curves):
+            own = _row_column(row)
+            table[f"{beside}_{own}ball_angle_deg"] = np.degrees(angle[1:-1])
+            table[f"{beside}_{own}ball_load_n"] = load[1:-1]
+        return table
+
+
+def _row_column(row: int) -> str:
+    """How columns of a row begin: those of the first have no number."""
+    return f"row_{row + 1}_" if row else ""
+
+
+def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
+    """Curves as one line with gaps, angles in degrees."""
+    gap = np.array([np.nan])
+    angle = [piece for a, _ in curves for piece in (np.degrees(a), gap)][:-1]
+    load = [piece for _, one in curves for piece in (one, gap)][:-1]
+    none = np.empty(0)
+    return {"angle": np.concatenate([none, *angle]), "load": np.concatenate([none, *load])}
+
+
+def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
+    """Where the name of each row stands, at the top of its curve; none of a single row."""
+    rows = [
+        (float(np.degrees(angle[np.nanargmax(load)])), float(np.nanmax(load)), row + 1.0)
+        for row, (angle, load) in enumerate(curves)
+        if len(curves) > 1 and np.isfinite(load).any()
+    ]
+    angle, load, row = np.array(rows, dtype=float).reshape(-1, 3).T
+    return {"angle": np.clip(angle % 360.0, 12.0, 348.0), "load": load, "row": row}
 
 
 def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:

@@ -27,6 +27,7 @@ from bearing_explorer.figures.color_scales import (
     SEQUENTIAL,
     packed_colors,
 )
+from bearing_explorer.figures.element_words import elements
 from bearing_explorer.figures.heat_map import Places, Side, going, reading
 from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
@@ -198,14 +199,15 @@ class StiffnessMaps(View):
             first = np.unravel_index(0, maps.status.shape)
             return f"There is nothing to map: {maps.reason(int(first[0]), int(first[1]))}."
         mean = maps.mean_loaded_balls
-        n_balls = results.scene.bearing.n_balls
+        bearing = results.scene.bearing
+        n_balls, names = bearing.total_balls, elements(bearing)
         least, most = np.nanmin(mean), np.nanmax(mean)
         if most - least < 0.05:
-            words = f"Whatever the extent, about {least:.1f} of {n_balls} balls carry load"
+            words = f"Whatever the extent, about {least:.1f} of {n_balls} {names} carry load"
         else:
             fewest = maps.extents[int(np.nanargmin(mean))]
             words = (
-                f"Fewest balls carry load at an extent of {in_degrees(fewest, 0)}: "
+                f"Fewest {names} carry load at an extent of {in_degrees(fewest, 0)}: "
                 f"{least:.1f} of {n_balls} on average over the cage angle"
             )
             if np.isfinite(mean[0]):
@@ -215,7 +217,8 @@ class StiffnessMaps(View):
         now = results.now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
-            words += f", where {count} {'ball carries' if count == 1 else 'balls carry'} load"
+            carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"
+            words += f", where {count} {carries} load"
             words += f" and k_yy is {with_prefix(float(now.term('k_yy')[0]), 'N/m')}"
         missing = float(np.mean(~maps.converged))
         if missing:

@@ -23,8 +23,8 @@ class MassInSpectrum(View):
     name = "mass-spectrum"
     title = "Spectrum without and with the mass of the balls"
     about = (
-        "Power spectral density of the housing's acceleration up to half the sample rate: in "
-        "colour with the mass of the balls, broad and grey without. Shaded: where loaded balls "
+        "In colour with the mass of the balls, broad and grey without. Power spectral density of "
+        "the housing's acceleration up to half the sample rate. Shaded: where loaded balls "
         "resonate between their two contacts. In free flight balls are sensitive to anything: "
         "look at bands, not at single lines."
     )

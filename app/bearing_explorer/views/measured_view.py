@@ -81,6 +81,11 @@ class MeasuredView(View):
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 
     @property
+    def is_empty(self) -> bool:
+        """Without a signal there are no numbers either."""
+        return not self.drawn
+
+    @property
     def drawn(self) -> bool:
         """Whether its figures are on screen."""
         return self.measured is not None

@@ -34,10 +34,10 @@ class WhichMechanism(View):
     name = "mechanism"
     title = "Which mechanism"
     about = (
-        "Share of the housing's power, x and y together, that is there only because balls have "
-        "mass, fly and strike; the rest comes from the stiffness that varies as they pass. By "
-        "octaves; thin lines are its standard error, faint bars 40 dB and more below the loudest "
-        "octave. Below zero mass takes power away."
+        "Share of the housing's power that is there only because balls have mass. Along x and y "
+        "together, by octaves; the rest comes from the stiffness that varies as balls pass. Thin "
+        "lines: its standard error. Faint bars: 40 dB and more below the loudest octave. Below "
+        "zero mass takes power away."
     )
     needs = frozenset({"ball_mass"})
 
@@ -100,7 +100,7 @@ class WhichMechanism(View):
         found = results.ball_mass
         if not np.isfinite(found.share).any():
             return "There is no settled motion whose power could be shared out."
-        return verdict(found)
+        return in_words(found)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         found = results.ball_mass
@@ -114,7 +114,7 @@ class WhichMechanism(View):
         }
 
 
-def verdict(found: BallMass) -> str:
+def in_words(found: BallMass) -> str:
     """In words: in which octaves which mechanism gives most of the power."""
     loud = np.isfinite(found.share) & ~found.quiet
     low, high, share = found.octaves[:-1][loud], found.octaves[1:][loud], found.share[loud]

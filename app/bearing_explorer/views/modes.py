@@ -152,18 +152,11 @@ class NaturalFrequencies(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, healthy = results.modes, results.healthy_modes
-        table = {"cage_angle_deg": np.degrees(modes.cage_angles)}
+        own, grey = modes.table(), healthy.table().prefixed(results.beside_name)
+        columns = (own | grey).in_units().named()
         if results.over_shaft:
-            table["shaft_angle_deg"] = results.along(modes.cage_angles)
-        for i, label in enumerate(modes.label):
-            table[f"{label}_hz"] = modes.frequency[:, i]
-        for i, label in enumerate(modes.label):
-            table[f"{label}_damping_ratio"] = modes.damping_ratio[:, i]
-        beside = results.beside_name
-        table[f"{beside}_cage_angle_deg"] = np.degrees(healthy.cage_angles)
-        for i, label in enumerate(healthy.label):
-            table[f"{beside}_{label}_hz"] = healthy.frequency[:, i]
-        return table
+            columns["shaft_angle_deg"] = results.along(modes.cage_angles)
+        return columns
 
 
 def _from_to(band: tuple[float, float]) -> str:

@@ -232,13 +232,8 @@ class SteadyOrbit(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         orbit = results.orbit
-        multipliers = orbit.multipliers if orbit is not None else np.zeros(0, complex)
         path = orbit_path(results)
-        table = {
-            "multiplier_real": multipliers.real,
-            "multiplier_imaginary": multipliers.imag,
-            "multiplier_size": np.abs(multipliers),
-        }
+        table = {} if orbit is None else orbit.table().named()
         table |= {f"inner_{dof}_um": path[dof] for dof in SHOWN}
         for who, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
             for dof in SHOWN:

@@ -56,6 +56,12 @@ OUTER, INNER = "outer race", "inner race"
 FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
 """What may be said to be damaged: value and words."""
 
+SUPPORTS = [
+    ["", "as in the scene"],
+    ["guess", "a guess: others are tried, in five times the time"],
+]
+"""How well masses and springs of the machine are known: value and words."""
+
 _KNOCK_WORDS = "return 'knock'"
 _EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
 
@@ -165,10 +171,13 @@ class DefectSize(JobView[Sized], MeasuredView):
     # The job
 
     def fields(self) -> list[dict[str, Any]]:
-        return [{"name": "fault", "label": "Damaged is", "options": FAULTS}]
+        return [
+            {"name": "fault", "label": "Damaged is", "options": FAULTS},
+            {"name": "support", "label": "Support is", "options": SUPPORTS},
+        ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        return {"fault": ""}, {}
+        return {"fault": "", "support": ""}, {}
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         measured = self.measured
@@ -178,9 +187,10 @@ class DefectSize(JobView[Sized], MeasuredView):
         fault = given.get("fault") or None
         if fault not in (None, OUTER):
             raise ValueError(f"Not possible: damaged is {OUTER!r}, or what the diagnosis says.")
+        known = given.get("support", "") != "guess"
 
         def work(job: Work) -> str:
-            return compute(job, measured, scene, fault)
+            return compute(job, measured, scene, fault, known)
 
         return work
 
@@ -344,7 +354,13 @@ def told(sizing: Sizing) -> bool:
     return bool(sizing.candidates) and (sizing.conclusive or bool(sizing.bound))
 
 
-def compute(job: Work, measured: Measured, scene: Scene, fault: str | None = None) -> str:
+def compute(
+    job: Work,
+    measured: Measured,
+    scene: Scene,
+    fault: str | None = None,
+    support_known: bool = True,
+) -> str:
     """Size the defect; `fault` where it is known what is damaged. Runs in a job's thread."""
     started = time.perf_counter()
 
@@ -354,7 +370,13 @@ def compute(job: Work, measured: Measured, scene: Scene, fault: str | None = Non
             raise Given
 
     try:
-        sizing = size_defect(measured.recording, scene, fault=fault, progress=progress)
+        sizing = size_defect(
+            measured.recording,
+            scene,
+            fault=fault,
+            support_known=support_known,
+            progress=progress,
+        )
     except Given:
         return "There is no answer yet."
     except ValueError as error:

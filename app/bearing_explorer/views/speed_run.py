@@ -86,7 +86,9 @@ class SpeedRunSpectra(JobView[Found]):
     )
     needs = frozenset()
     start = "Run up"
-    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes first."
+    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
+
+    _begun = False
 
     def build(self, packed: PackedSource) -> Any:
         frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
@@ -312,18 +314,32 @@ class SpeedRunSpectra(JobView[Found]):
             text = f"Faint, as the scene has changed since this was computed. Then: {text}"
         return text
 
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None or results.moving or self._begun or self._jobs is None:
+            return
+        if self.found is None and not self._jobs.busy:
+            self._begin_coarse()
+
+    def _begin_coarse(self) -> None:
+        """A first picture that nobody had to ask for."""
+        self._begun = True
+        jobs = self._jobs
+        given = {**self.job.values, "count": str(FIRST_COUNT)}
+        try:
+            work = self.prepare(given, self._editor)
+        except ValueError:
+            return  # whoever asks is told why
+        assert jobs is not None
+        jobs.start(work, self._take, self.job.show)
+
     def table(self, results: Results) -> dict[str, np.ndarray]:
         found = self.found
         if found is None:
             return {}
         run = found.run
-        speed, frequency = np.meshgrid(found.speeds.values, run.frequency, indexing="ij")
-        table = {SPEED: speed, "frequency_hz": frequency}
-        for index, dof in enumerate(run.dofs):
-            unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"
-            table[f"density_{dof}_{unit}"] = run.density[:, :, index]
-        orbits = np.broadcast_to(run.from_orbit[:, None], speed.shape)
-        return {**table, "from_orbit": orbits.astype(int)}
+        orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
+        return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
 def compute(job: Work, scene: Any, speeds: Sweep) -> str:

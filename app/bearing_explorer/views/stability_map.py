@@ -223,11 +223,9 @@ class OrbitStability(JobView[Found]):
             return {}
         y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
         return {
-            found.x.quantity.name: x,
-            found.y.quantity.name: y,
-            "largest_multiplier": found.map.multiplier,
-            "outcome": np.array(OUTCOMES)[found.map.outcome],
-            "through": found.map.through,
+            found.x.quantity.name: x.ravel(),
+            found.y.quantity.name: y.ravel(),
+            **found.map.table().only("largest_multiplier", "outcome", "through").named(),
         }
 
 

@@ -20,6 +20,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.compute.chain import over_turn
 from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.element_words import elements
 from bearing_explorer.figures.matrix_cells import (
     PLACES,
     SYMBOLS,
@@ -193,7 +194,8 @@ class Stiffness(View):
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
         at = in_degrees(results.cage_angle)
         over = " Curves are over a turn of the shaft, with which a defect turns."
-        return f"{'; '.join(parts)}. {count} balls carry load. Marked: cage angle {at}." + (
+        carry = f"{elements(found.scene.bearing)} carry load"
+        return f"{'; '.join(parts)}. {count} {carry}. Marked: cage angle {at}." + (
             over if results.over_shaft else ""
         )
 

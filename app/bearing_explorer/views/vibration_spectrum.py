@@ -252,11 +252,11 @@ class VibrationSpectra(View):
         beside = f"{results.beside_name}_"
         spectra_of = {"": results.late_spectra, beside: results.healthy_late_spectra}
         for who, spectra in spectra_of.items():
-            for dof, (frequency, density) in spectra.items():
+            for dof, one in spectra.items():
+                unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"
                 # samples of an orbit fit its period: a hair's breadth off those of a march
-                table.setdefault(f"{who}frequency_hz", frequency)
-                unit = "rad2_per_s4_per_hz" if dof.startswith("r") else "m2_per_s4_per_hz"
-                table[f"{who}density_{dof}_{unit}"] = density
+                columns = one.table([dof], unit).named()
+                table |= {f"{who}{name}": values for name, values in columns.items()}
         return table
 
 

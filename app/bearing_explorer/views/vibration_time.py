@@ -8,9 +8,11 @@ import numpy as np
 import panel as pn
 from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
 from bokeh.plotting import figure
+from numpy.typing import NDArray
 
 from bearing_explorer.compute.excerpt import Event, Excerpt, least_and_greatest
 from bearing_explorer.figures import style
+from bearing_explorer.figures.element_words import element_name
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -18,10 +20,12 @@ from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
+    from bearingcore import Bearing
 
 TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 ACCELERATION = style.AxisQuantity("Housing acceleration", "a", "m/s²", prefixed=True)
 
+NAMED = ("ball", "row", "roller")  # columns that name a ball
 PIXELS = 500  # stretches of a line that are kept apart
 SHOWN = ("x", "y")
 SLOTS = len(style.BALL_COLORS)
@@ -30,7 +34,8 @@ NAME_WIDTH = 0.17
 ROW_HEIGHT = 0.065  # of its height
 EVENT_ROWS = 3
 
-_EVENT_WORDS = "return `ball ${row.ball} ${row.enters ? 'enters' : 'leaves'}`"
+_BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.row}` : ''}"
+_EVENT_WORDS = f"return `{_BALL} ${{row.enters ? 'enters' : 'leaves'}}`"
 
 
 class VibrationInTime(View):
@@ -57,7 +62,7 @@ class VibrationInTime(View):
             height=270,
         )
         events = packed.source(
-            "vibration_events", "time", "ball", "enters", "label_from", "label_at"
+            "vibration_events", "time", *NAMED, "enters", "label_from", "label_at"
         )
         motion = packed.source("vibration_motion", "time", *SHOWN)
         self._mark(above, events)
@@ -109,7 +114,7 @@ class VibrationInTime(View):
             plot.line(
                 "time", f"load{i}", source=moving, line_color=color, line_width=2.0, line_alpha=0.9
             )
-        names = packed.source("vibration_ball_names", "from", "at", "ball", "slot")
+        names = packed.source("vibration_ball_names", "from", "at", *NAMED, "slot")
         plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
@@ -117,7 +122,7 @@ class VibrationInTime(View):
             "at",
             x_range_name="shares",
             y_range_name="shares",
-            text=style.words_of(names, "return `ball ${row.ball}`"),
+            text=style.words_of(names, f"return `{_BALL}`"),
             source=names,
             text_baseline="middle",
             text_font={"value": style.FONT},
@@ -149,8 +154,8 @@ class VibrationInTime(View):
                 **{f"load{i}": loads_drawn[:, i] for i in range(SLOTS)},
             },
             "vibration_static_loads": static_lines(shown),
-            "vibration_events": event_rows(shown.events, start, end),
-            "vibration_ball_names": ball_names(shown),
+            "vibration_events": event_rows(shown.events, start, end, results.scene.bearing),
+            "vibration_ball_names": ball_names(shown, results.scene.bearing),
         }
         # room above the signal for the labels of the events
         room = 1.0 + 2.2 * ROW_HEIGHT * EVENT_ROWS
@@ -178,15 +183,16 @@ class VibrationInTime(View):
             if peaks
             else "The housing cannot move along x or y in this scene"
         )
+        bearing = results.scene.bearing
         entry = next((event for event in shown.events if event.enters), None)
         leaving = next(
             (e for e in shown.events if entry and not e.enters and e.time >= entry.time), None
         )
         if entry and leaving:
             text += (
-                f"; ball {entry.ball + 1} enters the defect and "
+                f"; {element_name(bearing, entry.ball)} enters the defect and "
                 f"{style.with_prefix(leaving.time - entry.time, 's', 4)} later "
-                + ("it" if leaving.ball == entry.ball else f"ball {leaving.ball + 1}")
+                + ("it" if leaving.ball == entry.ball else element_name(bearing, leaving.ball))
                 + " leaves it"
             )
         return text + "."
@@ -215,19 +221,31 @@ def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
     }
 
 
-def ball_names(shown: Excerpt) -> dict[str, np.ndarray]:
+def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
+    """What the browser names balls by, counted from 0 row after row; row 0 is the only one."""
+    row = balls // bearing.n_balls + 1.0
+    return {
+        "ball": balls % bearing.n_balls + 1.0,
+        "row": row if bearing.rows else np.zeros(balls.size),
+        "roller": np.full(balls.size, float(bearing.is_roller)),
+    }
+
+
+def ball_names(shown: Excerpt, bearing: Bearing) -> dict[str, np.ndarray]:
     """The names of the balls beside each other, shares of the figure's width and height."""
     balls = shown.balls[:SLOTS]
     slots = np.arange(float(balls.size))
     return {
         "from": 0.02 + NAME_WIDTH * slots,
         "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
-        "ball": balls + 1.0,
+        **named(bearing, balls),
         "slot": slots,
     }
 
 
-def event_rows(events: tuple[Event, ...], start: float, end: float) -> dict[str, np.ndarray]:
+def event_rows(
+    events: tuple[Event, ...], start: float, end: float, bearing: Bearing
+) -> dict[str, np.ndarray]:
     """Events as columns; a label stands right of its line, in the first row where it has room.
 
     At the end of the stretch it moves left as far as it needs. An event whose label has room in no
@@ -246,7 +264,7 @@ def event_rows(events: tuple[Event, ...], start: float, end: float) -> dict[str,
         places.append(1.0 - ROW_HEIGHT * (row + 0.7))
     return {
         "time": np.array([event.time for event in events]),
-        "ball": np.array([event.ball + 1.0 for event in events]),
+        **named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
         "enters": np.array([float(event.enters) for event in events]),
         "label_from": np.array(lefts),
         "label_at": np.array(places),

@@ -17,13 +17,15 @@ The margins are few, and the same for every machine.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from bearingcore.common import checks
+from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import decide, silent
-from bearingcore.diagnosis.part.evidence import Diagnosis
-from bearingcore.diagnosis.part.judged import judge
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, Diagnosis
+from bearingcore.diagnosis.part.judged import ALONE, Judged, judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.diagnosis.part.unknown_speed import in_range
@@ -110,4 +112,37 @@ def _at_speed(
         shaft = own.frequency
         source += ", made finer by the shaft's own lines"
     judged = judge(signal, parts, shaft, slip, given)
-    return decide(signal, judged, shaft, source)
+    answer = decide(signal, judged, shaft, source)
+    return (
+        answer
+        if answer.names_a_part
+        else _second_opinion(signal, bearing, judged, answer, given, slip)
+    )
+
+
+def _second_opinion(
+    signal: ListenedSignal,
+    bearing: Bearing,
+    judged: Judged,
+    answer: Diagnosis,
+    given: float,
+    slip: float,
+) -> Diagnosis:
+    """What the signal says that is not whitened, where the whitened one names no part.
+
+    A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
+    are none of the bearing's are heard too, so this names a part only where it leads in the
+    whitened signal too, or stands out by far in a band; else it keeps a bearing from being called
+    healthy.
+    """
+    shaft = judged.combs.shaft
+    again = judge(signal.as_measured(), part_lines(bearing), shaft, slip, given)
+    if again.stands_alone:
+        other = max(again.above_other, again.above_other_in_band - ALONE)
+        return decide(signal, replace(again, above_other=other), shaft, answer.speed_source)
+    if not (again.seen and again.margin >= 0.0):
+        return answer
+    if answer.fault == CANNOT_TELL and judged.leads_to(again):
+        return decide(signal, again, shaft, answer.speed_source)
+    words = say.faint(again.own) + say.speed(shaft, answer.speed_source)
+    return replace(answer, fault=CANNOT_TELL, status=words)

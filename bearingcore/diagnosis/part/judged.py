@@ -14,6 +14,7 @@ from bearingcore.diagnosis.part.listened_signal import ListenedSignal
 from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PartLines
 from bearingcore.diagnosis.part.search import (
     TURNS,
+    WANDER,
     Combs,
     Found,
     beside,
@@ -47,6 +48,12 @@ STRONG_SIDEBANDS, WEAK_SIDEBANDS = 9.0, 14.0
 """[dB] below the lines: those of a part that turns through the load are not fainter than the one,
 those of a part that stands still not louder than the other. They decide where lines do not."""
 
+ALONE = 3.0
+"""[dB] beyond the margins by which a part stands out that fills a band."""
+
+LEAD_UNDER_NOISE = 2.0
+"""[dB] below the level of noise down to which a part that leads may be borne out otherwise."""
+
 SLOWER, FAINTER = (2, 3), 0.5
 """Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
 its own are then."""
@@ -67,6 +74,8 @@ class Judged:
     above_noise: float
     above_second: float
     above_other: float
+    above_other_in_band: float
+    """The same against those in the band alone in which the part is heard best."""
     above_sidebands: float
     evidence: tuple[PartEvidence, ...]
     detectable: float
@@ -90,6 +99,22 @@ class Judged:
     def seen(self) -> bool:
         """Whether any part's lines stand out at all."""
         return self.above_noise >= NOISE_MARGIN and self.own.depth >= LEAST_DEPTH
+
+    @property
+    def stands_alone(self) -> bool:
+        """Whether a part fills a band by far, whatever else knocks in other bands."""
+        margins = (
+            self.above_noise - NOISE_MARGIN,
+            self.above_second - PART_MARGIN,
+            self.above_other_in_band - OTHER_MARGIN,
+        )
+        return self.seen and min(margins) >= ALONE and self.above_sidebands >= 0.0
+
+    def leads_to(self, other: Judged) -> bool:
+        """Whether the same part leads here as there, by the same lines and not under all noise."""
+        apart = abs(self.best.frequency / other.best.frequency - 1.0)
+        same = self.best.lines.part == other.best.lines.part
+        return same and apart <= WANDER and self.above_noise >= -LEAD_UNDER_NOISE
 
 
 def judge(
@@ -152,6 +177,8 @@ def compare(
     other = OtherLines(
         float(combs.frequency[index]), float(combs.frequency[index]) / shaft, float(others[index])
     )
+    in_band = combs.level[best.place]
+    in_band = float(np.where(free | follows | own, -np.inf, in_band).max())
     above_other = min(
         best.level - other.level, best.level - float(followers.max(initial=-np.inf)) + OTHER_MARGIN
     )
@@ -167,6 +194,7 @@ def compare(
         above_noise=best.level - combs.noise,
         above_second=best.level - second.level,
         above_other=above_other,
+        above_other_in_band=best.level - in_band,
         above_sidebands=_above_sidebands(combs, best, cage),
         evidence=evidence,
         detectable=min(_detectable(one, signal) for one in resolutions),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 
 import numpy as np
@@ -42,10 +43,17 @@ class ListenedSignal:
         self.names = [recording.directions[index] for index in usable]
         self.columns = [_with_a_floor(np.asarray(columns[index])) for index in usable]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
+        self.whitening: float | None = WHITENING
         self.nothing_to_hear: str | None = None
         if not usable:
             share = min(one.dropped_share for one in faults)
             self.nothing_to_hear = say.dropped(share)
+
+    def as_measured(self) -> ListenedSignal:
+        """The same, not whitened: what swells where something rings is heard, and tones are."""
+        other = copy.copy(self)
+        other.whitening = None
+        return other
 
     @property
     def dropped(self) -> float:
@@ -64,7 +72,12 @@ class ListenedSignal:
             (name, envelope)
             for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
             for envelope in squared_envelopes(
-                column, self.rate, bands, highest, faults.dropped, WHITENING * shaft
+                column,
+                self.rate,
+                bands,
+                highest,
+                faults.dropped,
+                None if self.whitening is None else self.whitening * shaft,
             )
         ]
 

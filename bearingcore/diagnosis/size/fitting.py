@@ -268,7 +268,7 @@ def steps_needed(search: Search) -> int:
 
 
 CHANCE_PARTS = 4
-"""Every so many parts of the library are also held against chance."""
+"""Every so many parts of the library are also held against chance; behind paths half of them."""
 
 
 def guesses(
@@ -296,7 +296,7 @@ def guesses(
         tried = []
         for path in search.paths:
             prepared = Prepared(target, library.harmonics, path, exits)
-            if part % CHANCE_PARTS == 0:
+            if part % (CHANCE_PARTS if path.direct else 2 * CHANCE_PARTS) == 0:
                 by_chance.look(prepared)
             tried.append(prepared.match(library.power).score)
         return library, np.array(tried)

@@ -13,6 +13,7 @@ shift of the simulated pass that fits best     | τ      | lag              | ra
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,6 +77,7 @@ class Match:
     lag: NDArray[np.float64]
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
+    path_cost: float = 0.0
 
     @property
     def score(self) -> NDArray[np.float64]:
@@ -83,6 +85,7 @@ class Match:
         return np.asarray(
             -WAVEFORM_WEIGHT * self.waveform_cost.mean(axis=1)
             - SPECTRUM_WEIGHT * np.log(SPECTRUM_FLOOR + self.spectrum_misfit).mean(axis=1)
+            - self.path_cost
         )
 
 
@@ -172,7 +175,7 @@ class Prepared:
         measured = harmonics * self.scale
         if self.model.direct:
             return self._cost(*self._direct(measured)[1:]).mean(axis=1)
-        return self._laid(measured)[1]
+        return self._laid(measured, FINER[:1])[1]
 
     def match(self, power: NDArray[np.float64]) -> Match:
         """Compare with the measured pass and spectrum."""
@@ -210,6 +213,7 @@ class Prepared:
             lag,
             weighed,
             difference,
+            self.model.cost,
         )
 
     def _cost(
@@ -232,7 +236,7 @@ class Prepared:
         return lag, residual, residual * np.sqrt(weight)
 
     def _laid(
-        self, measured: NDArray[np.complex128]
+        self, measured: NDArray[np.complex128], steps: Sequence[tuple[float, int]] = FINER
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The lag (m,) that fits best behind a path, and the cost there."""
         cross = self.relative.conj() * measured
@@ -242,7 +246,7 @@ class Prepared:
         row = np.arange(len(lags))
         lag = lags[:, 0]
         cost = np.full(len(lags), math.inf)
-        for step, reach in ((0.0, 0), *FINER):
+        for step, reach in ((0.0, 0), *steps):
             if reach:
                 lags = lag[:, None] + step * np.arange(-reach, reach + 1)
             left = self._left(measured, lags)

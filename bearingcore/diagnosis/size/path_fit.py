@@ -39,6 +39,8 @@ class PathModel:
     strength: float = 0.0
     ringing: float = 0.0
     strike: float = 0.0
+    cost: float = 0.0
+    """Taken off the score of whatever needs this path: the direct one is the likelier."""
 
     @property
     def direct(self) -> bool:

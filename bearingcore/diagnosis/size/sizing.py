@@ -65,15 +65,25 @@ scene takes, about a minute of one core."""
 TEMPERATURE = 3.0
 """By which scores are divided before they become probabilities."""
 
-SPREAD_FACTOR = 1.0
-SPREAD_FLOOR = math.radians(0.05)
-"""What makes a standard deviation [rad] of the extent out of that of the fit."""
+WITHIN_TEMPERATURE = 1.0
+"""The same for extents nearly as good that are less than half a ball spacing away: it makes the
+stated standard deviation that of the errors (`python -m tests.benchmarks.path_effects`)."""
+
+SPREAD_FLOOR = math.radians(0.02)
+"""[rad] No extent is better known than what is simulated of it."""
+
+WIDEST = 0.1
+"""Of a ball spacing: where extents that are nearly as good lie further apart than this (their
+standard deviation at `TEMPERATURE`), none is told."""
 
 CLEAR = 0.9
 """Probability from which a candidate counts as told."""
 
 MUCH_UNEXPLAINED = 0.3
 """Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
+
+PATH_UNEXPLAINED = 0.45
+"""The same where something may ring between housing and sensor that was not fitted."""
 
 MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
 """Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
@@ -178,6 +188,10 @@ class Sizing:
         what the mean ball pass consists of.
     chance
         how often a pass of such a spectrum is explained as well with its phases drawn anew.
+    apart
+        how far apart [rad] extents lie that explain it nearly as well, in half a ball spacing.
+    path
+        what was allowed for between housing and sensor.
     events
         entry and exit as found in the signal alone, and the paper's Δt.
     passes
@@ -202,9 +216,11 @@ class Sizing:
     """(candidates,) before the temperature."""
     quality: PassQuality
     chance: float = math.nan
+    apart: float = 0.0
     bound: str = ""
     diagnosis: Diagnosis | None = None
     supports: tuple[SupportTrial, ...] = ()
+    path: PathTolerances = field(default_factory=PathTolerances)
 
     def table(self) -> ResultTable:
         """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
@@ -334,7 +350,17 @@ def size_defect(
     target = Target(passes, band)
     events = find_events(passes, scene, recording.directions)
     nothing = Sizing(
-        (), math.nan, "", False, events, passes, band, recording, np.zeros(0), pass_quality(target)
+        (),
+        math.nan,
+        "",
+        False,
+        events,
+        passes,
+        band,
+        recording,
+        np.zeros(0),
+        pass_quality(target),
+        path=path,
     )
     if fault is None:
         found_fault = diagnose(recording, scene.bearing, scene.shaft_speed, slip=slip)
@@ -400,9 +426,14 @@ def _answer(
         _candidate(search, guess, float(weight))
         for guess, weight in zip(chosen, weights, strict=True)
     )
-    spread = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
+    spread, apart = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
     return dataclasses.replace(
-        nothing, candidates=candidates, extent_uncertainty=spread, scores=scores, chance=chance
+        nothing,
+        candidates=candidates,
+        extent_uncertainty=spread,
+        apart=apart,
+        scores=scores,
+        chance=chance,
     )
 
 
@@ -496,17 +527,23 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
     )
 
 
-def _spread(best: Guess, others: list[Guess]) -> float:
-    """Standard deviation [rad] of the extent, from the fit's and from guesses nearly as good.
+def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
+    """Standard deviation [rad] of the extent, and how far apart extents nearly as good are.
 
-    Never more than that of not knowing it at all.
+    Of the best guess it is what is left unexplained, by the lever that it has on the extent (the
+    sandwich of curvatures); guesses nearly as good add their distance. Never more than that of not
+    knowing it at all.
     """
-    weights = np.exp((np.array([g.score for g in others]) - best.score) / TEMPERATURE)
+    behind = np.array([g.score for g in others]) - best.score
     away = np.array([g.extent - best.extent for g in others])
-    between = float((weights * away**2).sum() / weights.sum())
-    own = best.extent_spread * SPREAD_FACTOR
-    spread = math.sqrt(own**2 + between + SPREAD_FLOOR**2)
-    return min(spread, (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0))
+
+    def between(temperature: float) -> float:
+        weights = np.exp(behind / temperature)
+        return float((weights * away**2).sum() / weights.sum())
+
+    spread = math.sqrt(best.extent_scatter**2 + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
+    unknown = (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0)
+    return min(spread, unknown), math.sqrt(between(TEMPERATURE))
 
 
 def _no_size(found: Diagnosis) -> str:
@@ -541,7 +578,7 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
             "no extent explains it better than it would explain a signal of the same spectrum "
             "by chance. Load, speed, support or bearing may not be those of this machine."
         )
-    elif beside_noise > MUCH_UNEXPLAINED:
+    elif beside_noise > (PATH_UNEXPLAINED if sized.path.resonances else MUCH_UNEXPLAINED):
         refusal = (
             f"the best extent leaves {100.0 * unexplained:.0f} % of the mean ball pass "
             f"unexplained, of which {100.0 * quality.noise_share:.0f} % are noise. Load, "
@@ -562,6 +599,12 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
             f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
         )
         return False, "", f"The signal cannot tell these apart: {told}."
+    if sized.apart > WIDEST * best.scene.bearing.ball_spacing:
+        low, high = (math.degrees(best.extent + way * sized.apart) for way in (-1.0, 1.0))
+        return False, "", (
+            f"The signal cannot tell the size of the defect: most like {size}, but extents from "
+            f"{max(low, 0.0):.0f}° to {high:.0f}° explain it nearly as well."
+        )  # fmt: skip
     if best.extent - LEAST_EXTENT < max(2.0 * spread, EXTENT_STEP):
         most = math.degrees(best.extent + 2.0 * spread)
         return (

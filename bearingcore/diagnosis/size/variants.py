@@ -14,8 +14,9 @@ from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.dynamics.modes import contact_damping
 from bearingcore.model.scene import Scene
 
-PATHS = (PathModel(0.6, 1.5e-3, 0.3), PathModel(1.5, 2.5e-3, 0.6))
-"""Paths that are tried beside none: one that rings a little, one that rings much."""
+PATHS = (PathModel(0.6, 1.5e-3, 0.3, 9.0),)
+"""Paths that are tried beside none. They cost so much as a path explains other extents as well: an
+extent that needs none to be explained fairly is the likelier one."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,7 @@ class PathTolerances:
                 path.strength if self.resonances else 0.0,
                 path.ringing if self.resonances else 0.0,
                 path.strike if self.strikes else 0.0,
+                path.cost,
             )
             if one not in found:
                 found.append(one)

@@ -7,50 +7,11 @@ from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
 
 from bearingcore.model.bearing import Bearing
+from bearingcore.model.bearings import row_presets
+from bearingcore.model.bearings.assumed import ASSUMED, FAN_RIG_SUPPORT, below, conforming, rpm
 from bearingcore.model.defect import Defect
 from bearingcore.model.load import Load
 from bearingcore.model.scene import Scene
-from bearingcore.model.support import Support
-
-# Table 1 of the paper gives masses and the radial support; the rest, which its motion in x and y
-# never uses, is assumed: the same spring and damper along z, and rings that tilt with the inertia
-# of a disc of the mass at a radius of 50 mm, on springs a radius of 50 mm apart.
-_GYRATION = 0.05**2 / 2.0
-_FAN_RIG_SUPPORT = Support(
-    inner_mass=2.0,
-    outer_mass=2.0,
-    stiffness_x=212.2e6,
-    stiffness_y=212.2e6,
-    damping_x=1648.2,
-    damping_y=1648.2,
-    stiffness_z=212.2e6,
-    damping_z=1648.2,
-    stiffness_rx=212.2e6 * _GYRATION,
-    stiffness_ry=212.2e6 * _GYRATION,
-    damping_rx=1648.2 * _GYRATION,
-    damping_ry=1648.2 * _GYRATION,
-    inner_inertia=2.0 * _GYRATION,
-    outer_inertia=2.0 * _GYRATION,
-)
-
-
-def _rpm(turns_a_minute: float) -> float:
-    """Shaft speed [rad/s]."""
-    return 2.0 * math.pi * turns_a_minute / 60.0
-
-
-def _conforming(ball_diameter: float) -> dict[str, float]:
-    """Groove radii of 0.52 and 0.53 ball diameters, the widest that ISO 281 rates in full."""
-    return {
-        "ball_diameter": ball_diameter,
-        "inner_groove_radius": 0.52 * ball_diameter,
-        "outer_groove_radius": 0.53 * ball_diameter,
-    }
-
-
-def _below(extent_deg: float, depth: float) -> Defect:
-    """A defect in the middle of the load zone, with the edges that geometry asks for."""
-    return Defect(math.radians(extent_deg), depth, math.radians(270.0), edge="exact")
 
 
 def _7208(contact_angle_deg: float, thrust: float) -> Scene:
@@ -59,12 +20,12 @@ def _7208(contact_angle_deg: float, thrust: float) -> Scene:
             n_balls=14,
             pitch_diameter=60e-3,
             contact_angle=math.radians(contact_angle_deg),
-            **_conforming(15.0 / 32.0 * 25.4e-3),
+            **conforming(15.0 / 32.0 * 25.4e-3),
         ),
-        defect=_below(8.0, 100e-6),
+        defect=below(8.0, 100e-6),
         load=Load(fy=-1500.0, fz=thrust),
-        shaft_speed=_rpm(3000.0),
-        support=_FAN_RIG_SUPPORT,
+        shaft_speed=rpm(3000.0),
+        support=FAN_RIG_SUPPORT,
         dofs=("x", "y", "z"),
     )
 
@@ -124,7 +85,7 @@ presets: Mapping[str, Scene] = _Presets(
             defect=Defect(extent=math.radians(40.0), depth=50e-6, center=math.radians(270.0)),
             load=Load(fy=-2000.0, fz=500.0),
             shaft_speed=2.0 * math.pi * 7.0,
-            support=_FAN_RIG_SUPPORT,
+            support=FAN_RIG_SUPPORT,
         ),
         "fan-rig": lambda: Scene(
             bearing=Bearing(
@@ -142,31 +103,31 @@ presets: Mapping[str, Scene] = _Presets(
             defect=Defect(extent=math.radians(12.9), depth=50e-6, center=math.radians(270.0)),
             load=Load(fy=-100.0),
             shaft_speed=2.0 * math.pi * 7.0,
-            support=_FAN_RIG_SUPPORT,
+            support=FAN_RIG_SUPPORT,
         ),
         "6205": lambda: Scene(
             bearing=Bearing.from_drawing(
                 n_balls=9,
                 pitch_diameter=39.04e-3,
                 diametral_clearance=10e-6,
-                **_conforming(7.94e-3),
+                **conforming(7.94e-3),
             ),
-            defect=_below(1.3, 279e-6),
+            defect=below(1.3, 279e-6),
             load=Load(fy=-1000.0),
-            shaft_speed=_rpm(1797.0),
-            support=_FAN_RIG_SUPPORT,
+            shaft_speed=rpm(1797.0),
+            support=FAN_RIG_SUPPORT,
         ),
         "6206": lambda: Scene(
             bearing=Bearing.from_drawing(
                 n_balls=9,
                 pitch_diameter=46e-3,
                 diametral_clearance=10e-6,
-                **_conforming(9.525e-3),
+                **conforming(9.525e-3),
             ),
-            defect=_below(6.0, 100e-6),
+            defect=below(6.0, 100e-6),
             load=Load(fy=-1500.0),
-            shaft_speed=_rpm(1470.0),
-            support=_FAN_RIG_SUPPORT,
+            shaft_speed=rpm(1470.0),
+            support=FAN_RIG_SUPPORT,
         ),
         "7208-15deg": lambda: _7208(15.0, 1000.0),
         "7208-25deg": lambda: _7208(25.0, 1500.0),
@@ -177,22 +138,17 @@ presets: Mapping[str, Scene] = _Presets(
                 pitch_diameter=43.5e-3,
                 diametral_clearance=10e-6,
                 groove_center_radius=0.5 * 43.5e-3,
-                **_conforming(11.5e-3),
+                **conforming(11.5e-3),
             ),
-            defect=_below(10.0, 50e-6),
+            defect=below(10.0, 50e-6),
             load=Load(fy=-1000.0),
-            shaft_speed=_rpm(1500.0),
-            support=_FAN_RIG_SUPPORT,
+            shaft_speed=rpm(1500.0),
+            support=FAN_RIG_SUPPORT,
         ),
+        **row_presets.MAKERS,
     }
 )
 """Scenes by name."""
-
-_ASSUMED = (
-    "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "
-    "speed unless said otherwise, and the rotor and support of the fan rig, with which no rig of "
-    "this bearing has been measured."
-)
 
 
 def _note_7208(contact_angle_deg: int, rating_kn: int, thrust: str) -> str:
@@ -204,7 +160,7 @@ def _note_7208(contact_angle_deg: int, rating_kn: int, thrust: str) -> str:
         f"{rating_kn} kN, as catalogues do; no clearance on top of the contact angle; load 1.5 kN "
         f"down and {thrust} kN along the shaft, an equivalent load of 5 to 6 % of that rating; a "
         "shaft kept from tilting, as a second bearing does, without which this one would tilt by "
-        f"some milliradian; the defect; {_ASSUMED}"
+        f"some milliradian; the defect; {ASSUMED}"
     )
 
 
@@ -231,14 +187,14 @@ preset_notes: Mapping[str, str] = MappingProxyType(
             "frequencies of 3.5848 and 5.4152 times the shaft's; 1797 rpm; a fault of 0.021 inch, "
             "here 1.3° long, and 0.011 inch deep. Assumed: diametral clearance 10 µm, the middle "
             "of the normal class of ISO 5753; a load of 1 kN, 7 % of the dynamic rating of 14 kN; "
-            f"{_ASSUMED}"
+            f"{ASSUMED}"
         ),
         "6206": (
             "A deep-groove bearing of 30 mm bore and 62 mm outside diameter. Commonly given for "
             "it, though catalogues do not print the inside: 9 balls of 3/8 inch (9.525 mm) on the "
             "mean of bore and outside diameter (46 mm), which by ISO 281 give the catalogue's "
             "dynamic rating of 19.5 kN. Assumed: diametral clearance 10 µm, load 1.5 kN (8 % of "
-            f"that rating), the defect, {_ASSUMED}"
+            f"that rating), the defect, {ASSUMED}"
         ),
         "7208-15deg": _note_7208(15, 38, "1.0"),
         "7208-25deg": _note_7208(25, 36, "1.5"),
@@ -250,6 +206,7 @@ preset_notes: Mapping[str, str] = MappingProxyType(
             "the lever of a tilt is half the pitch diameter there, and so it is here. Assumed: "
             "the defect, the speed, and the rotor and support of the fan rig."
         ),
+        **row_presets.NOTES,
     }
 )
 """Where each preset's numbers come from, and which of them are assumed."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import subprocess
 import sys
@@ -13,7 +14,15 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from bearing_explorer.compute import explore
-from bearing_explorer.compute.explore import MAP_OUTPUTS, Plane, Question, Survey, coarse, refine
+from bearing_explorer.compute.explore import (
+    MAP_OUTPUTS,
+    MapOutput,
+    Plane,
+    Question,
+    Survey,
+    coarse,
+    refine,
+)
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.export.python_lines import lines_of
@@ -26,7 +35,7 @@ from bearing_explorer.views.explore import ExplorePlane, summary
 from bearingcore import equilibrium, modes, presets, simulate
 from bearingcore.diagnosis.size.sizing_error import extent_error
 from bearingcore.sweep import OUTPUTS, STATUSES
-from bearingcore.sweep.grid import UNITS
+from bearingcore.sweep.grid import UNITS, Axis
 
 RIG = presets["fan-rig"].replace(extent=math.radians(20.0))
 LIMITS = limits_of(RIG)
@@ -310,3 +319,42 @@ def test_lines_of_python_make_the_map_again(output: str, monkeypatch: pytest.Mon
 def test_the_first_page_does_not_wait_for_holoviews() -> None:
     code = "import sys, bearing_explorer.page; sys.exit('holoviews' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_share_of_mass_is_that_of_the_band_that_was_chosen() -> None:
+    output = MAP_OUTPUTS["mass_share"]
+    low, high = output.in_band(300.0, 2100.0), output.in_band(10e3, 20e3)
+    assert "0.3 to 2.1 kHz" in low.label
+    assert (high.settings.band_low, high.settings.band_high) == (10e3, 20e3)
+    shares = [mass_share_at(question) for question in (low, high)]
+    assert abs(shares[0]) < 0.2
+    assert shares[1] > 0.8
+    for band in ((10.0, 100.0), (5e3, 5.1e3), (5e3, 40e3), (9e3, 5e3)):
+        with pytest.raises(ValueError, match="A band goes from"):
+            output.in_band(*band)
+
+
+def mass_share_at(output: MapOutput) -> float:
+    """The number of one point of a map."""
+    asked = dataclasses.replace(
+        question("mass_share", ("extent_deg", "12.9", "13"), ("shaft_speed_hz", "7", "7.1")),
+        output=output,
+    )
+    grid = asked.grid
+    first = dataclasses.replace(grid, axes=tuple(Axis(a.name, a.values[:1]) for a in grid.axes))
+    status, numbers = first.compute()
+    assert STATUSES[int(status.ravel()[0])] == "complete"
+    return float(numbers["mass_share"].ravel()[0])
+
+
+def test_the_form_of_explore_asks_for_a_band_with_the_share_of_mass_alone() -> None:
+    view = ExplorePlane(PackedSource())
+    bands = [field for field in view.fields() if field["name"].startswith("band_")]
+    assert [field["only"] for field in bands] == [{"output": ["mass_share"]}] * 2
+    editor = SceneEditor("fan-rig")
+    given = {**view.form(editor)[0], "output": "mass_share", "band_from": "10", "band_to": "20"}
+    assert view.asked(given, editor).output.band == (10e3, 20e3)
+    with pytest.raises(ValueError, match="A band goes from"):
+        view.asked({**given, "band_to": "5"}, editor)
+    with pytest.raises(ValueError, match="must be a number"):
+        view.asked({**given, "band_from": "low"}, editor)

@@ -1,6 +1,11 @@
 """The lines of Python beside a figure run as they stand and give its numbers."""
 
+import ast
 import dataclasses
+import re
+import sys
+import tomllib
+from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
@@ -38,7 +43,7 @@ VIEWS = {
     for view in section.views
     if view.name
     in ("bearing", "load-distribution", "depth-profile", "stiffness", "maps", "modes", "orbit",
-        "vibration-time", "vibration-spectrum")
+        "vibration-time", "vibration-spectrum", "mass-time", "mass-spectrum", "mechanism")
 }  # fmt: skip
 
 
@@ -115,13 +120,35 @@ def test_every_view_has_lines_that_run(view: type[View], monkeypatch: pytest.Mon
         assert run(lines, monkeypatch)["scene"] == presets["fan-rig"]
 
 
+def installed() -> set[str]:
+    """What the README's install brings, by the names of imports."""
+    project = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
+    names = {re.split(r"[<>=\[]", one)[0] for one in project["dependencies"]}
+    return {*names, *sys.stdlib_module_names, "bearingcore", "bearing_explorer"}
+
+
+@pytest.mark.parametrize("view", [v for s in SECTIONS for v in s.views], ids=lambda v: v.name)
+def test_lines_import_what_is_installed_or_say_how_to_get_it(view: type[View]) -> None:
+    lines = lines_of(view(PackedSource()), Results(presets["fan-rig"], 0.1))
+    told = " ".join(line for line in lines.splitlines() if line.startswith("# beside"))
+    for node in ast.walk(ast.parse(lines)):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names = [node.module] if isinstance(node, ast.ImportFrom) else [
+                alias.name for alias in node.names
+            ]  # fmt: skip
+            for name in names:
+                assert name is not None
+                assert name.partition(".")[0] in installed() or name.partition(".")[0] in told
+                assert not name.startswith("bearingcore.sweep") or "[scale]" in told
+
+
 def test_what_a_job_found_is_made_again(monkeypatch: pytest.MonkeyPatch) -> None:
     view = OrbitStability(PackedSource())
     view.found = found_map()
     namespace = run(lines_of(view, Results(presets["6205"])), monkeypatch)
     assert namespace["scene"] == view.found.map.scene
     np.testing.assert_allclose(
-        namespace["columns"]["largest_multiplier"], view.found.map.multiplier, rtol=1e-9
+        namespace["columns"]["largest_multiplier"], view.found.map.multiplier.ravel(), rtol=1e-9
     )
 
 

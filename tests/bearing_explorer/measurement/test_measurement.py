@@ -11,12 +11,19 @@ import zlib
 import numpy as np
 import pytest
 from bearing_explorer.measurement.form import FormError, guess, understood
-from bearing_explorer.measurement.session import MOST_NUMBERS, Measurement, read_file, simulated
+from bearing_explorer.measurement.session import (
+    MOST_NUMBERS,
+    Measurement,
+    read_file,
+    simulated,
+    with_pit,
+)
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE, Upload, shown_name
+from bearing_explorer.state.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
-from bearingcore import presets, read_table
+from bearingcore import diagnose, presets, read_table
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
 from tests.helpers.recordings import file_from_elsewhere
@@ -69,6 +76,20 @@ def brought(name: str, content: bytes, before: Measured | None = None) -> Measur
 
 
 # -- good files ------------------------------------------------------------------------------------
+
+
+def test_a_simulated_measurement_can_have_a_small_pit_and_balls_with_mass() -> None:
+    motor = presets["6205"].replace(extent=0.2, race="inner")
+    pitted = with_pit(motor, PITS["0.3"])
+    assert pitted.balls == "with mass"
+    assert pitted.defect.race == "inner"
+    assert pitted.defect.edge == "exact"
+    assert pitted.defect.extent * pitted.bearing.inner_raceway_radius == pytest.approx(3e-4)
+    assert with_pit(motor, PITS["scene"]) is motor
+    made = simulated(with_pit(motor.replace(race="outer"), PITS["0.5"]), 20.0, False, 1)
+    assert "balls with mass" in made.recording.name
+    assert made.recording.duration > 0.9
+    assert diagnose(made.recording, motor.bearing, made.shaft_speed).fault == "outer race"
 
 
 def test_a_file_from_elsewhere_is_understood_without_a_word():

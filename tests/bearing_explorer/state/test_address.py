@@ -89,6 +89,11 @@ def places(draw: st.DrawFn) -> Place:
             },
         )
     )
+    if scene.bearing.is_roller:  # radial only, and without a contact angle
+        for name in ("my", "contact_angle", "dofs"):
+            changed.pop(name, None)
+    if scene.bearing.is_self_aligning and "contact_angle" in changed:
+        changed["contact_angle"] = min(max(changed["contact_angle"], 0.05), 0.6)
     scene = scene.replace(**changed)
     if draw(st.booleans()):
         bearing = scene.bearing

@@ -43,7 +43,7 @@ def test_names_are_not_those_of_numbers_and_options_have_sentences() -> None:
 @pytest.mark.parametrize("choice", [*OF_SCENE, *OF_DEFECT], ids=lambda choice: choice.name)
 def test_what_is_chosen_is_in_the_scene_the_link_and_back(choice: Choice) -> None:
     for option in choice.options:
-        editor = SceneEditor("fan-rig")
+        editor = SceneEditor("7208-back-to-back" if choice.name == "row" else "fan-rig")
         assert editor.choose({choice.name: option.name}) == {}
         assert chosen_of(editor.scene)[choice.name] == option.name
         assert editor.state()["choices"][choice.name] == option.name
@@ -69,5 +69,7 @@ def test_a_scene_has_what_it_was_made_with() -> None:
         "law": "no tension",
         "balls": "massless",
         "numbers": "direct",
+        "kind": "single",
+        "row": "all",
     }
     assert chosen_of(scene)["race"] == "outer"

@@ -74,7 +74,7 @@ def test_the_profile_is_that_of_the_defect_in_hand() -> None:
     assert outer.profile.race == "outer"
     assert inner.profile.race == "inner"
     view = DepthProfile(PackedSource())
-    assert view.sentence(outer).startswith("The outer-race defect is 12.9° long")
+    assert view.sentence(outer).startswith("The outer-race defect is 12.9° (5.97 mm) long")
     assert "turns with the shaft" in view.sentence(inner)
     turned = 1.0 + 0.2 / OUTER.bearing.cage_ratio
     middle = 0.5 * (inner.profile.angle[0] + inner.profile.angle[-1])

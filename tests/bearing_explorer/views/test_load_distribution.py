@@ -19,14 +19,40 @@ FAN_RIG = presets["fan-rig"]
 def test_the_balls_lie_on_the_curve(name: str, cage_angle_deg: float) -> None:
     results = Results(presets[name], math.radians(cage_angle_deg))
     sources, _ = LoadDistribution(PackedSource()).data(results)
-    curve, balls = sources["load_distribution_curve"], sources["load_distribution_balls"]
-    # between two of its angles the curve can only be known to lie between its neighbours
-    right = np.searchsorted(curve["angle"], balls["angle"])
-    near = np.stack([curve["load"][np.clip(right + k, 0, curve["load"].size - 1)] for k in (-1, 0)])
-    slack = 1e-3 * np.nanmax(curve["load"])
-    assert np.all(balls["load"] >= near.min(axis=0) - slack)
-    assert np.all(balls["load"] <= near.max(axis=0) + slack)
-    assert balls["angle"].size == presets[name].bearing.n_balls
+    balls, bearing = sources["load_distribution_balls"], presets[name].bearing
+    n = bearing.n_balls
+    for row, which in zip(bearing.all_rows, ("curve", "other_rows"), strict=False):
+        curve = sources[f"load_distribution_{which}"]
+        own = slice(0, n) if which == "curve" else slice(n, 2 * n)
+        # between two of its angles the curve can only be known to lie between its neighbours
+        right = np.searchsorted(curve["angle"], balls["angle"][own])
+        last = curve["load"].size - 1
+        near = np.stack([curve["load"][np.clip(right + k, 0, last)] for k in (-1, 0)])
+        slack = 3e-3 * np.nanmax(curve["load"])  # an edge may lie between
+        assert np.all(balls["load"][own] >= near.min(axis=0) - slack), row
+        assert np.all(balls["load"][own] <= near.max(axis=0) + slack), row
+    assert balls["angle"].size == bearing.total_balls
+
+
+def test_two_rows_have_a_curve_and_a_name_each() -> None:
+    """Back to back under an axial load, the row that it presses carries more."""
+    results = Results(presets["7208-back-to-back"].replace(fz=1500.0))
+    view = LoadDistribution(PackedSource())
+    sources, _ = view.data(results)
+    assert sources["load_distribution_rows"]["row"].tolist() == [1.0, 2.0]
+    first, second = (
+        np.nanmax(sources[f"load_distribution_{which}"]["load"])
+        for which in ("curve", "other_rows")
+    )
+    assert first == pytest.approx(results.equilibrium.ball_load[:, :14].max())
+    assert second == pytest.approx(results.equilibrium.ball_load[:, 14:].max())
+    assert abs(first / second - 1.0) > 0.2
+    assert "A ball of row 1 carries most" in view.sentence(results)
+    assert "a ball of row 2 carries most" in view.sentence(results)
+    assert "of 28 balls" in view.sentence(results)
+    one, _ = view.data(Results(FAN_RIG))
+    assert one["load_distribution_rows"]["row"].size == 0
+    assert one["load_distribution_other_rows"]["load"].size == 0
 
 
 def test_the_curve_goes_once_round_and_closes() -> None:

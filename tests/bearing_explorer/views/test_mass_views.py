@@ -13,7 +13,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
 from bearing_explorer.views.mass_time import MassInTime, event_rows
-from bearing_explorer.views.mechanism import WhichMechanism, verdict
+from bearing_explorer.views.mechanism import WhichMechanism, in_words
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
 from bearingcore import presets, simulate
@@ -75,10 +75,10 @@ def test_with_next_to_no_mass_nothing_is_added() -> None:
 
 
 def test_the_verdict_says_from_where_on_mass_gives_most(found: BallMass) -> None:
-    words = verdict(found)
+    words = in_words(found)
     assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
     small = Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True).ball_mass
-    assert verdict(small).startswith("Stiffness that varies gives most of the power in every")
+    assert in_words(small).startswith("Stiffness that varies gives most of the power in every")
 
 
 def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> None:

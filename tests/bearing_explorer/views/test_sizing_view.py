@@ -375,7 +375,7 @@ def test_an_answer_at_the_edge_of_the_search_is_a_bound(sized):
 def test_the_outer_race_may_be_known_to_be_damaged():
     view = view_of(DefectSize, signal())
     editor = SceneEditor("fan-rig")
-    assert view.form(editor) == ({"fault": ""}, {})
+    assert view.form(editor) == ({"fault": "", "support": ""}, {})
     assert [value for value, _ in view.fields()[0]["options"]] == ["", "outer race"]
     view.prepare({"fault": "outer race"}, editor)
     view.prepare({}, editor)

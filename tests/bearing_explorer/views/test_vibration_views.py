@@ -30,7 +30,7 @@ def results() -> Results:
 @given(st.lists(st.floats(0.0, 1.0), max_size=15))
 def test_labels_of_events_never_overlap_and_stay_inside(times: list[float]) -> None:
     events = tuple(Event(time, 0, True) for time in sorted(times))
-    rows = event_rows(events, 0.0, 1.0)
+    rows = event_rows(events, 0.0, 1.0, presets["fan-rig"].bearing)
     labelled = np.isfinite(rows["label_at"])
     assert labelled.sum() >= min(len(times), EVENT_ROWS)
     for at in set(rows["label_at"][labelled]):

@@ -231,3 +231,64 @@ def test_contacts_are_packed_row_after_row() -> None:
 def test_rows_refuse_what_cannot_be(change: dict, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         Row(**change)
+
+
+@pytest.mark.parametrize("arrangement", ["back-to-back", "face-to-face", "tandem"])
+def test_a_pair_knows_how_it_stands_and_can_be_moved(arrangement: str) -> None:
+    preload = 0.0 if arrangement == "tandem" else 6e-6
+    pair = LIEW_LIM.bearing.paired(16e-3, arrangement, preload)
+    assert pair.arrangement == arrangement
+    assert (pair.row_distance, pair.preload) == (pytest.approx(16e-3), pytest.approx(preload))
+    assert pair.total_balls == 24
+    assert pair.respaced(20e-3) == LIEW_LIM.bearing.paired(20e-3, arrangement, preload)
+    if preload:
+        assert pair.respaced(preload=2e-6) == LIEW_LIM.bearing.paired(16e-3, arrangement, 2e-6)
+    assert LIEW_LIM.bearing.arrangement == ""
+    with pytest.raises(ValueError, match="two rows that stand as a pair"):
+        LIEW_LIM.bearing.respaced(20e-3)
+
+
+def test_a_self_aligning_bearing_carries_its_contacts() -> None:
+    """Groove radius and modulus come back from its numbers; contacts in series make K."""
+    made = Bearing.self_aligning(
+        12, 7.94e-3, 20e-3, 4.13e-3, math.radians(12.0), youngs_modulus=205e9
+    )
+    assert made.is_self_aligning
+    assert made.arrangement == ""
+    assert made.sphere_groove == pytest.approx(4.13e-3, rel=1e-12)
+    inner = made.race_contact("inner")
+    assert inner.youngs_modulus == pytest.approx(205e9, rel=1e-9)
+    factors = made.race_factors
+    assert factors[0] == pytest.approx(inner.load_deflection_factor, rel=1e-9)
+    assert factors[1] == pytest.approx(
+        spherical_contact(7.94e-3, 20e-3, 205e9, 0.3).load_deflection_factor, rel=1e-9
+    )
+    assert sum(made.race_distances) == pytest.approx(made.groove_center_distance)
+    assert made.race_distances[1] == pytest.approx(20e-3 - 3.97e-3)
+    assert not LIEW_LIM.bearing.is_self_aligning
+    assert not LIEW_LIM.bearing.paired(16e-3, "face-to-face").is_self_aligning
+    scene = FAN_RIG.replace(bearing=made, depth=20e-6)
+    assert scene.active_dofs == ("x", "y", "z")
+
+
+def test_pressure_of_a_roller_is_that_of_hertz() -> None:
+    """The load is the pressure over the contact's half ellipse, and b is that of the textbook."""
+    contact = ROLLERS.race_contact("inner")
+    a, b = contact.semi_axes(1000.0)
+    p = contact.greatest_pressure(1000.0)
+    assert float(a) == pytest.approx(5e-3)
+    assert float(0.5 * math.pi * p * b * 2.0 * a) == pytest.approx(1000.0)
+    radius = 1.0 / (1.0 / 5e-3 + 1.0 / 20e-3)  # roller on the inner race of 20 mm
+    E = 210e9 / (2.0 * (1.0 - 0.3**2))
+    assert float(b) == pytest.approx(math.sqrt(4.0 * 1000.0 * radius / (math.pi * 10e-3 * E)))
+    assert ROLLERS.race_contact("outer").greatest_pressure(1000.0) < p
+    assert float(contact.semi_axes(0.0)[0]) == float(contact.semi_axes(0.0)[1]) == 0.0
+
+
+def test_rollers_follow_their_dimensions_and_never_become_balls() -> None:
+    longer = ROLLERS.replace(roller_length=20e-3, pitch_diameter=60e-3)
+    assert longer == Bearing.cylindrical(12, 10e-3, 20e-3, 60e-3)
+    with pytest.raises(ValueError, match="roller_length"):
+        ROLLERS.replace(roller_length=None)
+    with pytest.raises(ValueError, match="roller_length"):
+        FAN_RIG.bearing.replace(roller_length=10e-3)

@@ -7,9 +7,11 @@ import math
 import pytest
 
 from bearingcore import presets
+from bearingcore.diagnosis.simulated import pit
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.orbit import orbit
-from bearingcore.plan import VIBRATION, plan
+from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.plan import SETTLED, VIBRATION, plan
 from bearingcore.plan.balls import compare_balls, mass_share
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
@@ -26,7 +28,7 @@ def test_up_to_where_massless_balls_will_do() -> None:
     assert found.seconds > found.massless_seconds
     strict = compare_balls(FAN_RIG, budget=1e-6)
     assert math.isnan(strict.massless_up_to)
-    assert "more than 1e-06 dB off" in strict.sentence
+    assert "more than 1·10⁻⁶ dB off from 300 Hz on" in strict.sentence
 
 
 def test_share_of_the_power_that_mass_adds() -> None:
@@ -50,3 +52,31 @@ def test_those_that_do_not_know_mass_say_so() -> None:
     for march in (orbit, lambda scene: simulate_adaptive(scene, 0.01)):
         with pytest.raises(ValueError, match="massless"):
             march(heavy)
+
+
+def test_a_plan_chooses_whether_balls_have_mass() -> None:
+    """By what it looks at: up to there massless balls are within the budget, or they are not."""
+    low, high = (
+        plan(FAN_RIG, SETTLED, 1.0, duration=0.3, march=True, up_to=f) for f in (1500.0, 20e3)
+    )
+    assert low.scene.balls == "massless"
+    assert "massless: within 1 dB up to" in low.note
+    assert high.scene.balls == "with mass"
+    assert plan(FAN_RIG, SETTLED, 1.0, duration=0.3, march=True).scene.balls == "massless"
+    with pytest.raises(ValueError, match="up_to"):
+        plan(FAN_RIG, SETTLED, up_to=1e6)
+
+
+def test_bands_without_power_do_not_count() -> None:
+    """A pit under load: sideways next to nothing moves, and below 500 Hz up and down neither."""
+    motor = presets["6205"]
+    found = compare_balls(motor.replace(defect=pit(motor, 5e-4)), budget=1.0)
+    assert abs(found.added).max() > 1.0
+    assert found.massless_up_to > 15e3
+
+
+def test_a_speed_run_marches_balls_with_mass() -> None:
+    heavy = FAN_RIG.replace(balls="with mass")
+    run = speed_run(heavy, [40.0], duration=0.2)
+    assert not run.from_orbit.any()
+    assert math.isfinite(run.density.max())

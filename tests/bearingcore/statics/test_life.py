@@ -399,3 +399,45 @@ def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:
 def test_ratings_of_the_races_need_the_drawing() -> None:
     with pytest.raises(ValueError, match="inner_groove_radius"):
         race_ratings(presets["fan-rig"].bearing, 1e4)
+
+
+def test_two_rows_live_as_the_rating_of_two_rows_says() -> None:
+    """Two rows under twice the load, rated i^0.7 of one: each row lives alike, together shorter.
+
+    With the rating of both rows each race is rated as alone, and lives combine as L^(−10/9).
+    """
+    one = presets["7208-25deg"].healthy()
+    two = one.replace(
+        bearing=one.bearing.paired(0.0, "tandem"), fy=2.0 * one.load.fy, fz=2.0 * one.load.fz
+    )
+    rating = dynamic_load_rating(one.bearing)
+    assert dynamic_load_rating(two.bearing) == pytest.approx(2.0**0.7 * rating)
+    single = life(one, rating, positions="all")
+    both = life(two, 2.0**0.7 * rating, positions="all")
+    assert both.inner_rating == pytest.approx(single.inner_rating)
+    assert both.million_revolutions == pytest.approx(
+        2.0**-0.9 * single.million_revolutions, rel=1e-9
+    )
+    assert both.equivalent_load == pytest.approx(2.0 * single.equivalent_load, rel=1e-9)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_defect_in_one_row_shortens_less_than_one_across_both(race: str) -> None:
+    scene = presets["7208-tandem"].replace(race=race)
+    rating = dynamic_load_rating(scene.bearing)
+    (defect,) = scene.defects
+    first = life(scene, rating)
+    second = life(scene.replace(defect=dataclasses.replace(defect, row=1)), rating)
+    across = life(scene.replace(defect=dataclasses.replace(defect, row=None)), rating)
+    assert first.million_revolutions == pytest.approx(second.million_revolutions, rel=1e-6)
+    assert across.share_of_healthy < first.share_of_healthy < 1.0
+
+
+def test_rollers_have_a_life_by_the_fourth_power() -> None:
+    scene = presets["nu208"].healthy().replace(radial_clearance=0.0)
+    lives = [life(scene.replace(fy=-load), 60e3).million_revolutions for load in (2e3, 4e3)]
+    assert lives[0] / lives[1] == pytest.approx(16.0, rel=1e-3)
+    for name in ("nu208", "1208"):
+        with pytest.raises(ValueError, match="that of the catalogue"):
+            dynamic_load_rating(presets[name].bearing)
+    assert life(presets["1208"], 20e3).known

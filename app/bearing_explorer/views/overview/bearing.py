@@ -22,7 +22,9 @@ class OverviewBearing(BearingDrawing):
     in_report = False
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
-        return style.bare_figure(x, y, height=240, sizing_mode="stretch_both", min_width=240)
+        plot = style.bare_figure(x, y, height=200, sizing_mode="stretch_both", min_width=240)
+        plot.min_border_top = 8  # for the words about the load
+        return plot
 
     def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
         """The bars say it; a scale would take a tenth of the height."""

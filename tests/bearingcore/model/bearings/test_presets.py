@@ -149,3 +149,11 @@ def test_the_steeper_the_contact_the_stiffer_along_the_shaft() -> None:
     radial = [each.term("k_yy").mean() for each in state]
     assert axial == sorted(axial)
     assert radial == sorted(radial, reverse=True)
+
+
+def test_a_name_that_no_preset_has_is_answered_with_those_there_are() -> None:
+    with pytest.raises(KeyError) as found:
+        presets["foo"]
+    assert all(name in str(found.value) for name in ("foo", *presets))
+    assert "foo" not in presets
+    assert presets.get("foo") is None

@@ -1,0 +1,33 @@
+"""Every figure zooms and pans: with Ctrl and the wheel, two fingers, a box, and back at two clicks.
+
+One finger goes on scrolling the page, and so does the wheel alone. What the server sends moves the
+axes of a figure only while nobody has zoomed into it; back is always where they would be then (see
+`server.packed_source`).
+"""
+
+from __future__ import annotations
+
+from bokeh.models import BoxZoomTool, CustomJS, PanTool, Plot, ResetTool, WheelZoomTool
+
+_FINGERS = """
+if (matchMedia("(pointer: coarse)").matches) box.active = false
+"""
+_STAY = "if (cb_obj.start != start || cb_obj.end != end) cb_obj.setv({start, end})"
+
+
+def zoomable(plot: Plot, equal_aspect: bool = False) -> None:
+    """Give a figure the tools to zoom and pan. Its ranges for places of words stay as they are.
+
+    With `equal_aspect` a box that is drawn keeps circles round.
+    """
+    box = BoxZoomTool(match_aspect=equal_aspect)
+    wheel = WheelZoomTool(modifiers="ctrl")
+    plot.add_tools(wheel, box, PanTool(), ResetTool())
+    plot.toolbar.active_drag = box
+    plot.toolbar.active_scroll = wheel
+    plot.js_on_event("doubletap", CustomJS(args={"plot": plot}, code="plot.reset.emit()"))
+    plot.js_on_change("inner_width", CustomJS(args={"box": box}, code=_FINGERS))
+    for words in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
+        stay = CustomJS(args={"start": words.start, "end": words.end}, code=_STAY)
+        words.js_on_change("start", stay)
+        words.js_on_change("end", stay)

@@ -1,0 +1,37 @@
+"""Second units: what else a number of the page is given and shown in.
+
+A groove is also a ratio to its ball, a clearance also diametral, a speed also in turns a minute, a
+defect also in millimetres along its race. Each is the number times a factor that the browser needs.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from bearing_explorer.state.quantities import Values, defects_of
+from bearingcore import Scene
+
+
+def twins_of(scene: Scene, selected: int, draft: Values) -> dict[str, dict[str, Any]]:
+    """The second unit of quantities that have one, by name: its unit, words and factor.
+
+    `draft`: dimensions that wait; a groove's ratio is to the ball among them.
+    """
+    defect = defects_of(scene)[selected]
+    on_race = 1e3 * defect.raceway_radius(scene.bearing) * math.pi / 180.0
+    ball = draft.get("ball_diameter_mm", 1e3 * scene.bearing.ball_diameter)
+
+    def twin(unit: str, words: str, factor: float) -> dict[str, Any]:
+        return {"unit": unit, "words": words, "factor": factor}
+
+    twins = {
+        "extent_deg": twin("mm", "along the race", on_race),
+        "shaft_speed_hz": twin("rpm", "turns a minute", 60.0),
+        "radial_clearance_um": twin("µm dia.", "diametral clearance", 2.0),
+    }
+    if ball > 0.0:
+        for race in ("inner", "outer"):
+            words = "groove radius over ball diameter"
+            twins[f"{race}_groove_radius_mm"] = twin("× ball", words, 1.0 / ball)
+    return twins

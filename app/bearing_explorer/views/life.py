@@ -1,0 +1,304 @@
+"""Life of the bearing, pressure on its races and the oil film, with what they are asked with."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import param
+
+from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.compute.endurance import Asked, Endurance, endurance
+from bearing_explorer.figures import style
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, SessionParts, Sources
+from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.widgets.controls import Rows
+from bearing_explorer.widgets.limits import rows_of
+from bearingcore.statics.life import LEFT_OUT
+from bearingcore.statics.validity import static_pressure
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bearing_explorer.compute.results import Results
+
+
+@dataclasses.dataclass(frozen=True)
+class Field:
+    """A number that is asked for: the field of `Asked`, words, unit, and what it may be."""
+
+    name: str
+    label: str
+    unit: str
+    unit_si: float
+    least: float
+    most: float
+    about: str
+
+
+FIELDS = (
+    Field(
+        "dynamic_load_rating",
+        "Dynamic load rating of the catalogue",
+        "kN",
+        1e3,
+        1e-3,
+        1e5,
+        "Of the whole bearing, with all its rows. Left empty it is computed by ISO 281.",
+    ),
+    Field(
+        "viscosity",
+        "Viscosity of the oil",
+        "mPa·s",
+        1e-3,
+        0.1,
+        1e4,
+        "Of the oil, or a grease's base oil, at the temperature of the contact.",
+    ),
+    Field(
+        "race_roughness",
+        "Roughness of the races",
+        "µm",
+        1e-6,
+        1e-3,
+        100.0,
+        "Root mean square; 0.1 µm is usual for honed races.",
+    ),
+    Field(
+        "ball_roughness",
+        "Roughness of the balls",
+        "µm",
+        1e-6,
+        0.0,
+        100.0,
+        "Root mean square; 0.05 µm is usual.",
+    ),
+)
+
+
+class LifeRows(Rows):
+    """The fields and the answers in the browser."""
+
+    #: {"groups": [{title, words, facts: [{label, value, about}]}], "values": {field: text}}
+    shown = param.Dict(default={})
+
+    _esm = scripts("element.js", "rows.js", "life.js")
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text("button.css"),
+        asset_text("controls.css"),
+        asset_text("life.css"),
+    ]
+
+
+class LifeOfBearing(ControlView):
+    """What fatigue, pressure and oil say of a scene."""
+
+    name = "life"
+    title = "Life, pressure and oil film"
+    about = (
+        "Fatigue life by ISO 16281 from the loads of all balls, the greatest pressure on each race "
+        "(Hertz), and the oil film where a ball carries most (Hamrock and Dowson)."
+    )
+    needs = frozenset[str]()
+    _draw: Callable[[], None] | None = None
+
+    def build(self, packed: PackedSource) -> Any:
+        self.asked = Asked()
+        fields = [
+            {"name": f.name, "label": f.label, "unit": f.unit, "about": f.about} for f in FIELDS
+        ]
+        self.rows = LifeRows(self.forward, spec={"fields": fields})
+        return self.rows
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self._draw = parts.draw
+
+    def forward(self, message: Any) -> None:
+        """Take a number that was typed; what is refused stays as it was, with a sentence."""
+        given = message.get("life") if isinstance(message, dict) else None
+        if not isinstance(given, Mapping):
+            return
+        refused = {}
+        for field in FIELDS:
+            if field.name not in given:
+                continue
+            try:
+                value: Any = read(field, given[field.name])
+                self.asked = dataclasses.replace(self.asked, **{field.name: value})
+            except ValueError as error:
+                refused[field.name] = str(error)
+        self.rows.send({"life": {"refused": refused}})
+        if self._draw is not None:
+            self._draw()
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        endurance(results.scene, self.asked)
+        return {}, {}
+
+    def sentence(self, results: Results) -> str:
+        found = endurance(results.scene, self.asked)
+        return found.no_life if found.life is None else found.life.sentence
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None:
+            return
+        found = endurance(results.scene, self.asked)  # computed already, by `data`
+        self.rows.shown = {"groups": groups_of(results, found), "values": self._values()}
+
+    def _values(self) -> dict[str, str]:
+        texts = {}
+        for field in FIELDS:
+            value = getattr(self.asked, field.name)
+            texts[field.name] = "" if value is None else f"{value / field.unit_si:.6g}"
+        return texts
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        groups = groups_of(results, endurance(results.scene, self.asked))
+        rows = [
+            (group["title"], fact["label"], fact["value"])
+            for group in groups
+            for fact in (*group["facts"], {"label": "in words", "value": group["words"]})
+        ]
+        about, quantity, value = np.array(rows, dtype=str).reshape(-1, 3).T
+        return {"about": about, "quantity": quantity, "value": value}
+
+
+def read(field: Field, given: object) -> float | None:
+    """The number [SI] a person gave; ValueError with a sentence for the page."""
+    text = str(given)[:40].strip().replace("−", "-").replace(",", ".")
+    if not text and field.name == "dynamic_load_rating":
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not field.least <= value <= field.most:
+        raise ValueError(
+            f"“{text}” does not do: {field.label.lower()} goes from {field.least:g} to "
+            f"{field.most:g} {field.unit}."
+        )
+    return value * field.unit_si
+
+
+def groups_of(results: Results, found: Endurance) -> list[dict[str, Any]]:
+    """What is shown: titles, words, and facts with their numbers."""
+    return [_life(results, found), _pressures(results, found), _film(found)]
+
+
+def _group(title: str, words: str, facts: list[tuple[str, str, str]]) -> dict[str, Any]:
+    keys = ("label", "value", "about")
+    return {
+        "title": title,
+        "words": words,
+        "facts": [dict(zip(keys, fact, strict=True)) for fact in facts],
+    }
+
+
+def _life(results: Results, found: Endurance) -> dict[str, Any]:
+    title = "Life"
+    if found.life is None or found.rating is None:
+        return _group(title, found.no_life, [])
+    lasts, known = found.life, found.life.known
+    facts = [
+        (
+            "Dynamic load rating C<sub>r</sub>",
+            f"{style.with_prefix(found.rating, 'N', 4)}, {found.rating_words}",
+            "The load under which nine of ten bearings reach a million turns.",
+        ),
+        (
+            "Life L<sub>10</sub>",
+            _million(lasts.million_revolutions) if known else "not known",
+            "Turns that nine of ten bearings reach.",
+        ),
+        (
+            "at the speed of the scene",
+            f"{style.number(lasts.hours, 4)} h"
+            if math.isfinite(lasts.hours)
+            else "no hours: "
+            + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "without an end"),
+            "The same in hours.",
+        ),
+        (
+            "Equivalent load P",
+            style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
+            "The load of the same life by ISO 281.",
+        ),
+    ]
+    if results.scene.defects and known:
+        facts.append(
+            (
+                "without the defect",
+                _million(lasts.healthy_million_revolutions),
+                "Of the healthy bearing under the same load.",
+            )
+        )
+    return _group(title, LEFT_OUT if results.scene.defects else "", facts)
+
+
+def _million(value: float) -> str:
+    return "without an end" if math.isinf(value) else f"{style.number(value, 4)} million turns"
+
+
+def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
+    title = "Greatest contact pressure"
+    if found.pressures is None:
+        return _group(title, found.no_pressures, [])
+    bearing = results.scene.bearing
+    facts = []
+    for contact in (found.pressures.inner, found.pressures.outer):
+        across = "half the length" if bearing.is_roller else "across"
+        facts.append(
+            (
+                f"{contact.race.capitalize()} race",
+                style.with_prefix(contact.greatest_pressure, "Pa"),
+                "In the middle of the contact of the heaviest loaded ball or roller.",
+            )
+        )
+        facts.append(
+            (
+                "contact, half its size",
+                f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
+                f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
+                "Semi-axes of the contact ellipse; of a roller half its length and half the width.",
+            )
+        )
+    allowed = style.with_prefix(static_pressure(bearing), "Pa")
+    words = (
+        f"At {style.with_prefix(found.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
+        f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: a corner has no "
+        "ellipse."
+    )
+    return _group(title, words, facts)
+
+
+def _film(found: Endurance) -> dict[str, Any]:
+    title = "Oil film"
+    if found.film is None:
+        return _group(title, found.no_film, [])
+    facts = []
+    states = {row["name"]: row["state"] for row in rows_of(found.limits)}
+    for film in (found.film.inner, found.film.outer):
+        crossed = states.get(f"film parameter, {film.race} race") == "crossed"
+        parameter = style.number(film.film_parameter) if film.lubrication else "not known"
+        facts.append(
+            (
+                f"{film.race.capitalize()} race, thickness",
+                style.with_prefix(film.thickness, "m") if film.lubrication else "not known",
+                "Where it is least.",
+            )
+        )
+        facts.append(
+            (
+                "film parameter Λ",
+                f"{parameter} ({film.lubrication or 'no film'})" + (": below 1" if crossed else ""),
+                "Thickness over the roughness of both surfaces: below 1 they touch all the time, "
+                "above 3 hardly ever.",
+            )
+        )
+    return _group(title, found.film.sentence, facts)

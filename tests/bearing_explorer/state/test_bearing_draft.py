@@ -1,0 +1,197 @@
+"""A bearing of one's own: dimensions that wait for each other, kinds, names, second units."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+from bearing_explorer.state.address import place_of, read, write
+from bearing_explorer.state.bearing_kinds import as_kind, hidden_of
+from bearing_explorer.state.choice_list import KIND, kind_of
+from bearing_explorer.state.scene_editor import SceneEditor
+
+from bearingcore import Bearing, Scene, equilibrium, presets
+from bearingcore.model.rows import Row
+
+KINDS = KIND.names
+
+
+@pytest.fixture
+def editor() -> SceneEditor:
+    return SceneEditor("6205")
+
+
+def test_dimensions_wait_for_each_other_and_are_applied_as_a_whole(editor: SceneEditor) -> None:
+    """The ball of a 209 is too large for a 6205 until pitch and number of balls are there too."""
+    before = editor.scene
+    refused, changed = editor.set({"ball_diameter_mm": "17.462"})
+    assert changed == {}
+    assert "at most" in refused["ball_diameter_mm"]
+    assert editor.scene is before
+    state = editor.state()
+    assert state["values"]["ball_diameter_mm"] == 17.462, "what was typed stays in its field"
+    assert state["draft"]["waiting"] == ["ball_diameter_mm"]
+    assert "Not applied yet: ball diameter waits" in state["draft"]["words"]
+    refused, _ = editor.set({"inner_groove_radius_mm": "9.08"})
+    assert "inner_groove_radius_mm" not in refused, "it fits the ball that waits"
+    refused, changed = editor.set({"pitch_diameter_mm": "85"})
+    assert refused == {}
+    assert {"ball_diameter_mm", "pitch_diameter_mm", "inner_groove_radius_mm"} <= set(changed)
+    bearing = editor.scene.bearing
+    assert bearing.ball_diameter == pytest.approx(17.462e-3)
+    assert bearing.inner_groove_radius == pytest.approx(9.08e-3)
+    assert editor.state()["draft"] == {"waiting": [], "faults": {}, "words": ""}
+
+
+def test_faults_stand_at_their_fields_in_units_of_the_page(editor: SceneEditor) -> None:
+    editor.set({"ball_diameter_mm": "50"})
+    refused, _ = editor.set({"inner_groove_radius_mm": "9.08"})
+    assert refused["ball_diameter_mm"] == (
+        "The ball diameter is 50 mm; allowed: above 0 and below the pitch diameter of 39.04 mm."
+    )
+    assert "above 25 mm" in refused["inner_groove_radius_mm"]
+    assert set(refused) == {"ball_diameter_mm", "inner_groove_radius_mm"}
+
+
+def test_a_draft_can_be_discarded_and_ends_with_another_bearing(editor: SceneEditor) -> None:
+    for way in ({"draft": "discard"}, {"preset": "6206"}, {"kind": "tandem"}):
+        editor.set({"n_balls": "40"})
+        assert editor.draft == {"n_balls": 40.0}
+        assert editor.choose(way) == {}
+        assert editor.draft == {}
+        assert editor.state()["values"]["n_balls"] == editor.scene.bearing.n_balls
+
+
+def test_a_draft_does_not_stop_other_numbers(editor: SceneEditor) -> None:
+    editor.set({"n_balls": "40"})
+    refused, changed = editor.set({"fy_n": "-1500"})
+    assert (refused, changed) == ({}, {"fy_n": -1500.0})
+    assert editor.draft == {"n_balls": 40.0}
+
+
+def test_what_is_undone_takes_its_draft_along(editor: SceneEditor) -> None:
+    kept = editor.snapshot()
+    editor.set({"n_balls": "40"})
+    editor.restore(kept)
+    assert editor.draft == {}
+
+
+@pytest.mark.parametrize("start", ["6205", "fan-rig", "7208-back-to-back", "1208", "nu208"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_can_be_made_of_every_bearing(start: str, kind: str) -> None:
+    editor = SceneEditor(start)
+    assert editor.choose({"kind": kind}) == {}
+    scene = editor.scene
+    assert kind_of(scene.bearing) == kind
+    assert scene.bearing.n_balls == presets[start].bearing.n_balls
+    assert scene.bearing.ball_diameter == presets[start].bearing.ball_diameter
+    state = editor.state()
+    assert state["choices"]["kind"] == kind
+    assert ("row" in state["hidden"]) == (not scene.bearing.rows)
+    assert ("roller_length_mm" in state["hidden"]) == (kind != "rollers")
+    found = equilibrium(scene.replace(fy=-500.0), [0.1])
+    if found.dofs != ("x", "y", "z", "rx", "ry"):  # a light radial load may leave a tilt free
+        assert found.converged.all(), found.reason(0)
+    place = read(write(place_of(editor)))
+    assert place is not None
+    assert place.scene == scene
+
+
+def test_a_kind_that_it_is_already_changes_nothing() -> None:
+    for name in presets:
+        bearing = presets[name].bearing
+        assert as_kind(bearing, kind_of(bearing)) is bearing
+
+
+def test_rollers_take_axial_loads_and_rows_of_defects_out_of_the_scene() -> None:
+    editor = SceneEditor("7208-back-to-back")
+    assert editor.scene.load.fz != 0.0
+    editor.choose({"kind": "rollers"})
+    assert editor.scene.load.fz == 0.0
+    assert editor.scene.defects[0].row is None
+    assert {"fz_n", "mx_nm", "my_nm", "contact_angle_deg"} <= set(hidden_of(editor.scene.bearing))
+    editor.set({"roller_length_mm": 20.0})
+    longer = editor.scene.bearing
+    assert longer.load_deflection_factor == pytest.approx(
+        Bearing.cylindrical(14, longer.ball_diameter, 20e-3, 60e-3).load_deflection_factor
+    )
+
+
+def test_rows_of_a_pair_are_moved_and_preloaded() -> None:
+    editor = SceneEditor("7208-face-to-face")
+    refused, _ = editor.set({"row_distance_mm": "25", "preload_um": "5"})
+    assert refused == {}
+    pair = editor.scene.bearing
+    assert pair.arrangement == "face-to-face"
+    assert pair.row_distance == pytest.approx(25e-3)
+    assert pair.preload == pytest.approx(5e-6)
+    editor.choose({"kind": "back-to-back"})
+    assert editor.scene.bearing.preload == pytest.approx(5e-6)
+    editor.choose({"kind": "single"})
+    assert math.isnan(editor.values["row_distance_mm"])
+
+
+def test_a_self_aligning_bearing_stays_one_when_it_is_changed() -> None:
+    editor = SceneEditor("1208")
+    before = editor.scene.bearing
+    refused, _ = editor.set({"ball_diameter_mm": 9.0})
+    assert refused == {}
+    refused, _ = editor.set({"outer_raceway_radius_mm": 35.0, "contact_angle_deg": 12.0})
+    assert refused == {}
+    after = editor.scene.bearing
+    assert after.is_self_aligning
+    assert after.sphere_groove / after.ball_diameter == pytest.approx(
+        before.sphere_groove / before.ball_diameter
+    )
+    made = Bearing.self_aligning(16, 9e-3, 35e-3, after.sphere_groove, math.radians(12.0), 5e-6)
+    assert after.pitch_diameter == pytest.approx(made.pitch_diameter)
+    assert after.load_deflection_factor == pytest.approx(made.load_deflection_factor)
+    refused, _ = editor.set({"pitch_diameter_mm": 70.0})
+    assert "pitch diameter" in next(iter(refused.values()))
+
+
+def test_a_bearing_has_the_name_that_was_typed() -> None:
+    editor = SceneEditor("6205")
+    assert editor.name == "6205, deep groove bearing"
+    editor.set({"n_balls": 8})
+    assert editor.name == "6205, deep groove bearing, changed"
+    assert "do not stand for this one" in editor.note
+    kept = editor.snapshot()
+    editor.choose({"name": "  Pump \n 3, drive end "})
+    assert editor.state()["bearing"]["own"] == "Pump 3, drive end"
+    assert editor.snapshot() != kept, "a name can be undone"
+    place = read(write(place_of(editor)))
+    assert place is not None
+    assert place.name == "Pump 3, drive end"
+    other = SceneEditor("fan-rig")
+    other.take_scene(place.scene, place.preset, name=place.name)
+    assert other.name == "Pump 3, drive end"
+    editor.choose({"preset": "6206"})
+    assert editor.name == "6206, deep groove bearing"
+
+
+def test_second_units_are_the_first_times_a_factor() -> None:
+    editor = SceneEditor("6205")
+    twins = editor.state()["twins"]
+    bearing, defect = editor.scene.bearing, editor.scene.defects[0]
+    values = editor.values
+    assert values["shaft_speed_hz"] * twins["shaft_speed_hz"]["factor"] == pytest.approx(1797.0)
+    on_race = defect.extent * bearing.outer_raceway_radius * 1e3
+    assert values["extent_deg"] * twins["extent_deg"]["factor"] == pytest.approx(on_race)
+    assert values["radial_clearance_um"] * twins["radial_clearance_um"]["factor"] == 10.0
+    name = "inner_groove_radius_mm"
+    assert values[name] * twins[name]["factor"] == pytest.approx(0.52)
+    editor.choose({"race": "inner"})
+    shorter = editor.state()["twins"]["extent_deg"]["factor"]
+    assert shorter / twins["extent_deg"]["factor"] == pytest.approx(
+        bearing.inner_raceway_radius / bearing.outer_raceway_radius
+    )
+
+
+def test_more_rows_than_the_page_shows_are_refused() -> None:
+    rows = (Row(-0.01), Row(), Row(0.01))
+    bearing = dataclasses.replace(presets["fan-rig"].bearing, rows=rows)
+    scene: Scene = presets["fan-rig"].replace(bearing=bearing)
+    with pytest.raises(ValueError, match="rows of balls are 3; allowed here: at most 2"):
+        SceneEditor("fan-rig").take_scene(scene)

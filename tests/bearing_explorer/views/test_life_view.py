@@ -1,0 +1,100 @@
+"""Life, pressure and film on the page: the core's numbers, and a sentence where there are none."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from bearing_explorer.compute.endurance import Asked, endurance
+from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.life import FIELDS, LifeOfBearing, groups_of, read
+
+from bearingcore import contact_pressures, dynamic_load_rating, life, presets
+
+
+def facts(name: str, asked: Asked | None = None) -> dict[str, dict[str, str]]:
+    results = Results(presets[name])
+    groups = groups_of(results, endurance(results.scene, asked or Asked()))
+    return {
+        group["title"]: {fact["label"]: fact["value"] for fact in group["facts"]}
+        | {"words": group["words"]}
+        for group in groups
+    }
+
+
+def test_the_numbers_are_those_of_the_core() -> None:
+    scene = presets["6205"]
+    said = facts("6205")
+    lasts = life(scene, dynamic_load_rating(scene.bearing), positions="all")
+    rating = said["Life"]["Dynamic load rating C<sub>r</sub>"]
+    assert "computed from the dimensions by ISO 281" in rating
+    turns = float(said["Life"]["Life L<sub>10</sub>"].split()[0].replace(",", ""))
+    assert turns == pytest.approx(lasts.million_revolutions, rel=1e-3)
+    hours = float(said["Life"]["at the speed of the scene"].split()[0])
+    assert hours == pytest.approx(1e6 * lasts.million_revolutions / (1797.0 * 60.0), rel=1e-3)
+    inner = float(said["Greatest contact pressure"]["Inner race"].split()[0])
+    expected = contact_pressures(scene).inner.greatest_pressure
+    assert inner == pytest.approx(expected / 1e9, rel=1e-2)
+    assert "not a promise" in said["Life"]["words"], "what the standard leaves out is said"
+
+
+def test_a_given_rating_is_taken_and_said() -> None:
+    said = facts("6205", Asked(dynamic_load_rating=14_000.0))
+    assert said["Life"]["Dynamic load rating C<sub>r</sub>"] == "14 kN, given"
+
+
+def test_thin_oil_lets_surfaces_touch_and_thick_oil_does_not() -> None:
+    thin, thick = (
+        endurance(presets["6205"], Asked(viscosity=viscosity)) for viscosity in (1e-3, 1.0)
+    )
+    assert any(limit.crossed for limit in thin.limits)
+    assert not any(limit.crossed for limit in thick.limits)
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
+    found = endurance(presets[name], Asked())
+    for answer, words in (
+        (found.life, found.no_life),
+        (found.pressures, found.no_pressures),
+        (found.film, found.no_film),
+    ):
+        assert (answer is None) == bool(words)
+        assert words == "" or words.endswith(".")
+    rated = endurance(presets[name], Asked(dynamic_load_rating=40e3))
+    if presets[name].bearing.knows_contacts:
+        assert rated.life is not None
+        assert math.isfinite(rated.life.million_revolutions)
+        assert rated.pressures is not None
+
+
+def test_rollers_and_self_aligning_bearings_ask_for_the_rating_of_the_catalogue() -> None:
+    for name in ("1208", "nu208"):
+        found = endurance(presets[name], Asked())
+        assert found.life is None
+        assert "enter that of the catalogue" in found.no_life
+    assert "rollers it is not computed" in endurance(presets["nu208"], Asked()).no_film
+
+
+def test_numbers_are_read_as_people_write_them_and_refused_in_words() -> None:
+    by_name = {field.name: field for field in FIELDS}
+    assert read(by_name["dynamic_load_rating"], " 14,5 ") == pytest.approx(14_500.0)
+    assert read(by_name["dynamic_load_rating"], "") is None
+    assert read(by_name["race_roughness"], "0.2") == pytest.approx(2e-7)
+    for name, text in (("viscosity", ""), ("viscosity", "0"), ("race_roughness", "nan")):
+        with pytest.raises(ValueError, match="goes from"):
+            read(by_name[name], text)
+
+
+def test_what_is_typed_changes_the_answer_and_a_refusal_does_not() -> None:
+    view = LifeOfBearing(PackedSource())
+    view.forward({"life": {"dynamic_load_rating": "14"}})
+    assert view.asked.dynamic_load_rating == 14_000.0
+    view.forward({"life": {"dynamic_load_rating": "-3", "viscosity": "50"}})
+    assert view.asked.dynamic_load_rating == 14_000.0
+    assert view.asked.viscosity == pytest.approx(0.05)
+    for strange in (None, 3, {"life": 4}, {"other": {}}):
+        view.forward(strange)
+    view.say(Results(presets["6205"]), "")
+    assert view.rows.shown["values"]["dynamic_load_rating"] == "14"

@@ -1,0 +1,34 @@
+"""The documents beside the code: they speak of what there is."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from pathlib import Path
+
+import pytest
+
+import bearingcore
+
+ROOT = Path(__file__).parents[1]
+DOCS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "assets/docs").glob("*.md"))]
+
+
+@pytest.mark.parametrize("name", sorted(bearingcore.__all__))
+def test_the_api_reference_holds_every_public_name_as_it_is(name: str) -> None:
+    """With the arguments it has today: who changes one builds the reference anew."""
+    text = (ROOT / "assets/docs/API.md").read_text(encoding="utf-8")
+    _, found, rest = text.partition(f"### `bearingcore.{name}`\n")
+    assert found, "see CONTRIBUTING.md for the command that builds it"
+    own = rest.partition("\n### `")[0]
+    thing = getattr(bearingcore, name)
+    if inspect.isfunction(thing):
+        wanted = list(inspect.signature(thing).parameters)
+        assert all(re.search(rf"\b{one}\b", own) for one in wanted), wanted
+
+
+@pytest.mark.parametrize("path", DOCS, ids=lambda path: path.name)
+def test_links_between_documents_lead_somewhere(path: Path) -> None:
+    for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", path.read_text(encoding="utf-8")):
+        if ":" not in target:
+            assert (path.parent / target).exists(), target

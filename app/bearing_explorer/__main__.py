@@ -19,6 +19,12 @@ for _library in ("OPENBLAS", "MKL", "OMP"):
 from bearing_explorer.server.log import LEVELS, begin  # noqa: E402
 
 
+NOT_KEPT = (
+    "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be written:"
+    " each start compiles. NUMBA_CACHE_DIR may name a folder that can."
+)
+
+
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(
@@ -114,6 +120,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     import bearingcore
 
     bearingcore.warm(report=_say)
+    if not bearingcore.kernels.kept_on_disk():
+        _say(NOT_KEPT)
 
     # With several processes this one only waits for them, inside `serve`.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))

@@ -1,4 +1,4 @@
-"""Equal scenes give equal results, bit for bit: in one thread or two, in this or another process."""
+"""Equal scenes give equal results, bit for bit: in one thread or two, in whichever process."""
 
 from __future__ import annotations
 

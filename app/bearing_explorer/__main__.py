@@ -18,10 +18,9 @@ for _library in ("OPENBLAS", "MKL", "OMP"):
 
 from bearing_explorer.server.log import LEVELS, begin  # noqa: E402
 
-
 NOT_KEPT = (
-    "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be written:"
-    " each start compiles. NUMBA_CACHE_DIR may name a folder that can."
+    "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be "
+    "written: each start compiles. NUMBA_CACHE_DIR may name a folder that can."
 )
 
 

@@ -211,8 +211,9 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     # tabs
     page.locator(".tab-load").focus()
     page.keyboard.press("ArrowRight")
-    expect(page.locator(".tab-stiffness")).to_be_focused()
-    expect(page.locator(".section-stiffness.on-screen")).to_be_visible()
+    after = NAMES[NAMES.index("load") + 1]
+    expect(page.locator(f".tab-{after}")).to_be_focused()
+    expect(page.locator(f".section-{after}.on-screen")).to_be_visible()
     page.keyboard.press("Home")
     expect(page.locator(".section-overview.on-screen")).to_be_visible()
     settle(page)

@@ -287,11 +287,11 @@ def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer:
     dialog = view.get_by_role("dialog", name="Numbers of “The bearing”")
     expect(dialog).to_be_visible()
     expect(dialog.locator("thead th")).to_have_text(
-        ["ball", "ball angle (°)", "ball load (N)", "contact angle (°)",
+        ["row", "ball", "ball angle (°)", "ball load (N)", "contact angle (°)",
          "drop into outer race (µm)", "drop into inner race (µm)"]
     )  # fmt: skip
     expect(dialog.locator("tbody tr")).to_have_count(14)
-    expect(dialog.locator("tbody tr").nth(10).locator("td").nth(2)).to_have_text("36.4914")
+    expect(dialog.locator("tbody tr").nth(10).locator("td").nth(3)).to_have_text("36.4914")
     expect(dialog.locator(".bar span")).to_have_text("14 rows")
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()

@@ -54,7 +54,7 @@ ALONE = 3.0
 LEAD_UNDER_NOISE = 2.0
 """[dB] below the level of noise down to which a part that leads may be borne out otherwise."""
 
-SLOWER, FAINTER = (2, 3), 0.5
+SLOWER, FAINTER = (2, 3), 0.7
 """Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
 its own are then."""
 

@@ -11,7 +11,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from bearing_explorer.server.log import LEVELS, begin
+# Before numpy is loaded. The page has threads of its own; those of the linear algebra would fight
+# with them over matrices of ten rows, and cost four times what they save.
+for _library in ("OPENBLAS", "MKL", "OMP"):
+    os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+from bearing_explorer.server.log import LEVELS, begin  # noqa: E402
+
+NOT_KEPT = (
+    "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be "
+    "written: each start compiles. NUMBA_CACHE_DIR may name a folder that can."
+)
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -109,6 +119,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     import bearingcore
 
     bearingcore.warm(report=_say)
+    if not bearingcore.kernels.kept_on_disk():
+        _say(NOT_KEPT)
 
     # With several processes this one only waits for them, inside `serve`.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))

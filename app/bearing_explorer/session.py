@@ -610,6 +610,10 @@ class Explorer:
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+        if (
+            self._on_screen != self._shown
+        ):  # asked for meanwhile; a picture may have been made of it
+            self._worker.submit(self.inputs)
 
     def _quick_picture(
         self, inputs: Inputs, views: Sequence[View]

@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from bearingcore import kernels
+from bearingcore.common.processors import processors
 from bearingcore.dynamics.modes import modes
 from bearingcore.dynamics.motion import Motion, march_from, simulate
 from bearingcore.model.bearings.presets import presets
@@ -34,7 +35,7 @@ def warm(report: Report = print) -> None:
         report,
     )
     kept = kernels.kept_on_disk()
-    helper = _start_helper() if kept and _compiled_afresh() and _processors() > 1 else None
+    helper = _start_helper() if kept and _compiled_afresh() and processors() > 1 else None
     try:
         _run(
             (
@@ -74,13 +75,6 @@ def _compiled_afresh() -> bool:
     """True where what has been called until now was not on disk."""
     stats = getattr(kernels.ball_path, "stats", None)  # none where compiling is switched off
     return stats is not None and bool(stats.cache_misses)
-
-
-def _processors() -> int:
-    """How many this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _start_helper() -> subprocess.Popen[str] | None:

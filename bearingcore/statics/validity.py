@@ -15,8 +15,9 @@ What the model leaves out and what is looked at here:
   (a dent of 1/10,000 of the ball diameter), at rest and, where a motion was simulated, in motion.
   Corners of a defect press harder than this says;
 - the end of the groove: contact angle and half the contact ellipse against the shoulder;
-- the balls' inertia: centrifugal force against contact load. Gyroscopic moments, which go with it,
-  and the shock of a ball that meets the far edge of a defect are left out too;
+- the balls' inertia: what centrifugal force changes of loads, stiffness and contact angles, found
+  by solving with it (`ball_positions`), and its size against the contact load. Gyroscopic moments,
+  which go with it, and the shock of a ball that meets the far edge of a defect are left out too;
 - the size of the contact: Hertz takes it for small beside the ball;
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - coarse time steps: steps while a ball passes a defect.
@@ -42,6 +43,7 @@ from bearingcore.model.bearing import Bearing
 from bearingcore.model.hertz import in_series
 from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
+from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE
 from bearingcore.statics.pressure import heaviest_ball
@@ -55,9 +57,15 @@ STATIC_PRESSURE = 4.2e9
 ROLLER_PRESSURE, ALIGNING_PRESSURE = 4.0e9, 4.6e9
 """The same for roller bearings, and for self-aligning ball bearings."""
 
-CENTRIFUGAL_SHARE = {"most": 0.1, "least": 1.0}
-"""Centrifugal force over contact load up to which it may be left out. On the most loaded ball a
-tenth already shifts loads and angles; the least loaded one it may lift off the inner race."""
+CENTRIFUGAL_SHARE = {"least": 1.0}
+"""Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
+lift off the inner race."""
+
+CENTRIFUGAL_CHANGE = 0.05
+"""Part by which centrifugal force may change loads, over the heaviest, and stiffness: as much as is
+usually known of either."""
+
+_CHANGE_ANGLES = 31
 
 GREATEST_COMPRESSION = 0.2
 """Compression over distance of the groove centres. The contact's half width is 1.24 r_b √(δ/A0)
@@ -180,7 +188,7 @@ def limits(
         _pressure_in_motion(scene, in_motion),
         # the sphere of a self-aligning bearing has no shoulders, its inner grooves have
         _askew() if roller else _shoulder(scene, state, height),
-        *_centrifugal(scene, state, heaviest),
+        *_centrifugal(scene, state),
     ]
     if not roller:
         found += [
@@ -317,8 +325,8 @@ def centrifugal_force(scene: Scene) -> float:
     return scene.bearing.centrifugal_load(scene.shaft_speed)
 
 
-def _centrifugal(scene: Scene, state: Equilibrium, heaviest: float) -> tuple[Limit, Limit]:
-    """Centrifugal force against the load of the most loaded and of the least loaded ball.
+def _centrifugal(scene: Scene, state: Equilibrium) -> tuple[Limit, Limit]:
+    """What centrifugal force changes, and its size against the load of the least loaded ball.
 
     Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
     the second takes the least loaded of those that carry, at the median cage angle.
@@ -329,13 +337,6 @@ def _centrifugal(scene: Scene, state: Equilibrium, heaviest: float) -> tuple[Lim
     lightest = lightest[np.isfinite(lightest)]
     median = float(np.median(lightest)) if lightest.size else math.nan
     element = _element(scene.bearing)
-    most = _share(
-        f"most loaded {element}",
-        force,
-        heaviest,
-        CENTRIFUGAL_SHARE["most"],
-        "the model leaves it out, and here it shifts loads and contact angles",
-    )
     least = _share(
         f"least loaded {element}",
         force,
@@ -343,7 +344,29 @@ def _centrifugal(scene: Scene, state: Equilibrium, heaviest: float) -> tuple[Lim
         CENTRIFUGAL_SHARE["least"],
         f"it lifts that {element} off the inner race, and the {element} may skid",
     )
-    return most, least
+    return _centrifugal_change(scene, force), least
+
+
+def _centrifugal_change(scene: Scene, force: float) -> Limit:
+    """What centrifugal load changes of loads and stiffness, found by solving with it."""
+    name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
+    effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))
+    if not effect.converged:
+        return _unknown(name, limit, "", "a cage angle has no static state with it, or without")
+    value = max(effect.load, effect.stiffness)
+    crossed = value > limit
+    sentence = (
+        f"The centrifugal force of a {_element(scene.bearing)}, {with_prefix(force, 'N')}, changes "
+        f"loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
+        f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
+        f"{math.degrees(effect.contact_angle):.2g}°"
+        + (
+            ": the static model leaves it out, and here it counts."
+            if crossed
+            else f"; up to {percent(limit)} it may be left out."
+        )
+    )
+    return Limit(name, value, limit, "", crossed, sentence)
 
 
 def _share(which: str, force: float, load: float, limit: float, so_what: str) -> Limit:

@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+import threading
 from collections.abc import Callable
 
 import pytest
@@ -65,6 +66,39 @@ def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     shown = session(lambda e: e._tab_asked({"show": "two"}))
     assert drawn(shown, "two") == [pytest.approx(50e-6)], "a view that appears is up to date"
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
+
+
+def test_the_tab_that_was_asked_for_last_is_shown(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where that happened while the one before was being made."""
+    making, go_on = threading.Event(), threading.Event()
+    make = Explorer._make
+
+    def slowly(self: Explorer, name: str) -> object:
+        if name == "two":
+            making.set()
+            assert go_on.wait(60.0)
+        return make(self, name)
+
+    monkeypatch.setattr(Explorer, "_make", slowly)
+
+    async def live() -> Explorer:
+        explorer = Explorer(SECTIONS)
+        explorer.draw()
+        while not explorer._worker.idle:
+            await asyncio.sleep(0.002)
+        explorer._tab_asked({"show": "two"})
+        while not making.is_set():
+            await asyncio.sleep(0.002)
+        explorer._tab_asked({"show": "one"})
+        go_on.set()
+        while not explorer._worker.idle:
+            await asyncio.sleep(0.002)
+        return explorer
+
+    explorer = run(live())
+    assert (explorer._on_screen, explorer.tabs.active) == ("one", "one")
 
 
 def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:

@@ -30,6 +30,7 @@ from bearingcore import Scene, presets
 from bearingcore.diagnosis.path_effects import PathEffects, Resonance, recorded_through
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
+from tests.benchmarks.machine import pace
 
 SCORED, TRAINING = 4712, 4711
 TOGETHER = 8
@@ -191,7 +192,8 @@ def main() -> None:
                 flush=True,
             )
     print(table(answers))
-    print(f"{(time.perf_counter() - begin) / max(1, len(answers)):.1f} s a signal")
+    each = (time.perf_counter() - begin) / max(1, len(answers))
+    print(f"{each:.1f} s a signal; {pace()}")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,13 @@
-"""Random scenes with centrifugal load: ``python -m tests.benchmarks.random_balls``.
+"""Random scenes of balls with mass: ``python -m tests.benchmarks.random_balls [--motions N]``.
 
 None may be wrong silently. Each answer is judged by sums that share nothing with the solver
 (`tests.two_contacts`): what is left on every ball and on the ring. Prints how many converged, how
 many said why not, and every answer that is wrong without saying so; ends with status 1 where there
 is one.
+
+First static states with centrifugal load, then motions, without damping of the contacts: at random
+samples the accelerations of both rings are held against the loads that the same sums make of the
+places of rings and balls. A motion that broke off must be NaN from there on.
 """
 
 from __future__ import annotations
@@ -16,7 +20,8 @@ from collections import Counter
 
 import numpy as np
 
-from bearingcore import Bearing, Defect, Load, Scene, kernels, presets
+from bearingcore import Bearing, Defect, Load, Scene, kernels, presets, simulate
+from bearingcore.model.scene import WITH_MASS
 from bearingcore.statics.ball_positions import BallPositions, ball_positions
 from tests.benchmarks.machine import pace
 from tests.two_contacts import TwoContacts
@@ -88,10 +93,69 @@ def faults(found: BallPositions, i: int, *, weights: tuple[bool, ...] = (False, 
     return ""
 
 
+SAMPLE_RATE = 262_144.0
+SAMPLES = 128
+LOOKS = 5
+
+
+def motion_faults(scene: Scene, rng: np.random.Generator) -> tuple[str, str]:
+    """What became of a motion of `scene`, and what is wrong with it, "" for nothing."""
+    scene = scene.replace(balls=WITH_MASS, contact_damping=0.0)
+    try:
+        motion = simulate(scene, SAMPLES / SAMPLE_RATE, SAMPLE_RATE)
+    except ValueError as refusal:
+        return f"refused: {str(refusal).split(' is ')[0]}", ""
+    known = np.isfinite(motion.outer_acceleration).all(axis=1)
+    if not motion.completed:
+        silent = known.any() and not known[: int(known.sum())].all()
+        outcome = motion.status.split(":")[0].split(" after ")[0]
+        return outcome, "numbers after the end" if silent or known.all() else ""
+    if not known.all():
+        return "completed", "NaN in a motion that is said to be complete"
+    number = [("x", "y", "z", "rx", "ry").index(dof) for dof in motion.dofs]
+    lengths = [i for i, dof in enumerate(motion.dofs) if not dof.startswith("r")]
+    support = scene.support
+    stiffness, damping = support.stiffness(motion.dofs), support.damping(motion.dofs)
+    masses = [support.inertia(body, motion.dofs) for body in ("inner", "outer")]
+    for row in rng.integers(0, SAMPLES, LOOKS):
+        rings = np.zeros((2, 5))
+        rings[0, number] = motion.inner_displacement[row]
+        rings[1, number] = motion.outer_displacement[row]
+        sums = TwoContacts(scene, motion.cage_angle[row], *rings, motion.ball_position[row])
+        carried = [sums.force(race)[number] for race in (0, 1)]
+        held = stiffness * rings[1, number] + damping * motion.outer_velocity[row]
+        forces = scene.load.vector[number] - carried[0], carried[1] - held
+        sizes = [np.abs(part).max() for part in (*carried, held, scene.load.vector)]
+        size = max(*sizes, 1e-3)
+        for body, acceleration in enumerate((motion.inner_acceleration, motion.outer_acceleration)):
+            off = np.abs(masses[body] * acceleration[row] - forces[body])[lengths].max()
+            if off > TOLERANCE * size:
+                return "completed", f"{off:.2e} N left on a ring in motion, of {size:.2e} N"
+    return "completed", ""
+
+
+def judge_motions(count: int, rng: np.random.Generator) -> int:
+    """Print what became of so many motions; the number of those wrong silently."""
+    outcomes: Counter[str] = Counter()
+    wrong = 0
+    begin = time.perf_counter()
+    for number in range(count):
+        outcome, fault = motion_faults(random_scene(rng), rng)
+        outcomes[outcome] += 1
+        if fault:
+            wrong += 1
+            print(f"motion {number}: {fault}")
+    print(f"{count} motions in {time.perf_counter() - begin:.0f} s, {wrong} wrong silently")
+    for outcome, times in outcomes.most_common():
+        print(f"{times:8d}  {outcome}")
+    return wrong
+
+
 def main() -> int:
     """Run and print; see the head of the module."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scenes", type=int, default=100_000)
+    parser.add_argument("--motions", type=int, default=2_000)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     rng = np.random.default_rng(arguments.seed)
@@ -111,6 +175,7 @@ def main() -> int:
     print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong silently; {pace()}")
     for outcome, count in outcomes.most_common():
         print(f"{count:8d}  {outcome}")
+    wrong += judge_motions(arguments.motions, rng)
     return 1 if wrong else 0
 
 

@@ -17,6 +17,7 @@ from collections import Counter
 import numpy as np
 
 from bearingcore import kernels
+from tests.benchmarks.machine import pace
 from tests.helpers.random_rows import KINDS, judged
 
 
@@ -39,7 +40,7 @@ def main() -> int:
             wrong += 1
             print(f"scene {number}, {kind}: {fault}", flush=True)
     seconds = time.perf_counter() - begin
-    print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong")
+    print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong; {pace()}")
     for (kind, outcome), count in sorted(outcomes.items()):
         print(f"{count:8d}  {kind:14s} {outcome}")
     return 1 if wrong else 0

@@ -95,11 +95,12 @@ def test_the_chain_follows_the_hand_on_one_screen(
     expect(sentence(page)).to_have_text(
         re.compile(r"(Extent|A ball spacing longer) \(12\.9 → .*: the load moves outwards, .*Hz")
     )
-    page.get_by_role("button", name="Undo").click()
+    page.get_by_role("button", name="Undo", exact=True).click()
     expect(sentence(page)).to_contain_text("the load moves inwards")
-    page.keyboard.press("Space")  # the bearing turns; that is no change of the scene
-    page.wait_for_function("(frames => window.__frames > frames + 5)(window.__frames)")
-    page.keyboard.press("Space")
+    frames = page.evaluate("window.__frames")
+    page.get_by_role("button", name="Turn the bearing").click()  # no change of the scene
+    page.wait_for_function(f"window.__frames > {frames + 5}")
+    page.get_by_role("button", name="Stop turning").click()
     expect(sentence(page)).to_contain_text("the load moves inwards")
 
     page.set_viewport_size(PHONE)

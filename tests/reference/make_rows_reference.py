@@ -4,7 +4,7 @@ Writes `rows_reference.json` beside this file. The contact of a ball of any row 
 from the geometry alone, and imports nothing of bearingcore; the drop into a defect is that of
 `make_static_reference.py`.
 
-    python tests/reference/make_rows_reference.py   # some seconds
+    python -m tests.reference.make_rows_reference   # a minute
 
 With e and t the directions along and across a ball's line of contact, and G_r, G_z the gradients of
 its radial and axial way in q, row k at z_k along the shaft:

@@ -222,9 +222,17 @@ MOST_TOUCHED = 2.0e6
 """Contacts, a step each, of a flat bearing that are marched while a slider moves: about 40 ms."""
 
 
-def quick_duration(scene: Scene, how: Marching) -> float:
-    """Duration [s] of a coarse motion: balls with mass cannot take fewer steps, but less time."""
-    if scene.balls == MASSLESS or not how.coarse:
+MOST_COMPARED = 6.0e7
+"""The same of balls with mass when the hand rests, to be compared with massless ones: a second."""
+
+
+def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> float:
+    """Duration [s] of a coarse motion: balls with mass cannot take fewer steps, but less time.
+
+    `at_rest`: what may be touched of one that is not coarse.
+    """
+    most = MOST_TOUCHED if how.coarse else at_rest
+    if scene.balls == MASSLESS or math.isinf(most):
         return how.duration
     try:
         rate = how.step_rate or step_rates(scene, how.sample_rate) or 0.0
@@ -232,7 +240,7 @@ def quick_duration(scene: Scene, how: Marching) -> float:
         return how.duration  # there is no motion
     if rate == 0.0:
         return how.duration
-    return min(how.duration, max(MOST_TOUCHED / (rate * _step_cost(scene)), SHORTEST))
+    return min(how.duration, max(most / (rate * _step_cost(scene)), SHORTEST))
 
 
 def _excerpt(scene: Scene, how: How) -> Excerpt:
@@ -264,7 +272,7 @@ def _spectra_of(motion: Motion, first: int) -> dict[str, Spectrum]:
 def _ball_mass(scene: Scene, how: Marching) -> BallMass:
     heavy = scene.replace(balls=WITH_MASS)
     # both over the same time, or their spectra would differ by that
-    alike = dataclasses.replace(how, duration=quick_duration(heavy, how))
+    alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
     moved = motions(heavy, alike)
     massless = motions(scene.replace(balls=MASSLESS), alike)
     return ball_mass(massless.motion, moved.motion, moved.since)

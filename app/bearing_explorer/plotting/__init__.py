@@ -13,7 +13,7 @@ their dimensions say so: ``cage_angle_deg``.
 import holoviews as hv
 
 if "bokeh" not in hv.Store.loaded_backends():
-    hv.extension("bokeh", logo=False)
+    hv.extension("bokeh", logo=False, inline=True)  # exported notebooks need nothing from outside
 
 from bearing_explorer.plotting.maps import maps
 from bearing_explorer.plotting.motion import motion, orbit, spectrum

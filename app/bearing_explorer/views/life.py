@@ -100,8 +100,9 @@ class LifeOfBearing(ControlView):
     name = "life"
     title = "Life, pressure and oil film"
     about = (
-        "Fatigue life by ISO 16281 from the loads of all balls, the greatest pressure on each race "
-        "(Hertz), and the oil film where a ball carries most (Hamrock and Dowson)."
+        "Fatigue life, pressure on each race, and the oil film. Life by ISO 16281 from the loads "
+        "of all balls; the greatest pressure by Hertz; the film where a ball carries most, by "
+        "Hamrock and Dowson."
     )
     needs = frozenset[str]()
     _draw: Callable[[], None] | None = None

@@ -9,6 +9,7 @@ and nothing of the order in which balls meet edges.
 from __future__ import annotations
 
 import math
+import threading
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,13 +61,18 @@ class ByChance:
         self._measured = target.harmonics
         self._drawn_least = np.full(DRAWS, math.inf)
         self._least = math.inf
+        self._lock = threading.Lock()
 
     def look(self, simulated: Prepared) -> None:
-        """Let the drawn passes be explained by simulations, as the measured one is."""
-        self._least = min(self._least, float(simulated.least_cost(self._measured).min()))
-        for i, drawn in enumerate(self._drawn):
-            least = float(simulated.least_cost(drawn).min())
-            self._drawn_least[i] = min(self._drawn_least[i], least)
+        """Let the drawn passes be explained by simulations, as the measured one is.
+
+        From any thread: the least of all does not depend on the order.
+        """
+        own = float(simulated.least_cost(self._measured).min())
+        least = [float(simulated.least_cost(drawn).min()) for drawn in self._drawn]
+        with self._lock:
+            self._least = min(self._least, own)
+            self._drawn_least = np.minimum(self._drawn_least, least)
 
     @property
     def share(self) -> float:

@@ -9,12 +9,14 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.processors import processors
 from bearingcore.diagnosis.size.chance import ByChance
 from bearingcore.diagnosis.size.matching import (
     SPECTRUM_FLOOR,
@@ -24,7 +26,7 @@ from bearingcore.diagnosis.size.matching import (
     Target,
 )
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
-from bearingcore.diagnosis.size.synthesis import synthesise
+from bearingcore.diagnosis.size.synthesis import steps_of, synthesise
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.model.defect import EDGES
 from bearingcore.model.scene import Scene
@@ -255,6 +257,16 @@ def _library_part(
     )
 
 
+def steps_needed(search: Search) -> int:
+    """Steps of all simulations of a search, about: those of the scene as it is given, for each."""
+    library = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / EXTENT_STEP) * (1 + DRAWS)
+    cells = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / search.scene.bearing.ball_spacing)
+    tries = 2 + len(search.tolerances.spread)
+    refined = tries * (STARTS + FURTHER * FURTHER_ROUNDS + 2 * cells)
+    frequency = search.target.measured.frequency
+    return (library + refined) * steps_of(search.scene, frequency, search.count)
+
+
 CHANCE_PARTS = 4
 """Every so many parts of the library are also held against chance; behind paths half of them."""
 
@@ -273,9 +285,10 @@ def guesses(
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     frequency = nominal * round(target.measured.frequency / nominal, 3)
-    scores, sources = [], []
     by_chance = ByChance(target)
-    for part in range(PARTS):
+
+    def explained(part: int) -> tuple[_Library, NDArray[np.float64]]:
+        """A part of the library, and how well each path (p, m) makes it explain the signal."""
         library = _library_part(
             scene, frequency, search.count, search.columns, search.tolerances, part
         )
@@ -286,7 +299,28 @@ def guesses(
             if part % (CHANCE_PARTS if path.direct else 2 * CHANCE_PARTS) == 0:
                 by_chance.look(prepared)
             tried.append(prepared.match(library.power).score)
-        score = np.array(tried)
+        return library, np.array(tried)
+
+    threads = ThreadPoolExecutor(processors(), "size")
+    try:
+        return _searched(search, explained, cells, progress, threads), by_chance.share
+    finally:
+        threads.shutdown(cancel_futures=True)
+
+
+def _searched(
+    search: Search,
+    explained: Callable[[int], tuple[_Library, NDArray[np.float64]]],
+    cells: Callable[[float], int],
+    progress: Stop,
+    threads: Executor,
+) -> list[Guess]:
+    """What `guesses` finds. Threads share the work, most of which holds no interpreter lock.
+
+    Nothing depends on which is done first: everything is taken in its own order.
+    """
+    scores, sources = [], []
+    for part, (library, score) in enumerate(threads.map(explained, range(PARTS))):
         scores.append(score.max(axis=0) - 0.5 * (library.offsets**2).sum(axis=1))
         sources += [
             (extent, edge, offsets, search.paths[number])
@@ -311,21 +345,26 @@ def guesses(
                 if len(taken) == STARTS:
                     return
 
+    def begun(index: int) -> Guess:
+        return search.refined(search.guess(*sources[index]))
+
     found: list[Guess] = []
-    for done, index in enumerate(starts()):
-        found.append(search.refined(search.guess(*sources[index])))
+    for done, guess in enumerate(threads.map(begun, starts())):
+        found.append(guess)
         progress(0.5 + 0.25 * (done + 1) / STARTS)
     for done in range(FURTHER_ROUNDS):
         found.sort(key=lambda guess: -guess.score)
-        found[:FURTHER] = [search.refined(guess) for guess in found[:FURTHER]]
+        found[:FURTHER] = threads.map(search.refined, found[:FURTHER])
         progress(0.75 + 0.15 * (done + 1) / FURTHER_ROUNDS)
     best = max(found, key=lambda guess: guess.score)
     # a cell without a guess would lose for want of refinement, not of likeness
     reached = {cells(guess.extent - best.extent) for guess in found}
+    alone = []
     for index in order.tolist():
         cell = cells(sources[index][0] - best.extent)
         if cell not in reached:
             reached.add(cell)
-            found.append(search.refined(search.refined(search.guess(*sources[index]))))
+            alone.append(index)
+    found += threads.map(lambda index: search.refined(begun(index)), alone)
     progress(1.0)
-    return sorted(found, key=lambda guess: -guess.score), by_chance.share
+    return sorted(found, key=lambda guess: -guess.score)

@@ -107,16 +107,24 @@ class Explained:
     complexity: NDArray[np.float64]
 
     @cached_property
-    def inverse(self) -> NDArray[np.complex128]:
-        """(m, N, N) of the covariances."""
-        root = np.linalg.inv(self.lower)
-        return np.asarray(root.conj().swapaxes(1, 2) @ root)
+    def root(self) -> NDArray[np.complex128]:
+        """(m, N, N) that makes what may be measured white; its square inverts the covariances.
+
+        The squares themselves, N³ of work for each, are not needed: what they are asked for are
+        products with vectors.
+        """
+        return np.asarray(np.linalg.inv(self.lower))
 
     def misfit(self, residual: NDArray[np.complex128]) -> NDArray[np.float64]:
         """Quadratic form (m, l) of what is left (m, l, N) after the simulation, per harmonic."""
-        through = residual.conj() @ self.inverse
-        form = (through * residual).sum(axis=2).real
+        white = residual @ self.root.swapaxes(1, 2)
+        form = (white.real**2 + white.imag**2).sum(axis=2)
         return np.asarray(form / len(self.fit.order))
+
+    def _weights(self, residual: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """The inverse covariances times what is left (m, N)."""
+        white = self.root @ residual[:, :, None]
+        return np.asarray((self.root.conj().swapaxes(1, 2) @ white)[:, :, 0])
 
     def whitened(self, residual: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Numbers (m, N) whose mean squared sizes are the misfit, of what is left (m, N)."""
@@ -125,10 +133,10 @@ class Explained:
 
     def transfer(self, residual: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """The most likely H (m, N), of what is left (m, N)."""
-        weights = (self.inverse @ residual[:, :, None])[:, :, 0]
+        weights = self._weights(residual)
         return np.asarray((self.fit.path @ (self.simulated.conj() * weights)[:, :, None])[:, :, 0])
 
     def left(self, residual: NDArray[np.complex128]) -> NDArray[np.float64]:
         """Power (m,) that neither path nor burst take up, of what is left (m, N)."""
-        weights = (self.inverse @ residual[:, :, None])[:, :, 0]
+        weights = self._weights(residual)
         return np.asarray((np.abs(self.fit.noise * weights) ** 2).sum(axis=1))

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.numbers import probability
+from bearingcore.common.numbers import probability, thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
@@ -42,6 +42,7 @@ from bearingcore.diagnosis.size.fitting import (
     Guess,
     Search,
     guesses,
+    steps_needed,
 )
 from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
@@ -49,12 +50,17 @@ from bearingcore.diagnosis.size.supports import SupportTrial, dependence, other_
 from bearingcore.diagnosis.size.synthesis import Band, comparison_band
 from bearingcore.diagnosis.size.variants import PathTolerances, Tolerances
 from bearingcore.dynamics.modes import modes
+from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.model.support import Support
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.passes import crossings
+
+MOST_STEPS = 100_000_000
+"""Steps of integration of all simulations together, unless told otherwise: ten times what a usual
+scene takes, about a minute of one core."""
 
 TEMPERATURE = 3.0
 """By which scores are divided before they become probabilities."""
@@ -285,6 +291,7 @@ def size_defect(
     path: PathTolerances | None = None,
     support_known: bool = True,
     slip: float = 0.02,
+    most_steps: int = MOST_STEPS,
     progress: Callable[[float], None] | None = None,
 ) -> Sizing:
     """Candidates for the extent of a defect on the outer race, and their probabilities.
@@ -313,6 +320,9 @@ def size_defect(
         the answer holds what they differ by.
     slip
         by how much balls may pass faster or slower than the shaft speed says, as a fraction.
+    most_steps
+        steps of integration that may be taken in all. They are counted before the first: where
+        there would be more there are no candidates, and the status says how many.
     progress
         is called with the share of the work done, and may raise an exception to end it.
 
@@ -365,8 +375,16 @@ def size_defect(
     def cell(difference: float) -> int:
         return round(difference / spacing)
 
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     progress = progress if progress is not None else _go_on
     tried = [("as told", scene.support)] if support_known else other_supports(scene.support)
+    steps = len(tried) * steps_needed(Search(scene, target, columns, tolerances, path.models))
+    if steps > most_steps:
+        cost = (
+            f"{TOO_MANY_STEPS}: about {thousands(steps)}, allowed are most_steps = "
+            f"{thousands(most_steps)}"
+        )
+        return dataclasses.replace(nothing, status=cost)
     answers: list[Sizing] = []
     for number, (_, support) in enumerate(tried):
         search = Search(

@@ -57,6 +57,20 @@ def comparison_band(scene: Scene, sample_rate: float) -> Band:
     return Band(lowest, min(highest, 0.4 * sample_rate))
 
 
+def _steps(scene: Scene, frequency: float, count: int) -> tuple[int, int, int]:
+    """Steps of a ball pass, passes that are thrown away, passes that are averaged."""
+    fastest = float(np.nan_to_num(highest_natural_frequency(scene)))
+    n = max(math.ceil(STEPS_A_CYCLE * fastest / frequency), 4 * count)
+    passes = max(FEWEST_SIMULATED, math.ceil(AVERAGED * frequency))
+    return n, math.ceil(SETTLING * frequency), passes
+
+
+def steps_of(scene: Scene, frequency: float, count: int) -> int:
+    """Steps that `synthesise` takes."""
+    n, settle, passes = _steps(scene, frequency, count)
+    return n * (settle + passes)
+
+
 def synthesise(scene: Scene, frequency: float, count: int, columns: Sequence[int]) -> BallPasses:
     """Simulated ball passes of a scene whose balls pass `frequency` [Hz] times a second.
 
@@ -65,10 +79,7 @@ def synthesise(scene: Scene, frequency: float, count: int, columns: Sequence[int
     """
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     scene = dataclasses.replace(scene, shaft_speed=scene.shaft_speed * frequency / nominal)
-    fastest = float(np.nan_to_num(highest_natural_frequency(scene)))
-    n = max(math.ceil(STEPS_A_CYCLE * fastest / frequency), 4 * count)
-    settle = math.ceil(SETTLING * frequency)
-    passes = max(FEWEST_SIMULATED, math.ceil(AVERAGED * frequency))
+    n, settle, passes = _steps(scene, frequency, count)
     motion = simulate(scene, (settle + passes) / frequency, n * frequency, step_rate=n * frequency)
     signal = motion.outer_acceleration[settle * n :, list(columns)]
     each = coefficients(signal.reshape(passes, n, len(columns)), count)

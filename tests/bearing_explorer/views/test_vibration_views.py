@@ -71,7 +71,7 @@ def test_each_ball_has_its_own_line_and_name(results: Results) -> None:
 
 def test_the_sentence_says_how_long_the_defect_is_in_time(results: Results) -> None:
     words = VibrationInTime(PackedSource()).sentence(results)
-    assert "12.5 ms later it leaves it" in words or "12.4 ms later it leaves it" in words
+    assert "12.45 ms later it leaves it" in words
 
 
 def test_levels_and_shifts_are_the_published_ones(results: Results) -> None:

@@ -12,14 +12,17 @@ import pytest
 
 from bearingcore import Scene, equilibrium, modes, presets, simulate, stiffness_maps
 from bearingcore.common.numbers import thousands
+from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import regions, stability_map
 from bearingcore.plan import SETTLED, VIBRATION, plan
+from bearingcore.signals.recording import Recording
 from bearingcore.statics.ball_positions import ball_positions
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import STATUSES, Settings
+from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 
 STIFF = presets["liew-lim"].replace(
     inner_mass=1.8e-3,
@@ -186,3 +189,26 @@ def test_the_bound_of_a_plan_is_an_argument() -> None:
     assert plan(rig, "load", most_steps=1).met, "curves take none"
     with pytest.raises(ValueError, match="most_steps"):
         plan(rig, VIBRATION, most_steps=0)
+
+
+# Sizes
+
+
+def test_a_size_that_takes_too_many_steps_is_not_looked_for_and_says_what_it_would_cost(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    signal = Recording(noisy(signal_of(RIG), 20.0), RATE)
+
+    def begun(*_: object) -> None:
+        raise AssertionError("it was begun")
+
+    monkeypatch.setattr("bearingcore.diagnosis.size.sizing.guesses", begun)
+    sized = size_defect(signal, RIG, fault="outer race", most_steps=100_000)
+    assert sized.status.startswith("too many steps: about ")
+    assert sized.status.endswith(f"allowed are most_steps = {thousands(1e5)}")
+    assert not sized.candidates
+    assert not sized.conclusive
+    with pytest.raises(AssertionError, match="it was begun"):
+        size_defect(signal, RIG, fault="outer race")
+    with pytest.raises(ValueError, match="most_steps"):
+        size_defect(signal, RIG, fault="outer race", most_steps=0)

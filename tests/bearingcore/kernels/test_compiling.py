@@ -117,11 +117,11 @@ def test_an_upgrade_that_changes_only_a_callee_counts(
     assert told(start(package, cache))[0] == 8.0, "and back again"
 
 
-def test_two_processes_that_start_at_once_are_both_right(package: Path, tmp_path: Path) -> None:
+def test_four_processes_that_start_at_once_are_all_right(package: Path, tmp_path: Path) -> None:
     told(start(package, tmp_path))
     write_callee(package, "Later", "2.0")
-    both = [start(package, tmp_path) for _ in range(2)]
-    assert [told(process)[0] for process in both] == [10.0, 10.0]
+    all_four = [start(package, tmp_path) for _ in range(4)]
+    assert [told(process)[0] for process in all_four] == [10.0] * 4
     assert told(start(package, tmp_path)) == (10.0, 1, True, True)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Limit, Scene, equilibrium, limits, presets, simulate
+from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.validity import (
     STATIC_PRESSURE,
     centrifugal_force,
@@ -111,7 +112,7 @@ def test_shoulders_stand_where_their_height_puts_them() -> None:
     assert usual_shoulder_height(math.radians(40.0)) == pytest.approx(0.3)
 
 
-MOST, LEAST = (f"centrifugal force, {which} loaded ball" for which in ("most", "least"))
+CHANGE, LEAST = "change by centrifugal force", "centrifugal force, least loaded ball"
 
 
 def test_centrifugal_force_of_one_ball() -> None:
@@ -125,16 +126,24 @@ def test_centrifugal_force_of_one_ball() -> None:
 def test_centrifugal_force_matters_at_speed_and_not_at_rest() -> None:
     at_rest = HEALTHY_6205.replace(shaft_speed=0.0)
     fast = HEALTHY_6205.replace(shaft_speed=40e3 * 2.0 * math.pi / 60.0)
-    for name in (MOST, LEAST):
+    for name in (CHANGE, LEAST):
         assert found(at_rest, name).value == 0.0
         assert not found(HEALTHY_6205, name).crossed
         assert found(fast, name).crossed
-    ratio = found(fast, MOST).value / found(HEALTHY_6205, MOST).value
+    ratio = found(fast, LEAST).value / found(HEALTHY_6205, LEAST).value
     assert ratio == pytest.approx((40e3 / 1797.0) ** 2, rel=1e-9)
 
 
-def test_the_least_loaded_ball_feels_it_before_the_most_loaded() -> None:
-    assert found(HEALTHY_6205, LEAST).value > found(HEALTHY_6205, MOST).value
+def test_what_centrifugal_force_changes_is_measured() -> None:
+    """By two solutions, one with it and one without, here at angles of its own."""
+    fast = HEALTHY_6205.replace(shaft_speed=10.0 * HEALTHY_6205.shaft_speed)
+    values = [found(scene, CHANGE).value for scene in (HEALTHY_6205, fast)]
+    angles = np.linspace(0.0, fast.bearing.ball_spacing, 121)
+    for value, scene in zip(values, (HEALTHY_6205, fast), strict=True):
+        effect = centrifugal_effect(scene, angles)
+        assert value == pytest.approx(max(effect.load, effect.stiffness), rel=0.3)
+    assert values[0] < 0.01 < 0.05 < values[1]
+    assert "parts the contact angles" in found(fast, CHANGE).sentence
 
 
 @pytest.mark.parametrize("conformity", [0.505, 0.52, 0.54, 0.58])

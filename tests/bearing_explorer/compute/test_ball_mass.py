@@ -1,0 +1,74 @@
+"""Balls with mass in a session: compiled before they move, coarse first, then compared."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from bearing_explorer.compute import compiling
+from bearing_explorer.compute.results import Results
+from bearing_explorer.session import Explorer, Section
+from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.mechanism import WhichMechanism
+
+from bearingcore import presets
+from bearingcore.plan import SETTLED
+from tests.helpers.loops import run
+
+FAN_RIG = presets["fan-rig"]
+
+
+def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
+    )
+    ready = [False]
+    monkeypatch.setattr(compiling, "ready", lambda: ready[0])
+    details: list[str] = []
+
+    async def until(done) -> None:
+        for _ in range(20_000):
+            if done():
+                return
+            await asyncio.sleep(0.002)
+        raise AssertionError("it did not happen")
+
+    async def live() -> tuple[str, str]:
+        explorer = Explorer((Section("one", "One", (WhichMechanism,)),))
+        explorer._idle_task._after = 0.02
+        explorer.status.param.watch(lambda e: details.append(str(e.new["details"])), "line")
+        explorer._asked({"typed": {"fy_n": "-103"}})
+        sentence = lambda: explorer._views["one"][0]._sentence.text  # noqa: E731
+        await until(lambda: "one" in explorer._views and sentence())
+        waiting = sentence()
+        ready[0] = True
+        await until(lambda: "mass" in sentence() and "compiled" not in sentence())
+        drawn = sentence()
+        await until(lambda: details and "massless: " in details[-1])
+        await until(lambda: explorer._worker.idle and explorer._idle_task.idle)
+        explorer.stop()
+        return waiting, drawn
+
+    waiting, drawn = run(live())
+    assert "still being compiled" in waiting
+    assert "up the mass of the balls gives most of the power" in drawn
+
+
+def test_a_motion_that_was_compared_is_not_moved_again() -> None:
+    """The tab of the mass and the vibration of a scene with it share one motion."""
+    coarse = Results(FAN_RIG.replace(balls="with mass"), moving=True)
+    again = Results(FAN_RIG.replace(balls="with mass"), moving=True).ball_mass
+    assert coarse.ball_mass is again
+    assert Results(FAN_RIG, moving=True).ball_mass is again, "whatever the scene's own choice"
+
+
+def test_what_the_choice_of_balls_by_the_plan_draws() -> None:
+    """Where the plan chose mass the motion has it, though the scene says massless."""
+    settings = Settings(duration=0.6, balls_up_to=20e3, steady="march")
+    results = Results(FAN_RIG, settings=settings, planned=(SETTLED,))
+    assert results.plan is not None
+    assert results.plan.scene.balls == "with mass"
+    assert results.motion.scene.balls == "with mass"
+    assert results.motion.completed

@@ -232,7 +232,7 @@ class Explorer:
             names=[[section.name, section.title, section.group] for section in sections],
             active=self._shown,
         )
-        self.main = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.main = pn.Column(sizing_mode="stretch_both", margin=0)  # the page gives its height
         self._parts = SessionParts(
             self.editor,
             self.jobs,
@@ -568,7 +568,7 @@ class Explorer:
             self._containers[name] = pn.Column(
                 *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],
-                sizing_mode="stretch_width",
+                sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
                 margin=0,
             )
             self.main.append(self._containers[name])

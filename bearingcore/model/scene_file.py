@@ -47,6 +47,12 @@ measured floor of 100,000 points has no more."""
 MOST_PARTS = 20
 """Parts of a name with dots: reading one takes time as the square of their number."""
 
+MOST_DIGITS = 400
+"""Digits of a number: more than any float has; whole numbers of a million take time to be read and
+more to be told."""
+
+_LONG_NUMBER = re.compile(rf"=[ \t]*[+-]?(?:0[xob])?[0-9a-fA-F_]{{{MOST_DIGITS}}}")
+
 _LONG_NAME = re.compile(rf"(?:\.[ \t]*[\w\"'-]+[ \t]*){{{MOST_PARTS}}}")
 
 MOST_TABLES = 20
@@ -123,12 +129,18 @@ def from_toml(text: str) -> dict[str, Any]:
         if (count := text.count(sign)) > most:
             what = {"\n": "lines"}.get(sign, f"signs {sign}")
             raise checks.refuse(f"number of {what} in the text", count, f"at most {most}")
+    if _LONG_NUMBER.search(text):
+        raise checks.refuse("a number in the text", "one of many digits", f"{MOST_DIGITS} at most")
     if _LONG_NAME.search(text):
         raise checks.refuse("a name in the text", "one with many dots", f"{MOST_PARTS} at most")
     try:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise ValueError(f"the text is not TOML: {error}") from None
+    except ValueError:  # the interpreter's own limit, inside a list
+        raise checks.refuse(
+            "a number in the text", "one of many digits", f"{MOST_DIGITS} at most"
+        ) from None
 
 
 def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:

@@ -211,8 +211,9 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     # tabs
     page.locator(".tab-load").focus()
     page.keyboard.press("ArrowRight")
-    expect(page.locator(".tab-stiffness")).to_be_focused()
-    expect(page.locator(".section-stiffness.on-screen")).to_be_visible()
+    after = NAMES[NAMES.index("load") + 1]
+    expect(page.locator(f".tab-{after}")).to_be_focused()
+    expect(page.locator(f".section-{after}.on-screen")).to_be_visible()
     page.keyboard.press("Home")
     expect(page.locator(".section-overview.on-screen")).to_be_visible()
     settle(page)
@@ -286,11 +287,11 @@ def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer:
     dialog = view.get_by_role("dialog", name="Numbers of “The bearing”")
     expect(dialog).to_be_visible()
     expect(dialog.locator("thead th")).to_have_text(
-        ["ball", "ball angle (°)", "ball load (N)", "contact angle (°)",
+        ["row", "ball", "ball angle (°)", "ball load (N)", "contact angle (°)",
          "drop into outer race (µm)", "drop into inner race (µm)"]
     )  # fmt: skip
     expect(dialog.locator("tbody tr")).to_have_count(14)
-    expect(dialog.locator("tbody tr").nth(10).locator("td").nth(2)).to_have_text("36.4914")
+    expect(dialog.locator("tbody tr").nth(10).locator("td").nth(3)).to_have_text("36.4914")
     expect(dialog.locator(".bar span")).to_have_text("14 rows")
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()

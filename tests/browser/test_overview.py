@@ -104,8 +104,11 @@ def test_the_chain_follows_the_hand_on_one_screen(
     expect(sentence(page)).to_contain_text("the load moves inwards")
 
     page.set_viewport_size(PHONE)
-    painted(page)
     page.wait_for_function(f"({SCROLLS})()[1] === 0")
+    for view in ("overview-bearing", "overview-spectrum", "last-change"):
+        card = page.locator(f".view-{view}").bounding_box()
+        assert card is not None
+        assert card["height"] > 80, f"{view} is squashed"
     page.set_viewport_size(LAPTOP)
     for view, tab in (("bearing", "load"), ("bands", "modes"), ("spectrum", "vibration")):
         lead = page.locator(f".view-overview-{view} .lead")

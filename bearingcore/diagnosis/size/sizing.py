@@ -69,6 +69,9 @@ WITHIN_TEMPERATURE = 1.0
 """The same for extents nearly as good that are less than half a ball spacing away: it makes the
 stated standard deviation that of the errors (`python -m tests.benchmarks.path_effects`)."""
 
+ERR_TOGETHER = 7.0
+"""Harmonics side by side that a path or a wrong number makes err alike: so many fewer count."""
+
 SPREAD_FLOOR = math.radians(0.02)
 """[rad] No extent is better known than what is simulated of it."""
 
@@ -541,7 +544,8 @@ def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
         weights = np.exp(behind / temperature)
         return float((weights * away**2).sum() / weights.sum())
 
-    spread = math.sqrt(best.extent_scatter**2 + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
+    own = ERR_TOGETHER * best.extent_scatter**2
+    spread = math.sqrt(own + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
     unknown = (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0)
     return min(spread, unknown), math.sqrt(between(TEMPERATURE))
 

@@ -78,7 +78,7 @@ class PathTolerances:
                 path.strike if self.strikes else 0.0,
                 path.cost,
             )
-            if one not in found:
+            if not one.direct:
                 found.append(one)
         return tuple(found)
 

@@ -325,3 +325,21 @@ def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     sure = [a for a in answers if a.conclusive]
     assert sum(a.right_turns() for a in sure) >= 0.9 * len(sure)
     assert len(sure) >= 0.7 * len(answers)
+
+
+def test_extents_nearly_as_good_and_far_apart_are_no_answer(paper):
+    sized = paper[12.9]
+    conclusive, bound, words = judged(dataclasses.replace(sized, apart=math.radians(3.0)))
+    assert not conclusive
+    assert not bound
+    assert "extents from 10° to 16° explain it nearly as well" in words
+    assert judged(dataclasses.replace(sized, apart=math.radians(2.0)))[0]
+
+
+def test_stated_deviations_are_those_of_the_errors(paper):
+    """Neither far too small nor far too great, on the paper's defects at 20 dB."""
+    for extent, sized in paper.items():
+        away = abs(math.degrees(sized.best.extent) - extent)
+        stated = math.degrees(sized.extent_uncertainty)
+        assert away < 4.0 * stated
+        assert stated < 0.3

@@ -1,0 +1,76 @@
+"""Texts that cost a parser much, or make it speak like a program: refused with a sentence."""
+
+from __future__ import annotations
+
+import pytest
+
+from bearingcore import Scene, presets
+from bearingcore.sweep.file import grid_from_toml
+from tests.fuzz.targets import unclear
+
+GOOD = presets["fan-rig"].to_toml()
+SPEED = next(line for line in GOOD.splitlines() if line.startswith("shaft_speed"))
+SWEEP = '\n[sweep]\noutputs = ["k_yy_mean"]\n[sweep.over]\n'
+
+
+def with_speed(value: str) -> str:
+    """A good scene but for one number."""
+    return GOOD.replace(SPEED, f"shaft_speed = {value}")
+
+
+TEXTS = {
+    "digits": with_speed("9" * 1_000_000),
+    "hexadecimal digits": with_speed("0x" + "f" * 1_500_000),
+    "some hexadecimal digits": with_speed("0x" + "f" * 399),
+    "digits in a list": with_speed("[1, " + "9" * 100_000 + "]"),
+    "digits with signs between": with_speed("1" + "_1" * 900_000),
+    "an exponent": with_speed("1e" + "9" * 100_000),
+    "lists in lists": with_speed("[" * 9000 + "]" * 9000),
+    "tables in tables": with_speed("{b=" * 9000 + "1" + "}" * 9000),
+    "a name of many parts": "a." * 900_000 + "b = 1\n" + GOOD,
+    "a table many times": GOOD + "[a]\n" * 9000,
+    "many tables of many parts": GOOD + "".join(f"[a.{'b.' * 15}c{i}]\n" for i in range(9000)),
+    "many defects": GOOD + "[[defect]]\n" * 9000,
+    "many names": "".join(f"k{i} = 1\n" for i in range(9900)) + GOOD,
+    "a text that does not end": GOOD + 'a = """' + '"' * 1_500_000,
+    "a text of escapes": GOOD + 'a = "' + "\\u0041" * 300_000 + '"',
+    "no number": with_speed("nan"),
+    "a date": with_speed("2026-01-01"),
+    "a sign that is none": with_speed('"\x00"'),
+    "half a sign": with_speed('"\ud800"'),
+    "twice": GOOD + SPEED,
+}
+
+
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
+def test_a_hostile_text_is_refused_with_a_sentence(text: str) -> None:
+    for read in (Scene.from_toml, lambda text: grid_from_toml(text + SWEEP + "fy = [1.0]\n")):
+        with pytest.raises(ValueError, match=r"\w") as caught:
+            read(text)
+        words = str(caught.value)
+        assert unclear(words) is None
+        assert "sys." not in words, "no advice for programmers"
+
+
+@pytest.mark.parametrize(
+    "over",
+    [
+        "fy = {start = 0.0, stop = 1.0, num = 999999999}",
+        "fy = {start = 0.0, stop = 1e308, num = 3}\nfx = {start = -1e308, stop = 1e308, num = 3}",
+        "\n".join(f"f{i} = [1.0]" for i in range(9000)),
+        'fy = ["a"]',
+        "edge = [1.0]",
+        "fy = []",
+    ],
+    ids=range(6),
+)
+def test_a_hostile_sweep_is_refused_with_a_sentence(over: str) -> None:
+    with pytest.raises(ValueError, match=r"\w") as caught:
+        grid_from_toml(GOOD + SWEEP + over)
+    assert unclear(str(caught.value)) is None
+
+
+def test_the_good_text_is_taken() -> None:
+    assert Scene.from_toml(GOOD) == presets["fan-rig"]
+    assert grid_from_toml(GOOD + SWEEP + "fy = [-1.0, -2.0]").size == 2
+    assert Scene.from_toml(with_speed("1" + "0" * 30)).shaft_speed == 1e30

@@ -8,8 +8,9 @@ import pytest
 from bearing_explorer.compute import compiling
 from bearing_explorer.session import Explorer, Inputs, Planned, _planned
 
-from bearingcore import kernels, orbit, presets
+from bearingcore import kernels, presets
 from bearingcore.plan import SETTLED
+from tests.helpers.compiled import compile_once
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
 
@@ -97,5 +98,5 @@ def test_where_compiling_is_switched_off_nothing_is_missing() -> None:
 
 
 def test_the_slowest_kernels_are_found_on_disk_once_they_are_compiled() -> None:
-    orbit(presets["fan-rig"])
+    compile_once()
     assert all(map(kernels.on_disk, compiling._slowest()))

@@ -122,6 +122,21 @@ def span(low: float, high: float, unit: str, digits: int = 3) -> str:
     return f"{one} {unit}" if one == other else f"{one} to {other} {unit}"
 
 
+def with_deviation(value: float, deviation: float, unit: str) -> str:
+    """A number and its standard deviation, to the digit in which the deviation shows itself.
+
+    ``with_deviation(62.19, 0.31, "°")`` is "62.2° ± 0.3°". Units of angle stand close.
+    """
+    if not (math.isfinite(value) and math.isfinite(deviation)):
+        return NO_VALUE
+    first = float(f"{deviation:.1g}")  # rounded as it will be shown: 0.096 is 0.1
+    places = min(6, max(0, -math.floor(math.log10(first)))) if first > 0.0 else 1
+    space = "" if unit == "°" else " "
+    return f"{value:.{places}f}{space}{unit} ± {deviation:.{places}f}{space}{unit}".replace(
+        "-", "−"
+    )
+
+
 def thousands(value: float) -> str:
     """A whole number with a narrow space after each three digits: 65 536."""
     if not math.isfinite(value):

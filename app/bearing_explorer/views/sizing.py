@@ -39,6 +39,7 @@ from bearing_explorer.views.vibration_spectrum import (
 from bearing_explorer.widgets.candidates import CandidateList, in_degrees, rows
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
+from bearingcore.common.numbers import with_deviation
 from bearingcore.signals.averaging import BallPasses
 
 if TYPE_CHECKING:
@@ -420,7 +421,7 @@ def status(sized: Sized) -> dict[str, Any]:
         return {"mood": "good", "words": words, "details": details}
     if not sizing.conclusive:
         return {"mood": "bad", "words": "The signal cannot tell", "details": details}
-    size = f"{in_degrees(best.extent)} ± {in_degrees(sizing.extent_uncertainty)}"
+    size = with_deviation(math.degrees(best.extent), math.degrees(sizing.extent_uncertainty), "°")
     return {"mood": "good", "words": f"The defect extends over {size}", "details": details}
 
 

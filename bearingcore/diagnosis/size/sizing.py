@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.numbers import probability, thousands
+from bearingcore.common.numbers import probability, thousands, with_deviation
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
@@ -565,7 +565,7 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
     """Whether an answer is conclusive, whether it is a bound, and the sentence that says so."""
     best, passes, quality = sized.best, sized.passes, sized.quality
     spread = sized.extent_uncertainty
-    size = f"{math.degrees(best.extent):.1f}° ± {math.degrees(spread):.1f}°"
+    size = with_deviation(math.degrees(best.extent), math.degrees(spread), "°")
     unexplained = float(best.waveform_misfit.mean())
     beside_noise = unexplained - quality.noise_share
     none = "The signal cannot tell the size of the defect: "

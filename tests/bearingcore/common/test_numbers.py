@@ -79,6 +79,21 @@ def test_levels(level: float, text: str) -> None:
     assert numbers.decibels(level) == text
 
 
+@pytest.mark.parametrize(
+    ("value", "deviation", "text"),
+    [
+        (62.19, 0.31, "62.2° ± 0.3°"),
+        (42.171, 0.032, "42.17° ± 0.03°"),
+        (42.171, 0.096, "42.2° ± 0.1°"),
+        (42.6, 12.2, "43° ± 12°"),
+        (-1.0, 0.0, "−1.0° ± 0.0°"),
+        (math.nan, 0.1, "no value"),
+    ],
+)
+def test_numbers_with_deviations(value: float, deviation: float, text: str) -> None:
+    assert numbers.with_deviation(value, deviation, "°") == text
+
+
 def test_counts_and_spans() -> None:
     assert [numbers.count(n, "limit") for n in (0, 1, 2)] == ["no limits", "1 limit", "2 limits"]
     assert numbers.count(2, "ball pass", "ball passes") == "2 ball passes"

@@ -47,7 +47,7 @@ measured floor of 100,000 points has no more."""
 MOST_PARTS = 20
 """Parts of a name with dots: reading one takes time as the square of their number."""
 
-MOST_DIGITS = 400
+MOST_DIGITS = 1000
 """Digits of a number: more than any float has; whole numbers of a million take time to be read and
 more to be told."""
 

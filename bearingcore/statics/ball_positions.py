@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 BALANCED = 1e-8
 """Force left on a ball, over the greatest load, up to which its place counts as found."""
 
+CARRYING = 0.05
+"""Part of the heaviest load above which a ball counts as carrying."""
+
 UNSETTLED = kernels.NOT_CONVERGED
 
 
@@ -201,9 +204,10 @@ class CentrifugalEffect:
     load
         change of a load at the outer race over the heaviest load.
     contact_angle [rad]
-        between the two contacts of a ball that both carry.
+        between the two contacts of a ball that carries more than CARRYING of the heaviest load.
     stiffness
-        change of k_xx, k_yy or k_zz over the greatest of its term.
+        change of k_xx, k_yy or k_zz over the greatest of its term: root mean square over the cage
+        angles, as terms jump where a ball comes to carry.
     converged
         True where both states have an answer at all cage angles.
     """
@@ -235,10 +239,14 @@ def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> Ce
     if not both.all():
         nan = math.nan
         return CentrifugalEffect(with_load.centrifugal_load, nan, nan, nan, False)
-    load = np.abs(with_load.load[1] - without.load[1]).max() / max(without.load.max(), 1e-300)
+    heaviest = max(float(without.load.max()), 1e-300)
+    load = np.abs(with_load.load[1] - without.load[1]).max() / heaviest
     parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
+    parted = parted[(with_load.load > CARRYING * heaviest).all(axis=0)]
+    # over the cage angles: where a ball comes to carry the terms jump, at another angle each
     changes = [
-        np.abs(with_load.term(name) - without.term(name)).max() / max(without.term(name).max(), 1.0)
+        np.sqrt(np.mean((with_load.term(name) - without.term(name)) ** 2))
+        / max(without.term(name).max(), 1.0)
         for name in ("k_xx", "k_yy", "k_zz")
     ]
     apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0

@@ -61,9 +61,9 @@ CENTRIFUGAL_SHARE = {"least": 1.0}
 """Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
 lift off the inner race."""
 
-CENTRIFUGAL_CHANGE = 0.05
-"""Part by which centrifugal force may change loads, over the heaviest, and stiffness: as much as is
-usually known of either."""
+CENTRIFUGAL_CHANGE = 0.1
+"""Part by which centrifugal force may change loads, over the heaviest, and stiffness: neither is
+usually known better than to a tenth."""
 
 _CHANGE_ANGLES = 31
 

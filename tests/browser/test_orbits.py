@@ -48,13 +48,13 @@ def test_the_orbit_follows_the_sliders(watch: tuple[Page, Watch], explorer: Serv
     open_page(page, explorer, "orbits")
     status = page.locator(".view-orbit [role=status]").first
     expect(status).to_contain_text("Stable orbit")
-    expect(page.locator(".view-orbit .line")).to_have_attribute("data-mood", "good")
+    expect(page.locator(".view-orbit [role=status]").first).to_have_attribute("data-mood", "good")
     before = pixels(page, "orbit")
     assert len(source(page, "orbit_inside")["x"]) == 8
     number(page, "shaft_speed_hz").fill("30")
     number(page, "shaft_speed_hz").press("Enter")
     expect(status).to_contain_text("Unstable: the period doubles")
-    expect(page.locator(".view-orbit .line")).to_have_attribute("data-mood", "bad")
+    expect(page.locator(".view-orbit [role=status]").first).to_have_attribute("data-mood", "bad")
     settle(page)
     assert pixels(page, "orbit") != before
     assert min(source(page, "orbit_outside")["x"]) < -1.0

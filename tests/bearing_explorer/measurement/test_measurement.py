@@ -182,7 +182,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
     [
         ("sample_rate", "", "is missing"),
         ("sample_rate", "fast", "must be a number, not “fast”"),
-        ("sample_rate", "-5", "possible: 10 to 1e+07 Hz"),
+        ("sample_rate", "-5", "possible: 10 to 1·10⁷ Hz"),
         ("sample_rate", "nan", "possible"),
         ("shaft_speed", "1e9", "not possible"),
         ("shaft_speed", "0", "not possible"),

@@ -362,7 +362,7 @@ def test_lines_of_the_log_name_session_scene_view_and_time(
         served(look)
     lines = [r.getMessage() for r in caplog.records if r.name == "bearing_explorer"]
     updates = [
-        re.fullmatch(r"update session=(\S{8}) scene=([0-9a-f]{8}) view=load ms=[\d.]+", line)
+        re.fullmatch(r"update session=(\S{8}) scene=([0-9a-f]{8}) view=overview ms=[\d.]+", line)
         for line in lines
         if line.startswith("update")
     ]

@@ -15,7 +15,7 @@ from bearingcore.kernels.balls.motion import lay_out_inner, new_ball_march
 from bearingcore.kernels.balls.structs import INNER, OUTER
 from bearingcore.kernels.compiling import compiled, inlined
 from bearingcore.kernels.contact import contact_load
-from bearingcore.kernels.motion import all_finite
+from bearingcore.kernels.motion.march import all_finite
 from bearingcore.kernels.path import BLOCK, lay_out_balls
 
 MOST_NEWTON_STEPS = 30

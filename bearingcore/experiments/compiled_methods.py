@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bearingcore.kernels.compiling import compiled
-from bearingcore.kernels.motion import (
+from bearingcore.kernels.motion.march import (
     all_finite,
     equations_of_motion,
     new_forces,

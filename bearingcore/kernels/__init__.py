@@ -4,14 +4,14 @@ Nothing here knows of the rest of bearingcore, and no compiled function takes mo
 arguments. `compiling` says how functions are compiled and kept on disk.
 """
 
-from bearingcore.kernels.adaptive import march_adaptive
 from bearingcore.kernels.balls.motion import ball_motion_rates, march_balls, race_loads
 from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
 from bearingcore.kernels.balls.structs import BallSystem, Races
 from bearingcore.kernels.compiling import kept_on_disk, on_disk
 from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.modes import DOUBTFUL, modes_like
-from bearingcore.kernels.motion import (
+from bearingcore.kernels.motion.adaptive import march_adaptive
+from bearingcore.kernels.motion.march import (
     between_steps,
     elastic_loads,
     march,

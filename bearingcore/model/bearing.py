@@ -27,8 +27,8 @@ from typing import Any, Self, cast
 from bearingcore.common import checks
 from bearingcore.model import scene_file
 from bearingcore.model.bearings import drawing
-from bearingcore.model.hertz import RaceContact, in_series, race_contact, spherical_contact
-from bearingcore.model.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.model.contacts.hertz import RaceContact, in_series, race_contact, spherical_contact
+from bearingcore.model.contacts.line import RollerContact, palmgren_factor, roller_contact
 from bearingcore.model.rows import MOST_ROWS, Row, arrangement_of, pair, spaced
 
 STEEL_DENSITY = 7800.0

@@ -40,7 +40,7 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import count, number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
-from bearingcore.model.hertz import in_series
+from bearingcore.model.contacts.hertz import in_series
 from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
 from bearingcore.statics.ball_positions import centrifugal_effect

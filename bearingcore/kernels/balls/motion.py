@@ -40,9 +40,9 @@ from bearingcore.kernels.balls.release import smooth_start, true_forces, update_
 from bearingcore.kernels.balls.structs import INNER, OUTER, BallForces, BallMarch
 from bearingcore.kernels.compiling import borrowing, compiled, inlined
 from bearingcore.kernels.contact import contact_load
-from bearingcore.kernels.motion import advance, all_finite, stage_part
+from bearingcore.kernels.motion.march import advance, all_finite, stage_part
+from bearingcore.kernels.motion.rings import accelerations
 from bearingcore.kernels.path import BLOCK, drops_of_balls, lay_out_balls, new_passage
-from bearingcore.kernels.rings import accelerations
 from bearingcore.kernels.structs import PLANAR, VELOCITIES
 
 

@@ -25,7 +25,7 @@ import math
 from typing import Any, NamedTuple
 
 from bearingcore.common import checks
-from bearingcore.model.hertz import in_series, race_contact
+from bearingcore.model.contacts.hertz import in_series, race_contact
 
 WIDEST_CONFORMITY = 0.6
 """Groove radius over ball diameter up to which a groove is believed. Makers use 0.505 to 0.54,
@@ -102,7 +102,7 @@ def derive(
     - A0 = r_i + r_o − D_b;
     - r_d = D_p/2 + (r_i − D_b/2) cos α0: a ball on the pitch circle touches the inner groove on
       the far side of its centre from the groove's (Harris, locus of the inner groove centres);
-    - K of both Hertzian contacts in series, see `bearingcore.model.hertz`;
+    - K of both Hertzian contacts in series, see `bearingcore.model.contacts.hertz`;
     - raceway radii D_p/2 ± D_b/2, at the bottom of the grooves. Left out: a quarter of the
       diametral play, some µm; and that balls which touch at α0 roll on a track that is
       (1 − cos α0) D_b/2 nearer to the pitch circle: at 40° an outer-race defect of a given angle

@@ -11,7 +11,7 @@ import pytest
 from bearingcore import Bearing, Defect, Scene, equilibrium, modes, orbit, presets, simulate
 from bearingcore.common.table import FACTORS
 from bearingcore.model import packing
-from bearingcore.model.hertz import spherical_contact
+from bearingcore.model.contacts.hertz import spherical_contact
 from bearingcore.model.rows import Row
 from bearingcore.statics.passes import crossings
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from bearingcore.kernels.compiling import borrowing, compiled, inlined
 from bearingcore.kernels.contact import approach, contact_load, seen_from_the_cage, tilting
-from bearingcore.kernels.planar import planar_slopes
+from bearingcore.kernels.motion.planar import planar_slopes
 from bearingcore.kernels.structs import PLANAR, SMOOTH, VELOCITIES, Slopes
 
 

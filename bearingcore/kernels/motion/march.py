@@ -34,9 +34,10 @@ from bearingcore.kernels.contact import (
     tilting,
     touch,
 )
+from bearingcore.kernels.motion.planar import planar_equations_of_motion, planar_forces
+from bearingcore.kernels.motion.rings import accelerations
+from bearingcore.kernels.motion.tangent import contact_slopes, new_slopes, saltation, tangent_rates
 from bearingcore.kernels.path import BLOCK, lay_out_balls, new_passage
-from bearingcore.kernels.planar import planar_equations_of_motion, planar_forces
-from bearingcore.kernels.rings import accelerations
 from bearingcore.kernels.structs import (
     PLANAR,
     SMOOTH,
@@ -46,7 +47,6 @@ from bearingcore.kernels.structs import (
     Steps,
     TangentSteps,
 )
-from bearingcore.kernels.tangent import contact_slopes, new_slopes, saltation, tangent_rates
 
 
 @compiled

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
-from bearingcore.model.hertz import in_series, race_contact
+from bearingcore.model.contacts.hertz import in_series, race_contact
 
 D_B, D_P = 11.5e-3, 43.5e-3
 STEEL = (210e9, 0.3)

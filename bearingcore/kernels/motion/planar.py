@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bearingcore.kernels.compiling import inlined
 from bearingcore.kernels.contact import contact_load
-from bearingcore.kernels.rings import accelerations
+from bearingcore.kernels.motion.rings import accelerations
 
 
 @inlined

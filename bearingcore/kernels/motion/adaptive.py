@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bearingcore.kernels.compiling import compiled
-from bearingcore.kernels.motion import new_forces, rates_at
+from bearingcore.kernels.motion.march import new_forces, rates_at
 from bearingcore.kernels.path import new_passage
 
 # Dormand & Prince 5(4): stages, their times, and the difference of the two orders.

@@ -1,0 +1,1 @@
+"""Contacts of a ball or roller with its races: stiffness, ellipse or strip, pressure."""

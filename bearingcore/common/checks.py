@@ -48,6 +48,8 @@ def number(
     allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
     if unit:
         allowed += f" [{unit}]"
+    if isinstance(value, bool):  # Python would take it for 0 or 1
+        raise refuse(field, value, allowed)
     try:
         x = float(value)
     except (TypeError, ValueError, OverflowError):

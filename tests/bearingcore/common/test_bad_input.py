@@ -55,6 +55,7 @@ def bearing_with(**changes: Any) -> Callable[[], object]:
         ("radial_clearance", -1e-9, "-1e-09", "at least 0"),
         ("radial_clearance", NAN, "nan", "finite"),
         ("radial_clearance", INF, "inf", "finite"),
+        ("radial_clearance", True, "True", "finite"),
         ("n_balls", 0, "0", "from 1"),
         ("n_balls", -3, "-3", "from 1"),
         ("n_balls", 7.5, "7.5", "whole number"),

@@ -610,9 +610,8 @@ class Explorer:
             self._slow_cost = self._slow_at - before
             await self._assign(results, picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
-        if (
-            self._on_screen != self._shown
-        ):  # asked for meanwhile; a picture may have been made of it
+        if self._on_screen != self._shown:
+            # asked for meanwhile, and these inputs may have been the newest
             self._worker.submit(self.inputs)
 
     def _quick_picture(

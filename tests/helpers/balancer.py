@@ -20,6 +20,7 @@ from urllib.error import HTTPError
 from urllib.request import urlopen
 
 from tests.browser.helpers import free_port
+from tests.helpers.proxies import Relay, pipe
 
 OPERATING = Path(__file__).resolve().parents[2] / "assets/docs/OPERATING.md"
 COOKIE = "explorer"
@@ -83,39 +84,23 @@ def _own(port: int, ports: Sequence[int]) -> Iterator[None]:
         loop.close()
 
 
-class Balancer:
+class Balancer(Relay):
     """Looks at the head of the first request of a connection and at that of its answer."""
 
     def __init__(self, port: int, ports: Sequence[int]) -> None:
-        self._port, self._ports = port, list(ports)
+        super().__init__(port)
+        self._ports = list(ports)
         self.open = [0] * len(ports)
-        self._server: asyncio.Server | None = None
-        self._tasks: set[asyncio.Task[None]] = set()
 
-    async def start(self) -> None:
-        """Listen."""
-        self._server = await asyncio.start_server(self._serve, "127.0.0.1", self._port)
-
-    async def stop(self) -> None:
-        """Listen no more, and end what is open."""
-        assert self._server is not None
-        self._server.close()
-        for task in self._tasks:
-            task.cancel()
-        await asyncio.gather(*self._tasks, return_exceptions=True)
-
-    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        task = asyncio.current_task()
-        assert task is not None
-        self._tasks.add(task)
-        place = -1
+    async def relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """One connection, to the explorer that its cookie names, else to the emptiest."""
+        head = await reader.readuntil(b"\r\n\r\n")
+        known = re.search(rb"(?im)^cookie:.*\b%s=(\d+)" % COOKIE.encode(), head)
+        place = int(known[1]) if known else -1
+        if not 0 <= place < len(self._ports):
+            known, place = None, self.open.index(min(self.open))
+        self.open[place] += 1
         try:
-            head = await reader.readuntil(b"\r\n\r\n")
-            known = re.search(rb"(?im)^cookie:.*\b%s=(\d+)" % COOKIE.encode(), head)
-            place = int(known[1]) if known else -1
-            if not 0 <= place < len(self._ports):
-                known, place = None, self.open.index(min(self.open))
-            self.open[place] += 1
             if b"upgrade: websocket" not in head.lower():
                 head = re.sub(rb"(?im)^connection:.*\r\n", b"", head)
                 head = head.replace(b"\r\n", b"\r\nConnection: close\r\n", 1)
@@ -126,19 +111,6 @@ class Balancer:
                 cookie = f"\r\nSet-Cookie: {COOKIE}={place}; Path=/; HttpOnly\r\n"
                 answer = answer.replace(b"\r\n", cookie.encode(), 1)
             writer.write(answer)
-            await asyncio.gather(_pipe(reader, back), _pipe(there, writer))
-        except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError):
-            pass
+            await asyncio.gather(pipe(reader, back), pipe(there, writer))
         finally:
-            if place >= 0:
-                self.open[place] -= 1
-            self._tasks.discard(task)
-            writer.close()
-
-
-async def _pipe(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-    with suppress(OSError):
-        while data := await reader.read(65536):
-            writer.write(data)
-            await writer.drain()
-    writer.close()
+            self.open[place] -= 1

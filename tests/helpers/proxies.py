@@ -1,4 +1,4 @@
-"""A reverse proxy of a few lines, as operators have them in front of the explorer."""
+"""What operators have in front of the explorer, of a few lines: a reverse proxy, and its like."""
 
 from __future__ import annotations
 
@@ -6,22 +6,21 @@ import asyncio
 import re
 
 
-class Proxy:
-    """Hands on all below `under`; with `strip` without that part of the path."""
+class Relay:
+    """Stands between browsers and explorers: each connection is handed on by `relay`."""
 
-    def __init__(self, port: int, under: str, strip: bool) -> None:
-        self._port, self._under, self._strip = port, under, strip
-        self.port = 0
+    def __init__(self, port: int = 0) -> None:
+        self.port = port
         self._server: asyncio.Server | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
-        """Listen on a free port."""
-        self._server = await asyncio.start_server(self._serve, "127.0.0.1", 0)
+        """Listen on `port`, or on a free one where that is 0."""
+        self._server = await asyncio.start_server(self._serve, "127.0.0.1", self.port)
         self.port = self._server.sockets[0].getsockname()[1]
 
     async def stop(self) -> None:
-        """Listen no more."""
+        """Listen no more, and end what is open."""
         assert self._server is not None
         self._server.close()
         for task in self._tasks:
@@ -33,28 +32,45 @@ class Proxy:
         assert task is not None
         self._tasks.add(task)
         try:
-            head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
-            method, path, version = head.split("\r\n", 1)[0].split(" ")
-            if not path.startswith(self._under):
-                writer.write(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
-                return
-            if self._strip:
-                path = "/" + path[len(self._under) :]
-            rest = head.split("\r\n", 1)[1]
-            if "upgrade: websocket" not in head.lower():
-                rest = re.sub(r"(?im)^connection:.*\r\n", "", rest)
-                rest = "Connection: close\r\n" + rest
-            there, back = await asyncio.open_connection("127.0.0.1", self._port)
-            back.write(f"{method} {path} {version}\r\n{rest}".encode("latin-1"))
-            await asyncio.gather(_pipe(reader, back), _pipe(there, writer))
+            await self.relay(reader, writer)
         except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError):
             pass
         finally:
             self._tasks.discard(task)
             writer.close()
 
+    async def relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """Hand on one connection until it ends."""
+        raise NotImplementedError
 
-async def _pipe(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+
+class Proxy(Relay):
+    """Hands on all below `under`; with `strip` without that part of the path."""
+
+    def __init__(self, port: int, under: str, strip: bool) -> None:
+        super().__init__()
+        self._to, self._under, self._strip = port, under, strip
+
+    async def relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """One connection of a browser."""
+        head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
+        method, path, version = head.split("\r\n", 1)[0].split(" ")
+        if not path.startswith(self._under):
+            writer.write(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
+            return
+        if self._strip:
+            path = "/" + path[len(self._under) :]
+        rest = head.split("\r\n", 1)[1]
+        if "upgrade: websocket" not in head.lower():
+            rest = re.sub(r"(?im)^connection:.*\r\n", "", rest)
+            rest = "Connection: close\r\n" + rest
+        there, back = await asyncio.open_connection("127.0.0.1", self._to)
+        back.write(f"{method} {path} {version}\r\n{rest}".encode("latin-1"))
+        await asyncio.gather(pipe(reader, back), pipe(there, writer))
+
+
+async def pipe(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    """Hand on what is read until there is no more."""
     try:
         while data := await reader.read(65536):
             writer.write(data)

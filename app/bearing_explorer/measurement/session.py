@@ -39,6 +39,7 @@ from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
+from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.simulated import pit
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.model.scene import WITH_MASS
@@ -410,7 +411,7 @@ def _shortened(table: Table) -> tuple[Table, str]:
     if rows <= most:
         return table, ""
     kept = dataclasses.replace(table, columns=table.columns[:most].copy())
-    return kept, f"Only the first {_thousands(most)} of {_thousands(rows)} rows are used."
+    return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."
 
 
 def summary(measured: Measured | None, scene: Scene) -> str:
@@ -422,13 +423,9 @@ def summary(measured: Measured | None, scene: Scene) -> str:
     passes = recording.duration * scene.bearing.bpfo(measured.shaft_speed)
     return (
         f"{recording.name}: {recording.duration:.3g} s along {along} at "
-        f"{_thousands(round(recording.sample_rate))} Hz, {passes:.0f} balls pass a point of the "
+        f"{thousands(recording.sample_rate)} Hz, {passes:.0f} balls pass a point of the "
         "outer race."
     )
-
-
-def _thousands(number: int) -> str:
-    return f"{number:,}".replace(",", "\u202f")
 
 
 def with_pit(scene: Scene, length: float | None) -> Scene:

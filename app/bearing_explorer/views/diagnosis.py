@@ -16,6 +16,7 @@ from bearing_explorer.views.measured_view import NOTHING, LookPanel, MeasuredVie
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
 from bearing_explorer.widgets.part_panel import EvidenceTable, PartPanel
 from bearingcore import Bearing, Diagnosis
+from bearingcore.common.numbers import probability
 from bearingcore.diagnosis.part.combs import HARMONICS
 from bearingcore.diagnosis.part.parts import PARTS
 
@@ -178,13 +179,13 @@ def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str,
             "mood": "unknown", "headline": "It cannot be told", "plain": answer, "bearing": drawn,
         }  # fmt: skip
     named = answer.names_a_part
-    probability = f"Probability {part_words.percent(answer.probability)}"
+    likely = f"Probability {probability(answer.probability)}"
     return {
         "mood": part_words.mood(answer),
         "part": answer.fault if named else "",
         "color": style.css_color(COLORS[answer.fault]) if named else "",
         "headline": part_words.headline(answer),
-        "probability": probability if answer.conclusive else "",
+        "probability": likely if answer.conclusive else "",
         "plain": part_words.plain(answer),
         "pass_on": part_words.pass_on(answer, question),
         "facts": part_words.facts(answer, question),

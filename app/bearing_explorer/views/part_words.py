@@ -47,11 +47,6 @@ def headline(found: Diagnosis) -> str:
     return "No damage seen" if found.fault == NONE_SEEN else "It cannot be told"
 
 
-def percent(share: float) -> str:
-    """A probability in words: nothing is quite certain."""
-    return probability(share)
-
-
 def plain(found: Diagnosis) -> str:
     """What was heard, in words that need no signal processing."""
     if found.names_a_part:
@@ -96,15 +91,15 @@ def pass_on(found: Diagnosis, question: Question) -> str:
     if found.names_a_part:
         one = found.of(found.fault)
         return (
-            f"{head}{headline(found).lower()} (probability {percent(found.probability)}); knocks "
-            f"at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have the "
-            "bearing inspected, and measure again to see whether it grows."
+            f"{head}{headline(found).lower()} (probability {probability(found.probability)}); "
+            f"knocks at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
+            "the bearing inspected, and measure again to see whether it grows."
         )
     if found.fault == NONE_SEEN:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
-            f"{percent(found.probability)}). Measure again at the usual time. This says nothing "
-            "about lubrication, balance or other bearings."
+            f"{probability(found.probability)}). Measure again at the usual time. This says "
+            "nothing about lubrication, balance or other bearings."
         )
     return f"{head}it cannot be told from this signal whether a part is damaged."
 

@@ -39,6 +39,7 @@ from bearing_explorer.views.part_lines import (
 from scipy.io import wavfile
 
 from bearingcore import Diagnosis, Recording, Scene, presets
+from bearingcore.common.numbers import probability
 from tests.helpers.measuring import measuring
 
 mpl.use("agg")
@@ -184,9 +185,9 @@ def test_too_quiet_a_simulation_is_called_so():
 @pytest.mark.parametrize(
     ("words", "value", "said"),
     [
-        (part_words.percent, 0.98, "98 %"),
-        (part_words.percent, 0.93, "93 %"),
-        (part_words.percent, 0.001, "below 1 %"),
+        (probability, 0.98, "98 %"),
+        (probability, 0.93, "93 %"),
+        (probability, 0.001, "below 1 %"),
         (part_words.chance, 1e-9, "below 0.01 %"),
         (part_words.chance, 0.004, "0.4 %"),
         (part_words.chance, 0.43, "43 %"),

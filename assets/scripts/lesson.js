@@ -23,10 +23,6 @@ function remember(changes) {
 }
 
 export function render({ model }) {
-  const ask = (message) => {
-    window.__asked = (window.__asked || 0) + 1
-    model.send_msg({ mark: window.__asked, ...message })
-  }
   let open = false
   const count = model.titles.length
   const usable = (number) => number >= 0 && number < count && !model.titles[number][1]
@@ -193,7 +189,7 @@ export function render({ model }) {
   const go = (number) => {
     if (number < 0) return
     remember({ [`said.${model.titles[number][2] || number}`]: {} })
-    ask({ lesson: number })
+    ask(model, { lesson: number })
   }
   let scrolled = 0
   const toggle = (wanted = !open) => {
@@ -202,18 +198,18 @@ export function render({ model }) {
     open = wanted
     lesson.hidden = !open
     if (!open) {
-      if (began()) ask({ lesson: "" })
+      if (began()) ask(model, { lesson: "" })
       say()
       return
     }
     const { last } = remembered()
     if (began()) {  // back to where one was
-      ask({ lesson: model.lesson.number, words_only: true })
+      ask(model, { lesson: model.lesson.number, words_only: true })
       say()
       requestAnimationFrame(() => place()?.scrollTo(0, scrolled))
     } else if (Number.isInteger(last) && usable(last)) {
       resumed = true
-      ask({ lesson: last, words_only: true })
+      ask(model, { lesson: last, words_only: true })
       say()
     } else list()
     words.querySelector("h2")?.focus({ preventScroll: true })
@@ -221,7 +217,7 @@ export function render({ model }) {
 
   words.addEventListener("click", (event) => {
     const button = event.target.closest("[data-ask]")
-    if (button) ask(JSON.parse(button.dataset.ask))
+    if (button) ask(model, JSON.parse(button.dataset.ask))
   })
   select.addEventListener("change", () => {
     if (select.value === "-1") list()

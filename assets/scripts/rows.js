@@ -63,10 +63,9 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const drawn = () => window.__mark || 0
   const asked = () => window.__asked || 0
   const send = (message) => {
-    window.__asked = asked() + 1
+    ask(model, message)
     sent_at = performance.now()
     on_way.set(asked(), sent_at)
-    model.send_msg({ mark: asked(), ...message })
   }
   // A picture has come: how long its change waited for others decides how the next is sent.
   const learn = () => {
@@ -97,15 +96,20 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       requestAnimationFrame(pump)
       return
     }
-    const set = pending
+    send_now()
+  }
+  const send_now = () => {
+    const message = released ? { set: pending, released } : { set: pending }
     pending = null
-    send(released ? { set, released } : { set })
     released = false
+    wait_no_more(send_now)
+    send(message)
   }
   // The hand lets go: what it did was one step, to be undone as one. A key held down is one too.
   const release = () => {
     pending = { ...pending }
     released = true
+    keep_waiting(send_now)
     if (!waiting) pump()
   }
   const holds = (event, on) => {
@@ -116,6 +120,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const push = (name, value) => {
     rows[name].asked = asked() + 1
     pending = { ...pending, [name]: value }
+    keep_waiting(send_now)
     if (!waiting) pump()
   }
 

@@ -21,10 +21,6 @@ function read_kept() {
 }
 
 export function render({ model }) {
-  const ask = (message) => {
-    window.__asked = (window.__asked || 0) + 1
-    model.send_msg({ mark: window.__asked, ...message })
-  }
   const button = (words, title, act, attributes = {}) => {
     const made = element("button", { type: "button", title, ...attributes }, words)
     if (act) made.addEventListener("click", act)
@@ -32,9 +28,9 @@ export function render({ model }) {
   }
 
   // Steps
-  const undo = button("Undo", "Undo the last step (Ctrl+Z)", () => ask({ undo: true }))
-  const redo = button("Redo", "Do it again (Ctrl+Shift+Z or Ctrl+Y)", () => ask({ redo: true }))
-  const reset = button("Reset", "Back to the numbers of this bearing", () => ask({ reset: true }))
+  const undo = button("Undo", "Undo the last step (Ctrl+Z)", () => ask(model, { undo: true }))
+  const redo = button("Redo", "Do it again (Ctrl+Shift+Z or Ctrl+Y)", () => ask(model, { redo: true }))
+  const reset = button("Reset", "Back to the numbers of this bearing", () => ask(model, { reset: true }))
 
   // Menus: each opens below its button and closes by Escape or a click beside it.
   const menu = (words, title, name, ...children) => {
@@ -68,7 +64,7 @@ export function render({ model }) {
                                autocomplete: "off", placeholder: "A name for this scene" })
   const keep = element("button", { type: "submit", class: "main" }, "Keep")
   const pin_here = button("Pin as grey", "Let grey show this scene, so that others can be held against it",
-                          () => ask({ pin_here: name.value || "this scene" }))
+                          () => ask(model, { pin_here: name.value || "this scene" }))
   const form = element("form", {}, element("label", { for: "share-name" }, "Keep this scene in this browser"),
                     name, element("div", { class: "row" }, keep, pin_here))
   form.addEventListener("submit", (event) => {
@@ -76,7 +72,7 @@ export function render({ model }) {
     model.send_msg({ keep: name.value })
   })
   const pinned = element("p", { class: "pinned" })
-  const unpin = button("Unpin", "Let grey show the bearing without its defect", () => ask({ unpin: true }))
+  const unpin = button("Unpin", "Let grey show the bearing without its defect", () => ask(model, { unpin: true }))
   const list = element("ul", { class: "kept", "aria-label": "Kept scenes" })
   const kept_words = element("p", { class: "note", role: "status" })
   const bookmarks_menu = menu("Keep", "Keep and compare scenes", "keep", form,
@@ -94,8 +90,8 @@ export function render({ model }) {
   const list_kept = () => {
     const items = read_kept()
     list.replaceChildren(...items.map((item) => {
-      const open = button(item.name, `Open “${item.name}”`, () => ask({ open: item }), { class: "open" })
-      const pin = button("Pin", `Let grey show “${item.name}”`, () => ask({ pin: item }),
+      const open = button(item.name, `Open “${item.name}”`, () => ask(model, { open: item }), { class: "open" })
+      const pin = button("Pin", `Let grey show “${item.name}”`, () => ask(model, { pin: item }),
                          { "aria-label": `Pin “${item.name}” as grey` })
       const remove = button("\u00d7", `Remove “${item.name}”`, () => {
         save_kept(read_kept().filter((other) => other.name !== item.name))
@@ -124,7 +120,7 @@ export function render({ model }) {
     const chosen = file.files[0]
     if (!chosen) return
     if (chosen.size > 2e6) say(`${chosen.name} is larger than 2 MB.`)
-    else ask({ file: { name: chosen.name, text: await chosen.text() } })
+    else ask(model, { file: { name: chosen.name, text: await chosen.text() } })
     file.value = ""
   })
   const own_words = (name, words, box) => {

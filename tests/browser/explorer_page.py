@@ -23,6 +23,10 @@ VIEWS = {
 }
 
 
+#: all that a hand asked for is sent and drawn
+DRAWN = "!window.__waiting?.size && (window.__mark || 0) >= (window.__asked || 0)"
+
+
 def open_page(page: Page, server: Server, tab: str = "load") -> None:
     page.goto(server.url)
     page.wait_for_function("window.__frames >= 1")
@@ -37,13 +41,13 @@ def show(page: Page, tab: str) -> None:
 
 def settle(page: Page) -> None:
     """Wait until the newest change is drawn and the paints that follow are done."""
-    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0)")
+    page.wait_for_function(DRAWN)
     painted(page)
 
 
 def rest(page: Page) -> None:
     """Wait until what is on screen is drawn by its plan: nothing more will come by itself."""
-    page.wait_for_function("(window.__mark || 0) >= (window.__asked || 0) && window.__resting")
+    page.wait_for_function(f"{DRAWN} && window.__resting")
     painted(page)
 
 

@@ -108,6 +108,30 @@ def test_the_address_follows_the_hand_and_steps_go_back(
     assert page.evaluate("history.length") == entries, "Back leaves the page"
 
 
+def test_nothing_overtakes_a_position_that_waits(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    """A hand's last position may wait for the screen: a choice or an undo comes after it."""
+    page, _ = watch
+    opened(page, explorer, "")
+    page.evaluate(
+        "() => { window.__frame = requestAnimationFrame; window.requestAnimationFrame = () => 0 }"
+    )
+    drag(page, slider(page, "depth_um"), 0.1, 0.4)
+    last = value(page, "depth_um")
+    assert page.evaluate("window.__waiting.size") == 1
+    page.locator("#choice-edge").select_option("exact")
+    page.evaluate("() => { window.requestAnimationFrame = window.__frame }")
+    page.wait_for_function("location.search.includes('edge=exact')")
+    page.keyboard.press("Control+z")
+    page.wait_for_function("!location.search.includes('edge=exact')")
+    assert f"depth_um={last:g}" in query(page)
+    page.keyboard.press("Control+z")
+    page.wait_for_function("!location.search.includes('depth_um')")
+    settle(page)
+    assert value(page, "depth_um") == 50, "a drag is one step"
+
+
 def test_a_link_opens_what_it_stands_for_and_a_bad_one_says_so(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

@@ -30,7 +30,7 @@ class BearingRows(Rows):
     #: {"shape": {field: number in SI}, "facts": [{label, symbol, value, about}]}
     shown = param.Dict(default={})
 
-    _esm = scripts("element.js", "rows.js", "bearing_picture.js", "bearing_editor.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "bearing_picture.js", "bearing_editor.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("controls.css"),

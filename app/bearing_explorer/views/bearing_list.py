@@ -30,7 +30,7 @@ class ListRows(Rows):
     #: what became of the last table: {"words": str, "bad": bool}
     answer = param.Dict(default={"words": "", "bad": False})
 
-    _esm = scripts("element.js", "rows.js", "bearing_list.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "bearing_list.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("controls.css"),

@@ -38,7 +38,7 @@ class DofRows(Rows):
     #: {"needed": "x y", "active": "x y", "facts": [{label, symbol, value, about}]}
     shown = param.Dict(default={})
 
-    _esm = scripts("element.js", "rows.js", "dof_comparison.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "dof_comparison.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("controls.css"),

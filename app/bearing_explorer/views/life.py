@@ -86,7 +86,7 @@ class LifeRows(Rows):
     #: {"groups": [{title, words, facts: [{label, value, about}]}], "values": {field: text}}
     shown = param.Dict(default={})
 
-    _esm = scripts("element.js", "rows.js", "life.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "life.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("controls.css"),

@@ -27,7 +27,7 @@ class ModelRows(Rows):
     #: the contact damping that follows from the stiffness, as words
     automatic = param.String()
 
-    _esm = scripts("element.js", "rows.js", "model_editor.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "model_editor.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("controls.css"),

@@ -80,7 +80,7 @@ class Rows(LiveComponent):
 class Controls(Rows):
     """The controls beside the figures: bearing, defects, turning, load."""
 
-    _esm = scripts("element.js", "rows.js", "controls.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "controls.js")
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         spec = {

@@ -30,7 +30,7 @@ class LessonPanel(JSComponent):
     #: the page for teachers, as safe HTML
     teachers = param.String()
 
-    _esm = scripts("element.js", "lesson.js")
+    _esm = scripts("element.js", "asking.js", "lesson.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]
 
     def __init__(

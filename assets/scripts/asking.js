@@ -1,0 +1,15 @@
+// What a person asks of the scene, from any panel. Each change carries a number (`window.__asked`),
+// so that everybody knows when it is drawn. Where a hand's newest position still waits to be sent
+// (`window.__waiting`: functions that send it), it goes first: a choice or an undo never overtakes it.
+function ask(model, message) {
+  for (const send_now of window.__waiting ?? []) send_now()
+  window.__asked = (window.__asked || 0) + 1
+  model.send_msg({ mark: window.__asked, ...message })
+}
+function keep_waiting(send_now) {
+  (window.__waiting ??= new Set()).add(send_now)
+}
+function wait_no_more(send_now) {
+  window.__waiting?.delete(send_now)
+}
+

@@ -21,7 +21,9 @@ class ShareBar(JSComponent):
     #: what `Bookmarks.state` says
     state = param.Dict(default={})
 
-    _esm = scripts("element.js", "menu.js", "figure_export.js", "report.js", "asking.js", "share.js")
+    _esm = scripts(
+        "element.js", "menu.js", "figure_export.js", "report.js", "asking.js", "share.js"
+    )
     _stylesheets: ClassVar[list[str]] = [asset_text("share.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:

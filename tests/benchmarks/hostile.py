@@ -32,7 +32,7 @@ from tests.fuzz.stranger import Stranger, Tally
 
 LONGEST_HOLD = 0.25  # [s] of the event loop
 STRANGERS = 6
-TELL_EVERY = 10_000  # messages
+TELL_EVERY = 5_000  # messages
 
 
 @dataclass

@@ -1,8 +1,8 @@
 """Somebody who moves a slider all the while: ``python -m tests.fuzz.slider URL``.
 
-In a process of its own, or waiting would be for the strangers' work too. A new position is sent as
-soon as the one before is drawn. Prints how many there were, how many were never drawn, and the
-seconds from asking to the picture: median, 95 %, longest; when its input ends.
+In a process of its own, or waiting would be for the strangers' work too. A new position is sent
+half a second after the one before is drawn. Prints how many there were, how many were never drawn,
+and the seconds from asking to the picture: median, 95 %, longest; when its input ends.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from tests.fuzz.pulse import READY, Told, asking
 from tests.helpers.page_client import PageClient
 
 PATIENCE = 60.0  # [s]
-PAUSE = 0.05  # [s] between a picture and the next position
+PAUSE = 0.5  # [s] between a picture and the next position
 
 
 def slider(url: str) -> Told:

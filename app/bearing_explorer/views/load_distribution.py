@@ -8,6 +8,7 @@ import numpy as np
 from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.compute.defect_shape import pieces, spans
+from bearing_explorer.compute.load_curve import curves_table
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element, elements
 from bearing_explorer.figures.ranges import StickyRange
@@ -163,22 +164,9 @@ class LoadDistribution(View):
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        beside = results.beside_name
-        table = {}
-        for row, (angle, load) in enumerate(results.load_curves):
-            own = _row_column(row)
-            table[f"{own}ball_angle_deg"] = np.degrees(angle[1:-1])
-            table[f"{own}ball_load_n"] = load[1:-1]
-        for row, (angle, load) in enumerate(results.healthy_load_curves):
-            own = _row_column(row)
-            table[f"{beside}_{own}ball_angle_deg"] = np.degrees(angle[1:-1])
-            table[f"{beside}_{own}ball_load_n"] = load[1:-1]
-        return table
-
-
-def _row_column(row: int) -> str:
-    """How columns of a row begin: those of the first have no number."""
-    return f"row_{row + 1}_" if row else ""
+        own = curves_table(results.load_curves)
+        grey = curves_table(results.healthy_load_curves).prefixed(results.beside_name)
+        return (own | grey).in_units().named()
 
 
 def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:

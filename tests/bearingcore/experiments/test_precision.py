@@ -134,6 +134,9 @@ def test_methods_break_where_linear_theory_says() -> None:
     finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
     assert all(trial.verdict == "right" for trial in finest)
     assert "linear limit" in chart.text()
+    table = chart.table()
+    assert table["verdict"].tolist() == [trial.verdict for trial in chart.trials]
+    assert table.unit("linear_limit") == table.unit("step_rate") == "Hz"
 
 
 def test_energy_of_an_undamped_bounce() -> None:
@@ -160,6 +163,9 @@ def check_that_all_is_told(experiment: Experiment) -> None:
             assert set(point.errors) <= set(experiment.errors)
             assert point.errors
     text = experiment.text()
+    table = experiment.table()
+    assert table["method"].tolist() == [point.method for point in experiment.points]
+    assert {table.unit(name) for name in table if name.endswith("_error")} <= {"dB", "1"}
     for method in experiment.methods:
         assert method in text
 

@@ -70,7 +70,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class StabilityChart:
-    """Verdicts over methods and steps, with what linear theory foretells.
+    """Verdicts over methods and steps, with what linear theory predicts.
 
     Attributes
     ----------

@@ -35,7 +35,7 @@ from bearing_explorer.compute.planning import plan_for
 from bearing_explorer.compute.profile import Profile, profile
 from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.adaptive import simulate_adaptive
@@ -425,6 +425,11 @@ class Results:
         if self.pinned is not None:
             return self.pinned.words
         return "without the defect" if self.scene.defects else ""
+
+    @property
+    def grey_words(self) -> str:
+        """What it is called in a caption."""
+        return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
 
     @property
     def beside_name(self) -> str:

@@ -72,7 +72,7 @@ class BearingDrawing(View):
     title = "The bearing"
     about = (
         "What the balls carry now, seen along the shaft, several rows side by side. Bars and "
-        "colours: their loads. Grey rim: the same without the defect. Arrow: the load on the "
+        "colours: their loads. Grey rim: {grey}. Arrow: the load on the "
         "shaft. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})

@@ -30,9 +30,9 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
-        " of the shaft. A second row is orange, and dashed without the defect."
+        "What a ball carries at each angle: blue in this scene, grey in {grey}. Shaded: "
+        "the defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
+        "turn of the shaft. A second row is orange, and in grey dashed."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)

@@ -44,8 +44,8 @@ class NaturalFrequencies(View):
     title = "Natural frequencies"
     about = (
         "Each natural frequency as the bearing turns: blue x, orange y. A mode is named after the"
-        " direction that moves most. Shaded: the band in which it moves. Grey: the bearing "
-        "without its defect. Black: now."
+        " direction that moves most. Shaded: the band in which it moves. Grey: {grey}. "
+        "Black: now."
     )
     needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)

@@ -76,7 +76,7 @@ class Stiffness(View):
     about = (
         "How hard the inner ring resists each displacement with each load. The 15 independent "
         "terms of its symmetric 5×5 stiffness matrix as the bearing turns: displacements are the "
-        "columns, loads the rows."
+        "columns, loads the rows. Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)

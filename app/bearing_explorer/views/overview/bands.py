@@ -26,8 +26,8 @@ class OverviewBands(View):
     name = "overview-bands"
     title = "Natural frequencies"
     about = (
-        "The band in which each mode moves as the bearing turns, blue x, orange y. Grey: the "
-        "same without the defect. Black: where it is at this cage angle. The axis is that of the "
+        "The band in which each mode moves as the bearing turns, blue x, orange y. Grey: "
+        "{grey}. Black: where it is at this cage angle. The axis is that of the "
         "spectrum below."
     )
     needs = frozenset({"band_modes", "healthy_modes"})

@@ -34,7 +34,7 @@ class OverviewSpectrum(View):
     title = "Vibration of the housing"
     about = (
         "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
-        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: without the defect. Shaded: the bands "
+        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
     needs: ClassVar[frozenset[str]] = VibrationSpectra.needs

@@ -58,8 +58,8 @@ class OverviewStiffness(View):
     title = "Stiffness of the bearing"
     about = (
         "The 15 terms of the stiffness matrix as the bearing turns. Blue, with their value now: "
-        "those that vary, or are not what they are in the healthy bearing, which is grey. Pale: "
-        "those to which nothing happens, or along which the ring cannot move in this scene."
+        "those that vary, or differ from the grey ones. Grey: {grey}. Pale: those to which "
+        "nothing happens, or along which the ring cannot move in this scene."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     compact = True

@@ -10,7 +10,7 @@ from bokeh.models import HoverTool, Range1d
 from bearing_explorer.compute.defect_shape import pieces, spans
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element, elements
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
@@ -38,7 +38,7 @@ class LoadDistribution(View):
     plans = ("load",)
 
     def build(self, packed: PackedSource) -> Any:
-        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
         plot = style.house_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,

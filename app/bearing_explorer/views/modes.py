@@ -10,7 +10,7 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.numbers import span
@@ -51,7 +51,7 @@ class NaturalFrequencies(View):
     plans = ("modes",)
 
     def build(self, packed: PackedSource) -> Any:
-        self._range = StickyRange(0.0, 2000.0, least_span=20.0)
+        self._range = StickyRange(0.0, 2000.0, least_span=20.0, room=ROOM)
         self._angle_range = packed.range("modes_angle", 0.0, 30.0)
         plot = style.house_figure(
             style.CAGE_ANGLE,

@@ -78,8 +78,7 @@ class OverviewBands(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes = results.band_modes
         bands, usual = band_rows(modes), band_rows(results.healthy_modes)
-        highest = 1.05 * np.max(np.append(bands["high"], usual["high"]), initial=0.0)
-        top = self._frequency.fit(HIGHEST, highest)[1]
+        top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         order = np.argsort(bands["low"], kind="stable")
         bands = {name: column[order] for name, column in bands.items()}
         rows = {
@@ -122,6 +121,12 @@ class OverviewBands(View):
             "least_hz": np.array([low for low, _ in known.values()]),
             "greatest_hz": np.array([high for _, high in known.values()]),
         }
+
+
+def highest_band(results: Results) -> float:
+    """Up to where [Hz] the cards of the overview reach, for the bands that they share."""
+    ends = [band_rows(modes)["high"] for modes in (results.band_modes, results.healthy_modes)]
+    return float(1.05 * np.max(np.concatenate(ends), initial=0.0))
 
 
 def _now(modes: Modes, results: Results) -> np.ndarray:

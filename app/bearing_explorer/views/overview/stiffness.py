@@ -20,7 +20,7 @@ from bearing_explorer.figures.matrix_cells import (
     term_sizes,
     trace_limits,
 )
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -68,7 +68,7 @@ class OverviewStiffness(View):
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:
-        self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
+        self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         plot = style.bare_figure(
             Range1d(0.0, COLUMNS, syncable=False),
             Range1d(-_ROWS, 0.0, syncable=False),

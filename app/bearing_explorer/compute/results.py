@@ -574,11 +574,17 @@ class Results:
 
     @cached_property
     def band_modes(self) -> Modes:
-        """`modes` for their bands alone: while a hand moves, at every third cage angle."""
-        if not self.moving:
-            return self.modes
+        """`modes` for their bands alone: while a hand moves, at every third cage angle.
+
+        When it rests, at thrice as many where no plan says which: a band is then the same to a
+        hertz on every tab.
+        """
         first, last, n = self.stretch
-        return modes(self.scene, first, last, n // 3 + 1)
+        if self.moving:
+            return modes(self.scene, first, last, n // 3 + 1)
+        if self.settings.cage_angles is not None or self._nodes(healthy=False) is not None:
+            return self.modes
+        return modes(self.scene, first, last, 3 * n - 2)
 
     @cached_property
     def healthy_modes(self) -> Modes:

@@ -30,8 +30,8 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue in this scene, grey in {grey}. Shaded: "
-        "the defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
+        "What a ball carries at each angle. Blue: this scene. Grey: {grey}. Shaded: the "
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
         "turn of the shaft. A second row is orange, and in grey dashed."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
@@ -144,7 +144,7 @@ class LoadDistribution(View):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
             part = (
-                f"{'a' if told else 'A'} {element(bearing)}{which} carries most, "
+                f"{'the' if told else 'The'} greatest load of a {element(bearing)}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.beside_words and np.isfinite(healthy).any():

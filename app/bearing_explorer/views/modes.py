@@ -14,6 +14,7 @@ from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.numbers import span
+from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -136,12 +137,12 @@ class NaturalFrequencies(View):
         if not known:
             return "There is no static state to take natural frequencies from."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
-        words = [f"{label} {_from_to(known[label])}" for label in radial]
+        words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in radial]
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
         if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} {_from_to(healthy[first])}"
+            text += f"; {results.beside_words} {mode_symbol(first)} {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -12,6 +12,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, FREQUENCY, band_rows, direction_mapper
 from bearing_explorer.views.vibration_spectrum import HIGHEST
+from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -109,7 +110,10 @@ class OverviewBands(View):
         bands = {
             label: band for label, band in results.band_modes.bands().items() if band[0] == band[0]
         }
-        words = [f"{label} {low:.0f} to {high:.0f} Hz" for label, (low, high) in bands.items()]
+        words = [
+            f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
+            for label, (low, high) in bands.items()
+        ]
         if not words:
             return "There is no static state to take natural frequencies from."
         return f"The natural frequencies move within: {style.list_words(words)}."

@@ -72,9 +72,9 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "What the balls carry now, seen along the shaft, several rows side by side. Bars and "
-        "colours: their loads. Grey rim: the same without the defect. Arrow: the load on the "
-        "shaft. The keyway turns with the shaft; z points towards you."
+        "What each ball carries now, seen along the shaft. Several rows stand side by side. Bars "
+        "and colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The "
+        "keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
     equal_aspect = True

@@ -11,7 +11,7 @@ from bearing_explorer.compute.defect_shape import pieces, spans
 from bearing_explorer.compute.load_curve import curves_table
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element, elements
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
@@ -31,15 +31,15 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
-        " of the shaft. A second row is orange, and dashed without the defect."
+        "What a ball carries at each angle. Blue: this scene. Grey: {grey}. Shaded: the "
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
+        "turn of the shaft. A second row is orange, and in grey dashed."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
 
     def build(self, packed: PackedSource) -> Any:
-        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
         plot = style.house_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,
@@ -145,7 +145,7 @@ class LoadDistribution(View):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
             part = (
-                f"{'a' if told else 'A'} {element(bearing)}{which} carries most, "
+                f"{'the' if told else 'The'} greatest load of a {element(bearing)}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.beside_words and np.isfinite(healthy).any():

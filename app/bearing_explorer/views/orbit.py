@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.compute.verdict import of_orbit
 from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_spectrum import (
@@ -74,7 +74,7 @@ class SteadyOrbit(View):
     needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
 
     def build(self, packed: PackedSource) -> Any:
-        self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02) for _ in SHOWN]
+        self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02, room=ROOM) for _ in SHOWN]
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)

@@ -28,13 +28,13 @@ if TYPE_CHECKING:
 
 HEADS = (
     "What is drawn",
-    "Moving",
+    "Directions",
     "How",
     "Error expected",
-    "allowed",
-    "Takes",
-    "Full model takes",
-    "errs",
+    "Error allowed",
+    "Time",
+    "Full model: time",
+    "Its error",
     "Planned in",
 )
 

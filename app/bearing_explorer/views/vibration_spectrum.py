@@ -51,7 +51,7 @@ class VibrationSpectra(View):
     title = "Spectrum of the vibration"
     about = (
         "Spectrum of the housing's acceleration once the start is forgotten. Power spectral "
-        "density along x and y, 32 Hz resolution. Grey: without the defect. Shaded: the bands of "
+        "density along x and y, 32 Hz resolution. Grey: {grey}. Shaded: the bands of "
         "the natural frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "band_modes"})

@@ -28,9 +28,10 @@ from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.statics.film import Film, film
 from bearingcore.statics.life import Life, dynamic_load_rating, life
+from bearingcore.statics.limit import Limit
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
-from bearingcore.statics.validity import Limit, limits
+from bearingcore.statics.validity import limits
 
 __all__ = [
     "CONTACT_LAWS",

@@ -28,6 +28,7 @@ from bearing_explorer.compute.dof_comparison import (
     spectrum_differences,
     static_differences,
 )
+from bearing_explorer.compute.endurance import Asked, Endurance, endurance, film_of
 from bearing_explorer.compute.excerpt import Excerpt, excerpt
 from bearing_explorer.compute.executors import BESIDE
 from bearing_explorer.compute.load_curve import Curve, load_curve
@@ -50,6 +51,7 @@ from bearingcore.plan import CURVES, SETTLED
 from bearingcore.plan.balls import BallComparison, compare_balls
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import drops_now
+from bearingcore.statics.validity import looked_at
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
@@ -287,8 +289,14 @@ def _dynamic_load(scene: Scene, how: How) -> float:
     return float(loads.max(initial=0.0))
 
 
-def _limits(scene: Scene, step_rate: float | None, dynamic_load: float | None) -> tuple[Limit, ...]:
-    return core.limits(scene, dynamic_load=dynamic_load, step_rate=step_rate)
+def _limits(
+    scene: Scene, step_rate: float | None, dynamic_load: float | None, asked: Asked
+) -> tuple[Limit, ...]:
+    state = core.equilibrium(scene, looked_at(scene))
+    oil = None
+    if asked.viscosity is not None and scene.bearing.knows_contacts:
+        oil = film_of(scene, asked, state)
+    return core.limits(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
 
 
 def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
@@ -348,6 +356,7 @@ class Results:
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
     plans: {view: Plan} of what is to be planned; without those that cannot be
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
+    endurance: life, contact pressure and film, with the oil and steel of `asked`
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
     chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
@@ -397,11 +406,13 @@ class Results:
         planned: tuple[str, ...] = (),
         pinned: Reference | None = None,
         before: Scene | None = None,
+        asked: Asked | None = None,
     ) -> None:
         """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
 
         `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
         without its defect. `before`: the scene before the last change, where there was one.
+        `asked`: what somebody says of steel, oil and surfaces.
         """
         self.scene = scene
         self.cage_angle = cage_angle
@@ -411,6 +422,7 @@ class Results:
         self.planned = planned
         self.pinned = pinned
         self.before = before
+        self.asked = asked or Asked()
         #: times [s] that processors have worked on it, in any thread: waiting is no cost
         self.costs: list[float] = []
 
@@ -824,7 +836,12 @@ class Results:
                 step_rate = step_rates(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return limits_of(self.scene, step_rate, self._dynamic_load)
+        return limits_of(self.scene, step_rate, self._dynamic_load, self.asked)
+
+    @property
+    def endurance(self) -> Endurance:
+        """Life, pressure and film of the scene, with the oil and steel that were asked for."""
+        return endurance(self.scene, self.asked)
 
     @property
     def _dynamic_load(self) -> float | None:

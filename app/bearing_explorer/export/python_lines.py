@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from bearing_explorer.compute.endurance import endurance
+from bearing_explorer.compute.endurance import ASSUMED_VISCOSITY
 from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
@@ -169,8 +169,7 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
 
 
 def _life(script: Script, results: Results, view: Any) -> None:
-    asked = view.asked
-    found = endurance(results.scene, asked)
+    asked, found = results.asked, results.endurance
     if found.life is not None:
         script.core("life")
         rating = short(found.life.dynamic_load_rating)
@@ -188,7 +187,7 @@ def _life(script: Script, results: Results, view: Any) -> None:
         script.core("film")
         script.add(
             "oil = film(",
-            f"    scene, viscosity={short(asked.viscosity)}, "
+            f"    scene, viscosity={short(asked.viscosity or ASSUMED_VISCOSITY)}, "
             f"roughness_inner={short(asked.race_roughness)},",
             f"    roughness_outer={short(asked.race_roughness)}, "
             f"roughness_ball={short(asked.ball_roughness)},",

@@ -37,6 +37,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
+    from bearing_explorer.compute.endurance import Asked
     from bearing_explorer.compute.jobs import Jobs
     from bearing_explorer.compute.results import Results
     from bearing_explorer.measurement.session import Measurement
@@ -104,6 +105,8 @@ class SessionParts:
         has a panel of controls follow the scene.
     take_steps
         has motions marched with a step rate [Hz], or with None by the program's own.
+    say_endurance
+        takes what somebody says of steel, oil and surfaces.
     """
 
     editor: SceneEditor
@@ -113,6 +116,7 @@ class SessionParts:
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
+    say_endurance: Callable[[Asked], None]
 
 
 class View:

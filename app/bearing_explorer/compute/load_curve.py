@@ -18,8 +18,12 @@ BINS = 720
 SAME_PLACE = 1e-9  # [rad]
 
 
-def load_curve(equilibrium: Equilibrium, row: int = 0) -> Curve:
+def load_curve(
+    equilibrium: Equilibrium, row: int = 0, loads: NDArray[np.float64] | None = None
+) -> Curve:
     """Angle from 0 to 2π [rad] and load [N] of a ball there, every position of the row's balls.
+
+    `loads` (n, N_b) [N]: others than `ball_load`, such as those at the inner race.
 
     With a defect that stands still the load depends on the ball's angle alone and this is one
     curve. A defect of the inner race comes by everywhere: then the greatest load at each half
@@ -29,7 +33,7 @@ def load_curve(equilibrium: Equilibrium, row: int = 0) -> Curve:
     own = slice(row * n, (row + 1) * n)
     angle = np.mod(equilibrium.ball_angle[:, own], TWO_PI).ravel()
     angle[angle > TWO_PI - SAME_PLACE] = 0.0
-    load = equilibrium.ball_load[:, own].ravel()
+    load = (equilibrium.ball_load if loads is None else loads)[:, own].ravel()
     if any(defect.race == "inner" for defect in equilibrium.scene.defects):
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")

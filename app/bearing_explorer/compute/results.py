@@ -49,6 +49,7 @@ from bearingcore.model.packing import is_planar
 from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.plan.balls import BallComparison, compare_balls
+from bearingcore.statics.ball_positions import EquilibriumWithMass
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import drops_now
 from bearingcore.statics.validity import looked_at
@@ -69,15 +70,15 @@ HASTY_PERIODS = 30
 
 
 def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
-    return core.equilibrium(scene, np.linspace(first, last, n_cage_angles))
+    return core.static_state(scene, np.linspace(first, last, n_cage_angles))
 
 
 def _over_nodes(scene: Scene, nodes: bytes) -> Equilibrium:
-    return core.equilibrium(scene, np.frombuffer(nodes))
+    return core.static_state(scene, np.frombuffer(nodes))
 
 
 def _at(scene: Scene, cage_angle: float) -> Equilibrium:
-    return core.equilibrium(scene, np.array([cage_angle]))
+    return core.static_state(scene, np.array([cage_angle]))
 
 
 def _modes(scene: Scene, first: float, last: float, n_cage_angles: int) -> Modes:
@@ -549,6 +550,15 @@ class Results:
         """Load [N] of a ball over its angle [rad], a curve a row."""
         return _load_curves(self.equilibrium)
 
+    @cached_property
+    def inner_load_curves(self) -> list[Curve]:
+        """The same at the inner race, where balls with mass carry less; none of massless ones."""
+        found = self.equilibrium
+        if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
+            return []
+        rows = range(len(found.scene.bearing.all_rows))
+        return [load_curve(found, row, found.inner_load) for row in rows]
+
     @property
     def load_curve(self) -> Curve:
         """That of the first row."""
@@ -568,6 +578,11 @@ class Results:
     def now(self) -> Equilibrium:
         """Static answer at the cage angle shown; arrays of length 1."""
         return single_equilibria(self.scene, self.cage_angle)
+
+    @property
+    def massless_now(self) -> Equilibrium:
+        """The same as maps have it: without the mass of the balls."""
+        return single_equilibria(self.scene.replace(balls=MASSLESS), self.cage_angle)
 
     @cached_property
     def healthy_now(self) -> Equilibrium:

@@ -8,16 +8,18 @@ import numpy as np
 from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.compute.defect_shape import pieces, spans
+from bearing_explorer.compute.load_curve import load_curve
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element, elements
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.statics.ball_positions import EquilibriumWithMass
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.load_curve import Curve
     from bearing_explorer.compute.results import Results
-    from bearingcore import Scene
+    from bearingcore import Equilibrium, Scene
 
 
 OTHER_ROWS = style.DIRECTION_COLORS[1]
@@ -32,7 +34,9 @@ class LoadDistribution(View):
     about = (
         "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
         "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
-        " of the shaft. A second row is orange, and dashed without the defect."
+        " of the shaft. A second row is orange, and dashed without the defect. Of balls with mass "
+        "the full line is the load at the outer race, where their centrifugal load comes on top, "
+        "the dashed one that at the inner race."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
@@ -70,6 +74,14 @@ class LoadDistribution(View):
             line_color=style.HEALTHY,
             line_width=2.0,
             line_dash=[6, 4],
+        )
+        plot.line(
+            "angle",
+            "load",
+            source=packed.source("load_distribution_inner", "angle", "load"),
+            line_color=style.DEFECTIVE,
+            line_width=1.4,
+            line_dash=[5, 3],
         )
         curves = [
             plot.line(
@@ -121,6 +133,7 @@ class LoadDistribution(View):
         sources = {
             "load_distribution_other_rows": _one_line(others),
             "load_distribution_other_healthy": _one_line(healthy_others),
+            "load_distribution_inner": _one_line(results.inner_load_curves),
             "load_distribution_rows": _names(results.load_curves),
             "load_distribution_defect": shaded(results.scene, results.cage_angle),
             "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
@@ -160,6 +173,8 @@ class LoadDistribution(View):
                 f". At this cage angle {count} of {bearing.total_balls} {elements(bearing)} "
                 f"{'carries' if count == 1 else 'carry'} load"
             )
+            if isinstance(now, EquilibriumWithMass) and results.inner_load_curves:
+                words += f". {_both_races(now)}"
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
@@ -169,11 +184,43 @@ class LoadDistribution(View):
             own = _row_column(row)
             table[f"{own}ball_angle_deg"] = np.degrees(angle[1:-1])
             table[f"{own}ball_load_n"] = load[1:-1]
+            if results.inner_load_curves:
+                table |= _at_both_races(results.equilibrium, row)
         for row, (angle, load) in enumerate(results.healthy_load_curves):
             own = _row_column(row)
             table[f"{beside}_{own}ball_angle_deg"] = np.degrees(angle[1:-1])
             table[f"{beside}_{own}ball_load_n"] = load[1:-1]
         return table
+
+
+def _both_races(now: EquilibriumWithMass) -> str:
+    """What the heaviest ball of one cage angle carries at each race, and at which angles."""
+    most = int(np.argmax(now.ball_load[0]))
+    inner, outer = now.inner_load[0, most], now.ball_load[0, most]
+    angles = [now.inner_contact_angle[0, most], now.contact_angle[0, most]]
+    words = (
+        f"Centrifugal load is {style.with_prefix(now.positions.centrifugal_load, 'N')} for each: "
+        f"the heaviest loaded one carries {style.with_prefix(inner, 'N', 4)} at the inner race and "
+        f"{style.with_prefix(outer, 'N', 4)} at the outer"
+    )
+    if np.abs(angles).max() > 1e-3:
+        words += f", at contact angles of {style.in_degrees(angles[0])} and "
+        words += style.in_degrees(angles[1])
+    return words
+
+
+def _at_both_races(found: Equilibrium, row: int) -> dict[str, np.ndarray]:
+    """Columns of loads and contact angles of a row's balls with mass, along its curve."""
+    assert isinstance(found, EquilibriumWithMass)
+    own = _row_column(row)
+    columns = {}
+    for name, values in (
+        ("inner_race_load_n", found.inner_load),
+        ("inner_contact_angle_deg", np.degrees(found.inner_contact_angle)),
+        ("outer_contact_angle_deg", np.degrees(found.contact_angle)),
+    ):
+        columns[f"{own}{name}"] = load_curve(found, row, values)[1][1:-1]
+    return columns
 
 
 def _row_column(row: int) -> str:

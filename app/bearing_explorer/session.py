@@ -359,6 +359,9 @@ class Explorer:
                 self._set(values, confirm=False)
             if isinstance(typed := message.get("typed"), dict):
                 self._set(typed, confirm=True)
+            rests = "typed" in message or message.get("released") is True
+            if rests and (narrowed := self.editor.narrow()):
+                self._show_controls(state=self.editor.state(narrowed))
             if isinstance(file := message.get("floor"), dict):
                 self._read(file)
             if isinstance(file := message.get("catalogue"), dict):

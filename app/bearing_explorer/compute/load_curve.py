@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from bearingcore.common.table import ResultTable, table_of
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium
@@ -46,6 +49,20 @@ def load_curve(
         np.concatenate([[angle[-1] - TWO_PI], angle, [angle[0] + TWO_PI]]),
         np.concatenate([[load[-1]], load, [load[0]]]),
     )
+
+
+def row_name(row: int) -> str:
+    """How names of a row's columns begin: those of the first have no number."""
+    return f"row_{row + 1}_" if row else ""
+
+
+def curves_table(curves: Sequence[Curve]) -> ResultTable:
+    """Angles and loads of each row's curve; only the first row's columns have no number."""
+    columns = []
+    for row, (angle, load) in enumerate(curves):
+        own = row_name(row)
+        columns += [(f"{own}ball_angle", "rad", angle[1:-1]), (f"{own}ball_load", "N", load[1:-1])]
+    return table_of(*columns)
 
 
 def _greatest(angle: NDArray[np.float64], load: NDArray[np.float64]) -> Curve:

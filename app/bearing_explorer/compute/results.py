@@ -36,7 +36,7 @@ from bearing_explorer.compute.planning import plan_for
 from bearing_explorer.compute.profile import Profile, profile
 from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.adaptive import simulate_adaptive
@@ -452,6 +452,11 @@ class Results:
         return "without the defect" if self.scene.defects else ""
 
     @property
+    def grey_words(self) -> str:
+        """What it is called in a caption."""
+        return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
+
+    @property
     def beside_name(self) -> str:
         """What it is called in the names of columns."""
         return "healthy" if self.pinned is None else "pinned"
@@ -608,11 +613,17 @@ class Results:
 
     @cached_property
     def band_modes(self) -> Modes:
-        """`modes` for their bands alone: while a hand moves, at every third cage angle."""
-        if not self.moving:
-            return self.modes
+        """`modes` for their bands alone: while a hand moves, at every third cage angle.
+
+        When it rests, at thrice as many where no plan says which: a band is then the same to a
+        hertz on every tab.
+        """
         first, last, n = self.stretch
-        return modes(self.scene, first, last, n // 3 + 1)
+        if self.moving:
+            return modes(self.scene, first, last, n // 3 + 1)
+        if self.settings.cage_angles is not None or self._nodes(healthy=False) is not None:
+            return self.modes
+        return modes(self.scene, first, last, 3 * n - 2)
 
     @cached_property
     def healthy_modes(self) -> Modes:

@@ -14,6 +14,8 @@ stands on one line above the figure, and the rest is shown when asked for), and 
 A view that asks for something, a scene, a job, a measured signal, takes what it needs of the
 session in `attach(parts)`.
 
+What is drawn in grey is ``{grey}`` in `about`: the healthy bearing, or a scene that is pinned.
+
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
 
@@ -34,6 +36,7 @@ from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.figures.zoom import zoomable
 from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.reference import WITHOUT_DEFECT
 from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
@@ -152,7 +155,7 @@ class View:
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
-        line, rest = first_sentence(self.about)
+        line, rest = first_sentence(self.caption())
         self._caption = Caption(
             title=self.title,
             line=line,
@@ -209,7 +212,13 @@ class View:
         self._sentence.put(text=sentence)
         self._caption.put(empty=self.is_empty)
         if results is not None and self.compares:
-            self._caption.put(pinned=results.pinned.name if results.pinned else "")
+            line, rest = first_sentence(self.caption(results.grey_words))
+            pinned = results.pinned.name if results.pinned else ""
+            self._caption.put(line=line, rest=rest, pinned=pinned)
+
+    def caption(self, grey: str = WITHOUT_DEFECT) -> str:
+        """What the figure shows; `grey` is what is drawn in grey."""
+        return self.about.replace("{grey}", grey)
 
     @property
     def compares(self) -> bool:

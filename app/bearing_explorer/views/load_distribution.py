@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import or_
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.compute.defect_shape import pieces, spans
-from bearing_explorer.compute.load_curve import load_curve
+from bearing_explorer.compute.load_curve import curves_table, load_curve, row_name
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element, elements
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.ball_positions import EquilibriumWithMass
 
 if TYPE_CHECKING:
@@ -32,17 +35,17 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
-        " of the shaft. A second row is orange, and dashed without the defect. Of balls with mass "
-        "the full line is the load at the outer race, where their centrifugal load comes on top, "
-        "the dashed one that at the inner race."
+        "What a ball carries at each angle. Blue: this scene. Grey: {grey}. Shaded: the "
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
+        "turn of the shaft. A second row is orange, and in grey dashed. Of balls with mass the "
+        "full line is the load at the outer race, where their centrifugal load comes on top, the "
+        "dashed one that at the inner race."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
 
     def build(self, packed: PackedSource) -> Any:
-        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
         plot = style.house_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,
@@ -157,7 +160,7 @@ class LoadDistribution(View):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
             part = (
-                f"{'a' if told else 'A'} {element(bearing)}{which} carries most, "
+                f"{'the' if told else 'The'} greatest load of a {element(bearing)}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.beside_words and np.isfinite(healthy).any():
@@ -178,19 +181,12 @@ class LoadDistribution(View):
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        beside = results.beside_name
-        table = {}
-        for row, (angle, load) in enumerate(results.load_curves):
-            own = _row_column(row)
-            table[f"{own}ball_angle_deg"] = np.degrees(angle[1:-1])
-            table[f"{own}ball_load_n"] = load[1:-1]
-            if results.inner_load_curves:
-                table |= _at_both_races(results.equilibrium, row)
-        for row, (angle, load) in enumerate(results.healthy_load_curves):
-            own = _row_column(row)
-            table[f"{beside}_{own}ball_angle_deg"] = np.degrees(angle[1:-1])
-            table[f"{beside}_{own}ball_load_n"] = load[1:-1]
-        return table
+        tables = [curves_table(results.load_curves)]
+        if results.inner_load_curves:
+            rows = range(len(results.load_curves))
+            tables += [_at_both_races(results.equilibrium, row) for row in rows]
+        tables.append(curves_table(results.healthy_load_curves).prefixed(results.beside_name))
+        return reduce(or_, tables).in_units().named()
 
 
 def _both_races(now: EquilibriumWithMass) -> str:
@@ -209,23 +205,21 @@ def _both_races(now: EquilibriumWithMass) -> str:
     return words
 
 
-def _at_both_races(found: Equilibrium, row: int) -> dict[str, np.ndarray]:
-    """Columns of loads and contact angles of a row's balls with mass, along its curve."""
+def _at_both_races(found: Equilibrium, row: int) -> ResultTable:
+    """Loads and contact angles of a row's balls with mass, along its curve."""
     assert isinstance(found, EquilibriumWithMass)
-    own = _row_column(row)
-    columns = {}
-    for name, values in (
-        ("inner_race_load_n", found.inner_load),
-        ("inner_contact_angle_deg", np.degrees(found.inner_contact_angle)),
-        ("outer_contact_angle_deg", np.degrees(found.contact_angle)),
-    ):
-        columns[f"{own}{name}"] = load_curve(found, row, values)[1][1:-1]
-    return columns
-
-
-def _row_column(row: int) -> str:
-    """How columns of a row begin: those of the first have no number."""
-    return f"row_{row + 1}_" if row else ""
+    own = row_name(row)
+    columns = (
+        ("inner_race_load", "N", found.inner_load),
+        ("inner_contact_angle", "rad", found.inner_contact_angle),
+        ("outer_contact_angle", "rad", found.contact_angle),
+    )
+    return table_of(
+        *(
+            (f"{own}{name}", unit, load_curve(found, row, values)[1][1:-1])
+            for name, unit, values in columns
+        )
+    )
 
 
 def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:

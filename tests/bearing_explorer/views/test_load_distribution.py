@@ -47,8 +47,8 @@ def test_two_rows_have_a_curve_and_a_name_each() -> None:
     assert first == pytest.approx(results.equilibrium.ball_load[:, :14].max())
     assert second == pytest.approx(results.equilibrium.ball_load[:, 14:].max())
     assert abs(first / second - 1.0) > 0.2
-    assert "A ball of row 1 carries most" in view.sentence(results)
-    assert "a ball of row 2 carries most" in view.sentence(results)
+    assert "The greatest load of a ball of row 1 is" in view.sentence(results)
+    assert "the greatest load of a ball of row 2 is" in view.sentence(results)
     assert "of 28 balls" in view.sentence(results)
     one, _ = view.data(Results(FAN_RIG))
     assert one["load_distribution_rows"]["row"].size == 0

@@ -36,7 +36,7 @@ def test_methods_for_balls_agree_and_too_long_steps_are_shown_as_failed() -> Non
     assert by_step["implicit balls", 4].errors[band] < by_step["implicit balls", 1].errors[band]
     # six ball passes: means over few of them, and the implicit steps have order 1 at a touch
     assert found.references[""].agreement[band] < 1.0
-    assert "heavier by a part in ten thousand" in found.table()
+    assert "heavier by a part in ten thousand" in found.text()
 
 
 def test_contacts_must_stay_in_the_plane() -> None:

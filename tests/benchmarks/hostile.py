@@ -140,7 +140,8 @@ def tell(found: Outcome) -> None:
         slowest = max(tally.slowest.values()) if all_ else tally.slowest.get(name, 0.0)
         print(f"{name:<12}{sent:>10,}{cut:>10,}{slowest:>20.2f} s")
     rate = tally.messages / found.seconds
-    print(f"{tally.pages} pages, {found.seconds:.0f} s, {rate:.0f} messages a second")
+    pages = f"{tally.pages} pages, {tally.late_pages} that came too late"
+    print(f"{pages}; {found.seconds:.0f} s, {rate:.0f} messages a second")
     loop = found.loop
     print(
         f"event loop: {loop['turns']:,} turns; longest collection {1e3 * loop['collected']:.0f} ms"

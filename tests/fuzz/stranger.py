@@ -34,6 +34,7 @@ class Tally:
     cut: Counter[str] = field(default_factory=Counter)
     slowest: dict[str, float] = field(default_factory=dict)  # [s], until all was heard
     pages: int = 0
+    late_pages: int = 0
     unanswered: int = 0
     errors: list[str] = field(default_factory=list)
 
@@ -89,12 +90,16 @@ class Stranger:
 
     async def _new_page(self) -> PageClient | None:
         client = _Blind(self._url)
-        if await client.open_page() != 200:
-            await asyncio.sleep(0.5)
+        try:
+            if await client.open_page() != 200:
+                await asyncio.sleep(0.5)
+                return None
+            self._since_page = 0
+            self._tally.pages += 1
+            await client.connect()
+        except (HTTPClientError, OSError, TimeoutError):
+            self._tally.late_pages += 1  # so many of them ask at once
             return None
-        self._since_page = 0
-        self._tally.pages += 1
-        await client.connect()
         self._hear_pongs(client)
         every = self._random.random() < 0.25
         await client.show(self._random.choice(SECTIONS).name if every else CHEAP_TAB)

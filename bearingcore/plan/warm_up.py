@@ -79,7 +79,10 @@ def _compiled_afresh() -> bool:
 
 def _start_helper() -> subprocess.Popen[str] | None:
     """A process that compiles the kernels of motions; None where none can be started."""
-    return start_python("from bearingcore import warm_up; warm_up.compile_motions()")
+    return start_python(f"{_IMPORT}; compile_motions()")
+
+
+_IMPORT = f"from {__name__} import compile_motions"
 
 
 def start_python(lines: str, new_session: bool = False) -> subprocess.Popen[str] | None:

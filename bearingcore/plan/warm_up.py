@@ -34,8 +34,9 @@ def warm(report: Report = print) -> None:
         (("path of the ball", lambda: fan_rig.defects[0].path([0.0], fan_rig.bearing)),),
         report,
     )
+    global _helper
     kept = kernels.kept_on_disk()
-    helper = _start_helper() if kept and _compiled_afresh() and processors() > 1 else None
+    _helper = helper = _start_helper() if kept and _compiled_afresh() and processors() > 1 else None
     try:
         _run(
             (
@@ -59,6 +60,15 @@ def warm(report: Report = print) -> None:
         ),
         report if helper is None or helper.returncode else _silent,
     )
+
+
+_helper: subprocess.Popen[str] | None = None
+
+
+def give_up() -> None:
+    """End the process that compiles beside this one: this one is about to end."""
+    if _helper is not None:
+        _helper.kill()
 
 
 def _run(tasks: Tasks, report: Report) -> None:

@@ -18,6 +18,7 @@ from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
 from bearing_explorer.widgets.limits import rows_of
+from bearingcore.common.numbers import thousands
 from bearingcore.statics.life import LEFT_OUT
 from bearingcore.statics.validity import static_pressure
 
@@ -188,8 +189,12 @@ def read(field: Field, given: object) -> float | None:
 
 
 def groups_of(results: Results, found: Endurance) -> list[dict[str, Any]]:
-    """What is shown: titles, words, and facts with their numbers."""
-    return [_life(results, found), _pressures(results, found), _film(found)]
+    """What is shown: titles, words, and facts with their numbers; what is not known said once."""
+    groups = [_life(results, found), _pressures(results, found), _film(found)]
+    first = groups[0]["words"]
+    if all(not group["facts"] and group["words"] == first for group in groups):
+        return [_group("Life, greatest contact pressure and oil film", first, [])]
+    return groups
 
 
 def _group(title: str, words: str, facts: list[tuple[str, str, str]]) -> dict[str, Any]:
@@ -219,7 +224,7 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
         ),
         (
             "at the speed of the scene",
-            f"{style.number(lasts.hours, 4)} h"
+            f"{_long(lasts.hours)} h"
             if math.isfinite(lasts.hours)
             else "no hours: "
             + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "without an end"),
@@ -243,7 +248,12 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
 
 
 def _million(value: float) -> str:
-    return "without an end" if math.isinf(value) else f"{style.number(value, 4)} million turns"
+    return "without an end" if math.isinf(value) else f"{_long(value)} million turns"
+
+
+def _long(value: float) -> str:
+    """A number of three digits: of lives no more is known."""
+    return thousands(float(f"{value:.3g}")) if value >= 1e4 else style.number(value, 3)
 
 
 def _pressures(results: Results, found: Endurance) -> dict[str, Any]:

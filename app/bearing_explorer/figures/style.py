@@ -66,6 +66,7 @@ BUTTONS = f"""
   --default-active-border: var(--accent); --color: var(--ink); color: var(--ink);
   font-family: {FONT}; font-size: 13px;
 }}
+:host .bk-input-group, :host label {{ font-family: {FONT}; }}
 :host .bk-btn {{ font-family: {FONT}; font-size: 13px; }}
 :host .bk-btn.bk-active {{ color: var(--accent); }}
 """

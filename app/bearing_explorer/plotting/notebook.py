@@ -10,7 +10,8 @@ import sys
 from typing import Any
 
 from bokeh.models import UIElement
-from panel.viewable import Viewable
+
+from bearing_explorer.server.bokeh_private import before_showing
 
 try:
     from panel.io.notebook import patch_inline_stylesheets
@@ -22,9 +23,8 @@ def bring_style_sheets() -> None:
     """Have figures carry their style sheets in a notebook; elsewhere a server serves them."""
     shell = sys.modules.get("IPython")  # it is there in every notebook
     in_notebook = shell is not None and shell.get_ipython() is not None
-    hooks = Viewable._preprocessing_hooks
-    if in_notebook and patch_inline_stylesheets is not None and _inlined not in hooks:
-        hooks.append(_inlined)
+    if in_notebook and patch_inline_stylesheets is not None:
+        before_showing(_inlined)
 
 
 def _inlined(_: Any, root: Any) -> None:

@@ -40,6 +40,7 @@ from bearing_explorer.state.reference import WITHOUT_DEFECT
 from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
+    from bearing_explorer.compute.endurance import Asked
     from bearing_explorer.compute.jobs import Jobs
     from bearing_explorer.compute.results import Results
     from bearing_explorer.measurement.session import Measurement
@@ -107,6 +108,8 @@ class SessionParts:
         has a panel of controls follow the scene.
     take_steps
         has motions marched with a step rate [Hz], or with None by the program's own.
+    say_endurance
+        takes what somebody says of steel, oil and surfaces.
     """
 
     editor: SceneEditor
@@ -116,6 +119,7 @@ class SessionParts:
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
+    say_endurance: Callable[[Asked], None]
 
 
 class View:

@@ -395,6 +395,7 @@ def test_behind_a_proxy_under_a_path(strip: bool) -> None:
     served(through, root_path="" if strip else "/bearing")
 
 
+@pytest.mark.proof
 def test_two_processes_share_the_port_and_end_together() -> None:
     async def many(url: str) -> None:
         people = [PageClient(url) for _ in range(6)]

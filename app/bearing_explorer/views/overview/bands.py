@@ -119,12 +119,7 @@ class OverviewBands(View):
         return f"The natural frequencies move within: {style.list_words(words)}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        known = results.band_modes.bands()
-        return {
-            "mode": np.array(list(known)),
-            "least_hz": np.array([low for low, _ in known.values()]),
-            "greatest_hz": np.array([high for _, high in known.values()]),
-        }
+        return results.band_modes.bands_table().named()
 
 
 def highest_band(results: Results) -> float:

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import kernels
-from bearingcore.common import checks
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import path_tables
 from bearingcore.model.scene import DOF_NAMES, Scene
@@ -164,12 +163,12 @@ def rotor(
     """
     if not scene.bearing.has_one_contact_angle:
         own = [scene.bearing.of_row(k) for k in range(len(scene.bearing.all_rows))]
-        raise checks.refuse(
-            "contact_angle of a row",
-            ", ".join(f"{math.degrees(one.contact_angle):.4g}°" for one in own),
-            "one for all rows where things move: else each row's cage turns at a speed of its own, "
-            f"here {', '.join(f'{one.cage_ratio:.4g}' for one in own)} of the shaft's, and nothing "
-            "repeats",
+        angles = " and ".join(f"{math.degrees(one.contact_angle):.4g}°" for one in own)
+        ratios = " and ".join(f"{one.cage_ratio:.4g}" for one in own)
+        raise ValueError(
+            f"contact angles of the rows are {angles}; allowed: one for all rows, where things "
+            f"move: else each row's cage turns at a speed of its own, here {ratios} of the "
+            "shaft's, and nothing repeats"
         )
     published = scene.contact_law == "published"
     variables = kernels.VELOCITIES

@@ -40,7 +40,7 @@ from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.contacts.hertz import in_series
 from bearingcore.model.packing import typical_compression
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.statics.film import TOUCHING, Film
@@ -196,6 +196,12 @@ def _element(bearing: Bearing) -> str:
     return "roller" if bearing.is_roller else "ball"
 
 
+LEFT_OUT = "the static model leaves it out"
+LEFT_OUT_WITH_MASS = (
+    "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
+    "it out"
+)
+
 NO_DRAWING = "the groove radii of this bearing are not known"
 NO_STATE = "no cage angle has a static equilibrium"
 NO_MOTION = "no motion of this scene has been simulated yet"
@@ -346,7 +352,7 @@ def _centrifugal_change(scene: Scene, force: float) -> Limit:
         f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
         f"{math.degrees(effect.contact_angle):.2g}°"
         + (
-            ": the static model leaves it out, and here it counts."
+            f": {LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT}, and here it counts."
             if crossed
             else f"; up to {percent(limit)} it may be left out."
         )

@@ -172,7 +172,7 @@ def test_what_moves_is_refused_with_the_reason(balls: str) -> None:
         with pytest.raises(ValueError, match="each row's cage turns at a speed of its own"):
             attempt()
     if balls == "massless":
-        with pytest.raises(ValueError, match="25°, 40°"):
+        with pytest.raises(ValueError, match="25° and 40°"):
             orbit(scene)
 
 

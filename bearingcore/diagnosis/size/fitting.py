@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from bearingcore.diagnosis.size.matching import (
     Target,
 )
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
-from bearingcore.diagnosis.size.synthesis import steps_of, synthesise
+from bearingcore.diagnosis.size.synthesis import Begin, Simulator, steps_of
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.model.defect import EDGES
 from bearingcore.model.scene import Scene
@@ -44,6 +44,20 @@ DRAWS = 2
 
 PARTS = 16
 """In which the library is simulated, so that progress can be told and work given up."""
+
+PROMISING = 0.5
+"""Part of the extents that are simulated with the scene's numbers varied too."""
+
+NEIGHBOURS = 3
+"""Extents to either side that count for whether one is promising."""
+
+ROUGH_STEPS_A_CYCLE = 7.0
+"""Steps in a cycle of the highest natural frequency in the library: they move a few thousandths of
+a pass's power, and what it is compared with is never nearer than a twentieth."""
+
+CLOSED_ROUGHLY, CLOSED = 0.05, 0.01
+"""Differences between passes, as a share of them, from which a motion has settled: in the library,
+and of what is refined."""
 
 MOST_OFF = 2.5
 """Standard deviations by which a number of a scene may be off."""
@@ -128,9 +142,9 @@ class Search:
         """Simulate a defect and compare it with the signal, behind a path or the best of all."""
         extent = min(max(extent, LEAST_EXTENT), GREATEST_EXTENT)
         offsets = np.where(self.tolerances.spread > 0.0, np.clip(offsets, -MOST_OFF, MOST_OFF), 0.0)
-        scene = self.varied(extent, edge, offsets)
-        passes = synthesise(scene, self.target.measured.frequency, self.count, self.columns)
-        exits = exit_phases(scene, np.array([extent]))
+        exponents = offsets * self.tolerances.spread
+        passes, _ = self.simulator.passes(extent, edge, exponents, CLOSED)
+        exits = exit_phases(self.scene, np.array([extent]))
         best: Guess | None = None
         for model in self.paths if path is None else (path,):
             match = self.target.match(passes.harmonics[None], passes.power[None], model, exits)
@@ -154,6 +168,11 @@ class Search:
             )
         assert best is not None
         return best
+
+    @cached_property
+    def simulator(self) -> Simulator:
+        """Of the scene, at the speed that was measured."""
+        return Simulator(self.scene, self.target.measured.frequency, self.count, self.columns)
 
     def varied(self, extent: float, edge: str, offsets: NDArray[np.float64]) -> Scene:
         """The scene with a guess's defect and numbers."""
@@ -214,61 +233,140 @@ def exit_phases(scene: Scene, extents: NDArray[np.float64]) -> NDArray[np.float6
 
 @dataclass(frozen=True)
 class _Library:
-    """Simulated signals over all extents: guesses not yet compared."""
+    """Simulated signals of some extents: guesses not yet compared."""
 
     extents: NDArray[np.float64]
     edges: tuple[str, ...]
     offsets: NDArray[np.float64]
     harmonics: NDArray[np.complex128]
     power: NDArray[np.float64]
+    begins: tuple[Begin | None, ...]
+
+
+@dataclass(frozen=True)
+class _Sought:
+    """What a library is made of: the same for all signals of nearly the same speed."""
+
+    scene: Scene
+    frequency: float
+    count: int
+    columns: tuple[int, ...]
+    tolerances: Tolerances
+
+
+EXTENTS = np.arange(LEAST_EXTENT, GREATEST_EXTENT, EXTENT_STEP)
+"""[rad] that are simulated."""
+
+_OF_PARTS = np.array_split(np.arange(len(EXTENTS)), PARTS)
+
+
+@lru_cache(maxsize=8)
+def _simulator(sought: _Sought) -> Simulator:
+    return Simulator(
+        sought.scene, sought.frequency, sought.count, sought.columns, ROUGH_STEPS_A_CYCLE
+    )
 
 
 @lru_cache(maxsize=8 * PARTS)
-def _library_part(
-    scene: Scene,
-    frequency: float,
-    count: int,
-    columns: tuple[int, ...],
-    tolerances: Tolerances,
-    part: int,
-) -> _Library:
-    """Every PARTS-th of all extents, each as the scene says and DRAWS times with it varied."""
-    (defect,) = scene.defects
+def _as_told(sought: _Sought, part: int) -> _Library:
+    """A part of all extents, in a scene as it was told."""
+    (defect,) = sought.scene.defects
+    simulator = _simulator(sought)
+    nothing = np.zeros(len(sought.tolerances.spread))
+    begin: Begin | None = None
+    begins, passes = [], []
+    for index in _OF_PARTS[part].tolist():
+        # each begins as its neighbour goes on, and soon goes its own way
+        found, begin = simulator.passes(
+            float(EXTENTS[index]), defect.edge, nothing, CLOSED_ROUGHLY, begin
+        )
+        passes.append(found)
+        begins.append(begin)
+    count = len(passes)
+    return _Library(
+        EXTENTS[_OF_PARTS[part]],
+        (defect.edge,) * count,
+        np.zeros((count, len(nothing))),
+        np.array([each.harmonics for each in passes]),
+        np.array([each.power for each in passes]),
+        tuple(begins),
+    )
+
+
+@lru_cache(maxsize=8 * len(EXTENTS))
+def _varied(sought: _Sought, index: int) -> _Library:
+    """About an extent, DRAWS times with the scene's numbers varied."""
+    (defect,) = sought.scene.defects
     edges = (defect.edge, "published" if defect.edge == "exact" else EDGES[-1])
-    rng = np.random.default_rng(part)
-    spread = tolerances.spread
-    made: list[tuple[float, str, NDArray[np.float64]]] = []
-    for extent in np.arange(LEAST_EXTENT, GREATEST_EXTENT, EXTENT_STEP)[part::PARTS].tolist():
-        made.append((extent, defect.edge, np.zeros(len(spread))))
-        for _ in range(DRAWS):
-            offsets = np.clip(rng.standard_normal(len(spread)), -2.0, 2.0) * (spread > 0.0)
-            near = extent + rng.uniform(-0.5, 0.5) * EXTENT_STEP
-            made.append((max(near, LEAST_EXTENT), edges[rng.integers(2)], offsets))
-    passes = [
-        synthesise(variant(scene, extent, edge, offsets * spread), frequency, count, columns)
-        for extent, edge, offsets in made
-    ]
+    part = next(number for number, one in enumerate(_OF_PARTS) if index <= one[-1])
+    begin = _as_told(sought, part).begins[index - int(_OF_PARTS[part][0])]
+    rng = np.random.default_rng(index)
+    spread = sought.tolerances.spread
+    made, passes = [], []
+    for _ in range(DRAWS):
+        offsets = np.clip(rng.standard_normal(len(spread)), -2.0, 2.0) * (spread > 0.0)
+        extent = float(EXTENTS[index]) + rng.uniform(-0.5, 0.5) * EXTENT_STEP
+        made.append((max(extent, LEAST_EXTENT), edges[rng.integers(2)], offsets))
+        passes.append(
+            _simulator(sought).passes(
+                *made[-1][:2], offsets * spread, CLOSED_ROUGHLY, begin
+            )[0]
+        )
     return _Library(
         np.array([extent for extent, _, _ in made]),
         tuple(edge for _, edge, _ in made),
         np.array([offsets for _, _, offsets in made]),
         np.array([each.harmonics for each in passes]),
         np.array([each.power for each in passes]),
+        (None,) * DRAWS,
+    )
+
+
+def _together(libraries: Sequence[_Library]) -> _Library:
+    return _Library(
+        np.concatenate([one.extents for one in libraries]),
+        tuple(edge for one in libraries for edge in one.edges),
+        np.concatenate([one.offsets for one in libraries]),
+        np.concatenate([one.harmonics for one in libraries]),
+        np.concatenate([one.power for one in libraries]),
+        (),
     )
 
 
 def steps_needed(search: Search) -> int:
-    """Steps of all simulations of a search, about: those of the scene as it is given, for each."""
-    library = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / EXTENT_STEP) * (1 + DRAWS)
+    """Steps of all simulations of a search, about and at most: those of the scene as given."""
+    library = len(EXTENTS) * (1.0 + PROMISING * DRAWS)
     cells = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / search.scene.bearing.ball_spacing)
     tries = 2 + len(search.tolerances.spread)
     refined = tries * (STARTS + FURTHER * FURTHER_ROUNDS + 2 * cells)
     frequency = search.target.measured.frequency
-    return (library + refined) * steps_of(search.scene, frequency, search.count)
+    return (math.ceil(library) + refined) * steps_of(search.scene, frequency, search.count)
 
 
-CHANCE_PARTS = 4
-"""Every so many parts of the library are also held against chance; behind paths half of them."""
+CHANCE_STEP = 2
+"""Every so many of all extents are held against chance behind paths, and all of them without."""
+
+
+@dataclass
+class _Compared:
+    """Simulated signals, and how well they explain the measured one."""
+
+    search: Search
+    scores: list[NDArray[np.float64]] = field(default_factory=list)
+    sources: list[tuple[float, str, NDArray[np.float64], PathModel]] = field(default_factory=list)
+
+    def add(self, library: _Library, score: NDArray[np.float64]) -> None:
+        """Signals with scores behind each path (p, m)."""
+        self.scores.append(score.max(axis=0) - 0.5 * (library.offsets**2).sum(axis=1))
+        paths = [self.search.paths[number] for number in score.argmax(axis=0).tolist()]
+        self.sources += list(
+            zip(library.extents.tolist(), library.edges, library.offsets, paths, strict=True)
+        )
+
+    @property
+    def score(self) -> NDArray[np.float64]:
+        """(m,)"""
+        return np.concatenate(self.scores)
 
 
 def guesses(
@@ -280,60 +378,77 @@ def guesses(
 
     `cells` numbers the cells that extents fall into once the best guess is known: it is asked for
     differences of extents [rad]. `progress` is told the share that is done, and may raise to end.
+    Threads share the work, most of which holds no interpreter lock; nothing depends on which is
+    done first, as everything is taken in its own order.
     """
-    scene, target = search.scene, search.target
-    # a library serves for all signals of nearly the same speed
-    nominal = scene.bearing.bpfo(scene.shaft_speed)
-    frequency = nominal * round(target.measured.frequency / nominal, 3)
-    by_chance = ByChance(target)
-
-    def explained(part: int) -> tuple[_Library, NDArray[np.float64]]:
-        """A part of the library, and how well each path (p, m) makes it explain the signal."""
-        library = _library_part(
-            scene, frequency, search.count, search.columns, search.tolerances, part
-        )
-        exits = exit_phases(scene, library.extents)
-        tried = []
-        for path in search.paths:
-            prepared = Prepared(target, library.harmonics, path, exits)
-            if part % (CHANCE_PARTS if path.direct else 2 * CHANCE_PARTS) == 0:
-                by_chance.look(prepared)
-            tried.append(prepared.match(library.power).score)
-        return library, np.array(tried)
-
+    by_chance = ByChance(search.target)
     threads = ThreadPoolExecutor(processors(), "size")
     try:
-        return _searched(search, explained, cells, progress, threads), by_chance.share
+        compared = _library_compared(search, by_chance, progress, threads)
+        return _refined(search, compared, cells, progress, threads), by_chance.share
     finally:
         threads.shutdown(cancel_futures=True)
 
 
-def _searched(
+def _library_compared(
+    search: Search, by_chance: ByChance, progress: Stop, threads: Executor
+) -> _Compared:
+    """All extents as the scene is told, and the promising half of them with it varied too."""
+    scene, target = search.scene, search.target
+    # a library serves for all signals of nearly the same speed
+    nominal = scene.bearing.bpfo(scene.shaft_speed)
+    frequency = nominal * round(target.measured.frequency / nominal, 3)
+    sought = _Sought(scene, frequency, search.count, search.columns, search.tolerances)
+
+    def explained(library: _Library, against_chance: bool) -> NDArray[np.float64]:
+        """How well each path (p, m) makes a library explain the signal."""
+        exits = exit_phases(scene, library.extents)
+        tried = []
+        for path in search.paths:
+            prepared = Prepared(target, library.harmonics, path, exits)
+            if against_chance:
+                by_chance.look(prepared if path.direct else prepared.some(CHANCE_STEP))
+            tried.append(prepared.match(library.power).score)
+        return np.array(tried)
+
+    def as_told(part: int) -> tuple[_Library, NDArray[np.float64]]:
+        library = _as_told(sought, part)
+        return library, explained(library, True)
+
+    def varied(some: NDArray[np.int_]) -> tuple[_Library, NDArray[np.float64]]:
+        library = _together([_varied(sought, index) for index in some.tolist()])
+        return library, explained(library, False)
+
+    compared = _Compared(search)
+    for part, found in enumerate(threads.map(as_told, range(PARTS))):
+        compared.add(*found)
+        progress(0.3 * (part + 1) / PARTS)
+    # where no neighbour is any good, another stiffness or load does not make it so
+    near = maximum_of_neighbours(compared.score)
+    promising = np.sort(np.argsort(-near, kind="stable")[: round(PROMISING * len(near))])
+    for part, found in enumerate(threads.map(varied, np.array_split(promising, PARTS))):
+        compared.add(*found)
+        progress(0.3 + 0.2 * (part + 1) / PARTS)
+    return compared
+
+
+def maximum_of_neighbours(score: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The greatest of each score (n,) and NEIGHBOURS on either side."""
+    padded = np.pad(score, NEIGHBOURS, constant_values=-math.inf)
+    windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * NEIGHBOURS + 1)
+    return np.asarray(windows.max(axis=1))
+
+
+def _refined(
     search: Search,
-    explained: Callable[[int], tuple[_Library, NDArray[np.float64]]],
+    compared: _Compared,
     cells: Callable[[float], int],
     progress: Stop,
     threads: Executor,
 ) -> list[Guess]:
-    """What `guesses` finds. Threads share the work, most of which holds no interpreter lock.
-
-    Nothing depends on which is done first: everything is taken in its own order.
-    """
-    scores, sources = [], []
-    for part, (library, score) in enumerate(threads.map(explained, range(PARTS))):
-        scores.append(score.max(axis=0) - 0.5 * (library.offsets**2).sum(axis=1))
-        sources += [
-            (extent, edge, offsets, search.paths[number])
-            for extent, edge, offsets, number in zip(
-                library.extents.tolist(),
-                library.edges,
-                library.offsets,
-                score.argmax(axis=0).tolist(),
-                strict=True,
-            )
-        ]
-        progress(0.5 * (part + 1) / PARTS)
-    order = np.argsort(-np.concatenate(scores))
+    """The best guesses made better, and those of each cell."""
+    sources = compared.sources
+    order = np.argsort(-compared.score, kind="stable")
 
     def starts() -> Iterator[int]:
         taken: list[float] = []

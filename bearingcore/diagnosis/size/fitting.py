@@ -67,10 +67,42 @@ STARTS_APART = math.radians(0.8)
 """How many extents are refined, and how far apart they are [rad]."""
 
 FURTHER = 4
-FURTHER_ROUNDS = 3
-"""How many of them are refined further, and how often."""
+FURTHER_ROUNDS = 6
+"""How many of them are refined further, and how often at most."""
+
+HOPPING = (4, 2)
+"""How many of the best are asked in each round whether an extent beside theirs does as well."""
+
+HOPS = np.radians([0.25, 0.5, 0.75, 1.0, 1.5])
+OTHER_EDGE_HOPS = np.radians([0.2, 0.7, 1.3])
+"""How far beside [rad]: where edges excite the resonances a cycle later."""
 
 Stop = Callable[[float], None]
+
+
+SMALL_TURN, SMALL = 0.3 * EXTENT_STEP, 0.3
+"""Changes of the extent [rad] and of a number [standard deviations] by which slopes are found."""
+
+DAMPINGS = (0.02, 0.5, 10.0)
+"""Of a step's curvature, tried in turn until one leads uphill."""
+
+LEAST_GAIN = 0.2
+"""Of a score: less is not worth another step."""
+
+OTHER_EDGE = 2.0
+"""Taken off the score of an edge model that was not told."""
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """How what is left of a pass (1 + k, n, d) and of its spectrum (1 + k, b, d) changes.
+
+    With the extent first, then with each of k numbers; `tried` holds the guesses that told it.
+    """
+
+    waveform: NDArray[np.complex128]
+    spectrum: NDArray[np.float64]
+    tried: tuple[Guess, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -114,6 +146,7 @@ class Guess:
     spectrum_residual: NDArray[np.float64]
     extent_spread: float = math.nan
     extent_scatter: float = math.nan
+    slopes: Slopes | None = None
 
 
 @dataclass(frozen=True)
@@ -149,6 +182,7 @@ class Search:
         for model in self.paths if path is None else (path,):
             match = self.target.match(passes.harmonics[None], passes.power[None], model, exits)
             score = float(match.score[0]) - 0.5 * float(offsets @ offsets)
+            score -= OTHER_EDGE * (edge != self.edges[0])
             if best is not None and score <= best.score:
                 continue
             best = Guess(
@@ -169,6 +203,12 @@ class Search:
         assert best is not None
         return best
 
+    @property
+    def edges(self) -> tuple[str, str]:
+        """The edge model that was told, and the one most unlike it."""
+        (defect,) = self.scene.defects
+        return edges_tried(defect.edge)
+
     @cached_property
     def simulator(self) -> Simulator:
         """Of the scene, at the speed that was measured."""
@@ -178,51 +218,103 @@ class Search:
         """The scene with a guess's defect and numbers."""
         return variant(self.scene, extent, edge, offsets * self.tolerances.spread)
 
-    def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
-        """What least squares make small, so weighted that near `about` it does as the score."""
+    def weights(self, about: Guess) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """By which residuals (n, d), (b, d) count, so that near `about` squares do as the score."""
         directions = len(about.waveform_misfit)
         weighed = (np.abs(about.waveform_residual) ** 2).sum(axis=0)
         waveform = np.sqrt(2.0 * WAVEFORM_WEIGHT / directions / (1.0 + weighed))
-        bands = len(guess.spectrum_residual)
         floored = SPECTRUM_FLOOR + about.spectrum_misfit
-        spectrum = np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
-        left = (guess.waveform_residual * waveform).ravel()
-        return np.concatenate(
-            [left.real, left.imag, (guess.spectrum_residual * spectrum).ravel(), guess.offsets]
-        )
+        bands = len(about.spectrum_residual)
+        return waveform, np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
+
+    def slopes(self, guess: Guess) -> Slopes:
+        """How residuals change with the extent and the scene's numbers."""
+        tried = [
+            self.guess(guess.extent + SMALL_TURN, guess.edge, guess.offsets, guess.path),
+            *(
+                self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess.path)
+                for unit in np.eye(len(guess.offsets))
+            ),
+        ]
+        sizes = np.array([SMALL_TURN] + [SMALL] * len(guess.offsets))[:, None, None]
+        waveform = np.array([other.waveform_residual - guess.waveform_residual for other in tried])
+        spectrum = np.array([other.spectrum_residual - guess.spectrum_residual for other in tried])
+        return Slopes(waveform / sizes, spectrum / sizes, tuple(tried))
+
+    def beside(self, guess: Guess) -> Guess:
+        """The best of extents a little shorter and longer, and of other edges, refined once.
+
+        Steps from a guess do not get there: between lie extents whose edges excite the resonances
+        out of step.
+        """
+        tried = [
+            self.guess(guess.extent + way * hop, edge, guess.offsets, guess.path)
+            for edge in self.edges
+            for hop in (HOPS if edge == guess.edge else OTHER_EDGE_HOPS).tolist()
+            for way in (-1.0, 1.0)
+        ]
+        return self.refined(max(tried, key=lambda other: other.score))
 
     def refined(self, guess: Guess) -> Guess:
-        """One Gauss-Newton step from a guess, or the best of what was tried on the way."""
-        here = self.residuals(guess, guess)
-        steps = [(0.3 * EXTENT_STEP, np.zeros(len(guess.offsets)))]
-        steps += [(0.0, 0.3 * unit) for unit in np.eye(len(guess.offsets))]
-        sizes = np.array([0.3 * EXTENT_STEP] + [0.3] * len(guess.offsets))
-        tried = [
-            self.guess(guess.extent + extent, guess.edge, guess.offsets + offsets, guess.path)
-            for extent, offsets in steps
-        ]
-        slope = np.array([self.residuals(other, guess) - here for other in tried]) / sizes[:, None]
-        curvature = slope @ slope.T + 1e-9 * np.eye(len(sizes))
-        furthest = np.array([3.0 * EXTENT_STEP] + [1.0] * len(guess.offsets))
-        for damping in (0.02, 0.5, 10.0):
+        """One Gauss-Newton step from a guess, or the best of what was tried on the way.
+
+        Slopes are those of the guess that this one came from, as long as they lead uphill.
+        """
+        if guess.slopes is not None:
+            better = self._step(guess, guess.slopes, DAMPINGS[:1])
+            if better.score > guess.score + LEAST_GAIN:
+                return better
+        return self._step(guess, self.slopes(guess), DAMPINGS)
+
+    def _step(self, guess: Guess, slopes: Slopes, dampings: tuple[float, ...]) -> Guess:
+        waveform, spectrum = self.weights(guess)
+        here = _flat(guess.waveform_residual * waveform, guess.spectrum_residual * spectrum)
+        here = np.concatenate([here, guess.offsets])
+        slope = np.array(
+            [
+                _flat(one * waveform, other * spectrum)
+                for one, other in zip(slopes.waveform, slopes.spectrum, strict=True)
+            ]
+        )
+        count = len(guess.offsets)
+        slope = np.hstack([slope, np.eye(1 + count, count, -1)])
+        curvature = slope @ slope.T + 1e-9 * np.eye(1 + count)
+        furthest = np.array([3.0 * EXTENT_STEP] + [1.0] * count)
+        best = guess
+        for damping in dampings:
             damped = curvature + damping * np.diag(np.diag(curvature))
             move = -np.linalg.solve(damped, slope @ here)
             move *= min(1.0, float(np.min(furthest / np.maximum(np.abs(move), 1e-12))))
             there = self.guess(
                 guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess.path
             )
-            tried.append(there)
-            if there.score > guess.score:
+            if there.score > best.score:
+                best = there
                 break
-        best = max([guess, *tried], key=lambda other: other.score)
+        best = max([best, *slopes.tried], key=lambda other: other.score)
         inverse = np.linalg.inv(curvature)
         spread = math.sqrt(float(inverse[0, 0]))
         # what is left says how far off the residuals are (a sandwich of curvatures)
         left = here.copy()
-        left[-len(guess.offsets) :] = 1.0
+        left[-count:] = 1.0
         lever = inverse[0] @ slope
         scatter = math.sqrt(float(((lever * left) ** 2).sum()))
-        return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter)
+        kept = dataclasses.replace(slopes, tried=())
+        return dataclasses.replace(
+            best, extent_spread=spread, extent_scatter=scatter, slopes=kept
+        )
+
+
+def _flat(
+    waveform: NDArray[np.complex128], spectrum: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    left = waveform.ravel()
+    return np.concatenate([left.real, left.imag, spectrum.ravel()])
+
+
+def edges_tried(told: str) -> tuple[str, str]:
+    """An edge model, and the one most unlike it."""
+    return told, "published" if told == "exact" else EDGES[-1]
 
 
 def exit_phases(scene: Scene, extents: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -297,7 +389,7 @@ def _as_told(sought: _Sought, part: int) -> _Library:
 def _varied(sought: _Sought, index: int) -> _Library:
     """About an extent, DRAWS times with the scene's numbers varied."""
     (defect,) = sought.scene.defects
-    edges = (defect.edge, "published" if defect.edge == "exact" else EDGES[-1])
+    edges = edges_tried(defect.edge)
     part = next(number for number, one in enumerate(_OF_PARTS) if index <= one[-1])
     begin = _as_told(sought, part).begins[index - int(_OF_PARTS[part][0])]
     rng = np.random.default_rng(index)
@@ -357,7 +449,10 @@ class _Compared:
 
     def add(self, library: _Library, score: NDArray[np.float64]) -> None:
         """Signals with scores behind each path (p, m)."""
-        self.scores.append(score.max(axis=0) - 0.5 * (library.offsets**2).sum(axis=1))
+        told, _ = self.search.edges
+        other = np.array([edge != told for edge in library.edges])
+        cost = 0.5 * (library.offsets**2).sum(axis=1) + OTHER_EDGE * other
+        self.scores.append(score.max(axis=0) - cost)
         paths = [self.search.paths[number] for number in score.argmax(axis=0).tolist()]
         self.sources += list(
             zip(library.extents.tolist(), library.edges, library.offsets, paths, strict=True)
@@ -469,8 +564,15 @@ def _refined(
         progress(0.5 + 0.25 * (done + 1) / STARTS)
     for done in range(FURTHER_ROUNDS):
         found.sort(key=lambda guess: -guess.score)
+        if done < len(HOPPING):
+            found += threads.map(search.beside, found[: HOPPING[done]])
+            found.sort(key=lambda guess: -guess.score)
+        before = [guess.score for guess in found[:FURTHER]]
         found[:FURTHER] = threads.map(search.refined, found[:FURTHER])
         progress(0.75 + 0.15 * (done + 1) / FURTHER_ROUNDS)
+        gained = [one.score - old for one, old in zip(found, before, strict=False)]
+        if done >= len(HOPPING) and max(gained) < LEAST_GAIN:
+            break
     best = max(found, key=lambda guess: guess.score)
     # a cell without a guess would lose for want of refinement, not of likeness
     reached = {cells(guess.extent - best.extent) for guess in found}

@@ -44,8 +44,9 @@ filter, a neighbour's leakage or the last of a transient speaks."""
 PHASES = 2048
 """Places in time at which a simulated pass is laid over the measured one, before refinement."""
 
-PEAKS = 4
-"""Places at which it is laid over the measured one behind a path, which may delay it."""
+PEAKS, FEWER_PEAKS = 4, 2
+"""Places at which it is laid over the measured one behind a path, which may delay it; and over one
+drawn to see what chance does."""
 
 FINER = ((0.05, 2), (0.02, 2), (0.008, 2))
 """Steps [rad] in which such a place is looked for further, and how many to either side."""
@@ -199,7 +200,7 @@ class Prepared:
         """How much speaks against the cause of a pass (n, d), mean over directions: (m,)."""
         measured = harmonics * self.scale
         if not self.model.direct:
-            return self._laid(measured, FINER[:1])[1]
+            return self._laid(measured, FINER[:1], FEWER_PEAKS)[1]
         lag, gain, agree, energy = self._direct(measured)
         own = (self.target.weight * np.abs(measured) ** 2).sum(axis=0)
         gain = gain[:, None]
@@ -272,13 +273,16 @@ class Prepared:
         return np.asarray((self.target.weight * np.abs(self.relative) ** 2).sum(axis=1))
 
     def _laid(
-        self, measured: NDArray[np.complex128], steps: Sequence[tuple[float, int]] = FINER
+        self,
+        measured: NDArray[np.complex128],
+        steps: Sequence[tuple[float, int]] = FINER,
+        peaks: int = PEAKS,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The lag (m,) that fits best behind a path, and the cost there."""
         cross = self.relative.conj() * measured
         size = np.abs(cross)
         likeness = [cross.sum(axis=2), (cross / np.maximum(np.sqrt(size), 1e-150)).sum(axis=2)]
-        lags = np.concatenate([self._peaks(one, PEAKS) for one in likeness], axis=1)
+        lags = np.concatenate([self._peaks(one, peaks) for one in likeness], axis=1)
         row = np.arange(len(lags))
         lag = lags[:, 0]
         cost = np.full(len(lags), math.inf)

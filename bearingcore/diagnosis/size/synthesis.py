@@ -139,6 +139,7 @@ class Simulator:
         self._system = moving_system(scene, scene.active_dofs)
         self._load = packing.static_load(scene, scene.active_dofs)
         self._n, settle, averaged = _steps(scene, frequency, count, steps_a_cycle)
+        self._rows: dict[tuple[str, float], Array] = {}
         self._averaged = averaged
         self._most = settle + averaged
         self._first = min(max(2, math.ceil(SETTLED_FIRST * frequency)), self._most)
@@ -157,7 +158,7 @@ class Simulator:
         share of their root mean square; where it never does the mean of many passes is taken.
         Coefficients are NaN where the motion diverged or had no static state to start from.
         """
-        system = system_variant(self._system, self.scene, extent, edge, exponents)
+        system = system_variant(self._system, self._row(extent, edge, exponents[4]), exponents)
         resting = self._resting(system, self._load.force * math.exp(exponents[2]))
         if resting is None:
             return self._nothing(), None
@@ -187,6 +188,19 @@ class Simulator:
             self.frequency, len(each), each.mean(axis=0), power, np.zeros(len(self._columns))
         )
         return found, Begin(history[-1, [0, 1, 3, 4]], resting)
+
+    def _row(self, extent: float, edge: str, deeper: float) -> Array:
+        """How a ball follows a defect's edges; only the first of an edge and depth takes time."""
+        key = edge, float(deeper)
+        row = self._rows.get(key)
+        if row is None:
+            (defect,) = self.scene.defects
+            depth = min(defect.depth * math.exp(deeper), self.scene.bearing.ball_radius)
+            changed = dataclasses.replace(defect, edge=edge, depth=depth)
+            row = self._rows[key] = changed.edge_row(self.scene.bearing)
+        row = row.copy()
+        row[kernels.PATH_COLUMNS.index("half_extent")] = 0.5 * extent
+        return row
 
     def _resting(self, system: kernels.System, force: Array) -> Array | None:
         """The static state (4, nd) at cage angle 0, or None."""

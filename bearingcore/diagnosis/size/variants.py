@@ -124,20 +124,14 @@ def variant(scene: Scene, extent: float, edge: str, exponents: NDArray[np.float6
 
 
 def system_variant(
-    system: kernels.System,
-    scene: Scene,
-    extent: float,
-    edge: str,
-    exponents: NDArray[np.float64],
+    system: kernels.System, row: NDArray[np.float64], exponents: NDArray[np.float64]
 ) -> kernels.System:
     """What kernels need of a `variant`, of what they need of its scene: a tenth of the time.
 
-    A static load goes with the same factor as the rotor's force, exp(exponents[2]).
+    `row` describes the defect, see `kernels.PATH_COLUMNS`. A static load goes with the same factor
+    as the rotor's force, exp(exponents[2]).
     """
-    stiffness, factor, load, damping, depth = (math.exp(x) for x in exponents.tolist())
-    (defect,) = scene.defects
-    deep = min(defect.depth * depth, scene.bearing.ball_radius)
-    changed = dataclasses.replace(defect, extent=extent, edge=edge, depth=deep)
+    stiffness, factor, load, damping, _ = (math.exp(x) for x in exponents.tolist())
     rotor, contacts = system.rotor, system.contacts
     return kernels.System(
         rotor._replace(
@@ -147,5 +141,5 @@ def system_variant(
             contact_damping=rotor.contact_damping * damping,
         ),
         contacts._replace(factor=contacts.factor * factor),
-        kernels.Path(changed.edge_row(scene.bearing)[None], system.path.tables),
+        kernels.Path(row[None], system.path.tables),
     )

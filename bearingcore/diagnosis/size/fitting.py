@@ -144,6 +144,7 @@ class Guess:
     path: PathModel
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
+    begin: Begin | None
     extent_spread: float = math.nan
     extent_scatter: float = math.nan
     slopes: Slopes | None = None
@@ -170,17 +171,29 @@ class Search:
         extent: float,
         edge: str,
         offsets: NDArray[np.float64],
+        like: Guess | None = None,
         path: PathModel | None = None,
     ) -> Guess:
-        """Simulate a defect and compare it with the signal, behind a path or the best of all."""
+        """Simulate a defect and compare it with the signal, behind a path or the best of all.
+
+        Like a guess nearby, where one is told: behind its path, and its motion goes on.
+        """
         extent = min(max(extent, LEAST_EXTENT), GREATEST_EXTENT)
         offsets = np.where(self.tolerances.spread > 0.0, np.clip(offsets, -MOST_OFF, MOST_OFF), 0.0)
         exponents = offsets * self.tolerances.spread
-        passes, _ = self.simulator.passes(extent, edge, exponents, CLOSED)
+        begin = None if like is None else like.begin
+        passes, begin = self.simulator.passes(extent, edge, exponents, CLOSED, begin)
+        path = path if like is None else like.path
         exits = exit_phases(self.scene, np.array([extent]))
         best: Guess | None = None
         for model in self.paths if path is None else (path,):
-            match = self.target.match(passes.harmonics[None], passes.power[None], model, exits)
+            match = self.target.match(
+                passes.harmonics[None],
+                passes.power[None],
+                model,
+                exits,
+                None if like is None or like.edge != edge else like.lag,
+            )
             score = float(match.score[0]) - 0.5 * float(offsets @ offsets)
             score -= OTHER_EDGE * (edge != self.edges[0])
             if best is not None and score <= best.score:
@@ -199,6 +212,7 @@ class Search:
                 model,
                 match.waveform_residual[0],
                 match.spectrum_residual[0],
+                begin,
             )
         assert best is not None
         return best
@@ -230,9 +244,9 @@ class Search:
     def slopes(self, guess: Guess) -> Slopes:
         """How residuals change with the extent and the scene's numbers."""
         tried = [
-            self.guess(guess.extent + SMALL_TURN, guess.edge, guess.offsets, guess.path),
+            self.guess(guess.extent + SMALL_TURN, guess.edge, guess.offsets, guess),
             *(
-                self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess.path)
+                self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess)
                 for unit in np.eye(len(guess.offsets))
             ),
         ]
@@ -248,7 +262,7 @@ class Search:
         out of step.
         """
         tried = [
-            self.guess(guess.extent + way * hop, edge, guess.offsets, guess.path)
+            self.guess(guess.extent + way * hop, edge, guess.offsets, guess)
             for edge in self.edges
             for hop in (HOPS if edge == guess.edge else OTHER_EDGE_HOPS).tolist()
             for way in (-1.0, 1.0)
@@ -286,7 +300,7 @@ class Search:
             move = -np.linalg.solve(damped, slope @ here)
             move *= min(1.0, float(np.min(furthest / np.maximum(np.abs(move), 1e-12))))
             there = self.guess(
-                guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess.path
+                guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess
             )
             if there.score > best.score:
                 best = there
@@ -300,14 +314,10 @@ class Search:
         lever = inverse[0] @ slope
         scatter = math.sqrt(float(((lever * left) ** 2).sum()))
         kept = dataclasses.replace(slopes, tried=())
-        return dataclasses.replace(
-            best, extent_spread=spread, extent_scatter=scatter, slopes=kept
-        )
+        return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter, slopes=kept)
 
 
-def _flat(
-    waveform: NDArray[np.complex128], spectrum: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _flat(waveform: NDArray[np.complex128], spectrum: NDArray[np.float64]) -> NDArray[np.float64]:
     left = waveform.ravel()
     return np.concatenate([left.real, left.imag, spectrum.ravel()])
 
@@ -400,9 +410,7 @@ def _varied(sought: _Sought, index: int) -> _Library:
         extent = float(EXTENTS[index]) + rng.uniform(-0.5, 0.5) * EXTENT_STEP
         made.append((max(extent, LEAST_EXTENT), edges[rng.integers(2)], offsets))
         passes.append(
-            _simulator(sought).passes(
-                *made[-1][:2], offsets * spread, CLOSED_ROUGHLY, begin
-            )[0]
+            _simulator(sought).passes(*made[-1][:2], offsets * spread, CLOSED_ROUGHLY, begin)[0]
         )
     return _Library(
         np.array([extent for extent, _, _ in made]),
@@ -556,7 +564,8 @@ def _refined(
                     return
 
     def begun(index: int) -> Guess:
-        return search.refined(search.guess(*sources[index]))
+        extent, edge, offsets, path = sources[index]
+        return search.refined(search.guess(extent, edge, offsets, path=path))
 
     found: list[Guess] = []
     for done, guess in enumerate(threads.map(begun, starts())):

@@ -141,12 +141,14 @@ class Target:
         power: NDArray[np.float64],
         model: PathModel = DIRECT,
         exits: NDArray[np.float64] | None = None,
+        near: float | None = None,
     ) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d).
 
-        Behind a path balls leave at the phases `exits` (m,) [rad] of the simulated passes.
+        Behind a path balls leave at the phases `exits` (m,) [rad] of the simulated passes, and the
+        lag is looked for `near` one, where one is told.
         """
-        return Prepared(self, harmonics, model, exits).match(power)
+        return Prepared(self, harmonics, model, exits).match(power, near)
 
 
 class Prepared:
@@ -201,13 +203,13 @@ class Prepared:
         measured = harmonics * self.scale
         if not self.model.direct:
             return self._laid(measured, FINER[:1], FEWER_PEAKS)[1]
-        lag, gain, agree, energy = self._direct(measured)
+        _, gain, agree, energy = self._direct(measured)
         own = (self.target.weight * np.abs(measured) ** 2).sum(axis=0)
         gain = gain[:, None]
         left = own - gain * (2.0 * agree - gain * energy)
         return np.asarray(np.log1p(np.maximum(left, 0.0)).mean(axis=1))
 
-    def match(self, power: NDArray[np.float64]) -> Match:
+    def match(self, power: NDArray[np.float64], near: float | None = None) -> Match:
         """Compare with the measured pass and spectrum."""
         target = self.target
         measured = target.harmonics * self.scale
@@ -220,7 +222,7 @@ class Prepared:
             misfit = (np.abs(residual) ** 2).sum(axis=1)
             transfer = np.zeros(residual.shape)
         else:
-            lag, _ = self._laid(measured)
+            lag, _ = self._laid(measured, near=near)
             left = self._left(measured, lag[:, None])[:, 0]
             columns = range(left.shape[2])
             parts = [(self.explained[k], left[:, :, k]) for k in columns]
@@ -249,9 +251,7 @@ class Prepared:
             self.model.cost,
         )
 
-    def _direct(
-        self, measured: NDArray[np.complex128]
-    ) -> tuple[NDArray[np.float64], ...]:
+    def _direct(self, measured: NDArray[np.complex128]) -> tuple[NDArray[np.float64], ...]:
         """Lag and gain (m,) that fit best, and by direction (m, d) what agrees, and energies.
 
         Harmonics count by their noise.
@@ -277,12 +277,16 @@ class Prepared:
         measured: NDArray[np.complex128],
         steps: Sequence[tuple[float, int]] = FINER,
         peaks: int = PEAKS,
+        near: float | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The lag (m,) that fits best behind a path, and the cost there."""
-        cross = self.relative.conj() * measured
-        size = np.abs(cross)
-        likeness = [cross.sum(axis=2), (cross / np.maximum(np.sqrt(size), 1e-150)).sum(axis=2)]
-        lags = np.concatenate([self._peaks(one, peaks) for one in likeness], axis=1)
+        if near is None:
+            cross = self.relative.conj() * measured
+            size = np.abs(cross)
+            likeness = [cross.sum(axis=2), (cross / np.maximum(np.sqrt(size), 1e-150)).sum(axis=2)]
+            lags = np.concatenate([self._peaks(one, peaks) for one in likeness], axis=1)
+        else:
+            lags = np.full((len(self.relative), 1), near)
         row = np.arange(len(lags))
         lag = lags[:, 0]
         cost = np.full(len(lags), math.inf)

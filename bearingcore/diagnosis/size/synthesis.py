@@ -27,7 +27,7 @@ AVERAGED = 0.12
 
 FEWEST_SIMULATED = 4
 
-SETTLED_FIRST = 0.04
+SETTLED_FIRST = 0.03
 """[s] of motion after which it is asked for the first time whether one pass is like the next."""
 
 STEPS_A_CYCLE = 10.0
@@ -166,7 +166,7 @@ class Simulator:
         y = state.ravel().copy()
         kernels.turn_smooth(y, 1.0, 0.0, system)
         n, step = self._n, 1.0 / (self._n * self.frequency)
-        parts: list[Array] = []
+        parts: list[NDArray[np.complex128]] = []
         done, ahead = 0, self._first
         while True:
             history = np.empty((ahead * n + 1, 6, len(system.rotor.active)))

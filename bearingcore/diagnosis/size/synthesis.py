@@ -30,7 +30,7 @@ FEWEST_SIMULATED = 4
 SETTLED_FIRST = 0.03
 """[s] of motion after which it is asked for the first time whether one pass is like the next."""
 
-STEPS_A_CYCLE = 10.0
+STEPS_A_CYCLE = 9.0
 """Steps in a cycle of the highest natural frequency: an error near 0.2 dB, far below what a wrong
 model does."""
 

@@ -66,9 +66,8 @@ STARTS = 10
 STARTS_APART = math.radians(0.8)
 """How many extents are refined, and how far apart they are [rad]."""
 
-FURTHER = 4
-FURTHER_ROUNDS = 6
-"""How many of them are refined further, and how often at most."""
+FURTHER = (4, 4, 2, 2, 2)
+"""How many of them are refined further in each round; the last only while they gain by it."""
 
 HOPPING = (4, 2)
 """How many of the best are asked in each round whether an extent beside theirs does as well."""
@@ -91,18 +90,6 @@ LEAST_GAIN = 0.2
 
 OTHER_EDGE = 2.0
 """Taken off the score of an edge model that was not told."""
-
-
-@dataclass(frozen=True)
-class Slopes:
-    """How what is left of a pass (1 + k, n, d) and of its spectrum (1 + k, b, d) changes.
-
-    With the extent first, then with each of k numbers; `tried` holds the guesses that told it.
-    """
-
-    waveform: NDArray[np.complex128]
-    spectrum: NDArray[np.float64]
-    tried: tuple[Guess, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -147,7 +134,6 @@ class Guess:
     begin: Begin | None
     extent_spread: float = math.nan
     extent_scatter: float = math.nan
-    slopes: Slopes | None = None
 
 
 @dataclass(frozen=True)
@@ -232,28 +218,18 @@ class Search:
         """The scene with a guess's defect and numbers."""
         return variant(self.scene, extent, edge, offsets * self.tolerances.spread)
 
-    def weights(self, about: Guess) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """By which residuals (n, d), (b, d) count, so that near `about` squares do as the score."""
+    def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
+        """What least squares make small, so weighted that near `about` it does as the score."""
         directions = len(about.waveform_misfit)
         weighed = (np.abs(about.waveform_residual) ** 2).sum(axis=0)
         waveform = np.sqrt(2.0 * WAVEFORM_WEIGHT / directions / (1.0 + weighed))
+        bands = len(guess.spectrum_residual)
         floored = SPECTRUM_FLOOR + about.spectrum_misfit
-        bands = len(about.spectrum_residual)
-        return waveform, np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
-
-    def slopes(self, guess: Guess) -> Slopes:
-        """How residuals change with the extent and the scene's numbers."""
-        tried = [
-            self.guess(guess.extent + SMALL_TURN, guess.edge, guess.offsets, guess),
-            *(
-                self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess)
-                for unit in np.eye(len(guess.offsets))
-            ),
-        ]
-        sizes = np.array([SMALL_TURN] + [SMALL] * len(guess.offsets))[:, None, None]
-        waveform = np.array([other.waveform_residual - guess.waveform_residual for other in tried])
-        spectrum = np.array([other.spectrum_residual - guess.spectrum_residual for other in tried])
-        return Slopes(waveform / sizes, spectrum / sizes, tuple(tried))
+        spectrum = np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
+        left = (guess.waveform_residual * waveform).ravel()
+        return np.concatenate(
+            [left.real, left.imag, (guess.spectrum_residual * spectrum).ravel(), guess.offsets]
+        )
 
     def beside(self, guess: Guess) -> Guess:
         """The best of extents a little shorter and longer, and of other edges, refined once.
@@ -270,42 +246,30 @@ class Search:
         return self.refined(max(tried, key=lambda other: other.score))
 
     def refined(self, guess: Guess) -> Guess:
-        """One Gauss-Newton step from a guess, or the best of what was tried on the way.
-
-        Slopes are those of the guess that this one came from, as long as they lead uphill.
-        """
-        if guess.slopes is not None:
-            better = self._step(guess, guess.slopes, DAMPINGS[:1])
-            if better.score > guess.score + LEAST_GAIN:
-                return better
-        return self._step(guess, self.slopes(guess), DAMPINGS)
-
-    def _step(self, guess: Guess, slopes: Slopes, dampings: tuple[float, ...]) -> Guess:
-        waveform, spectrum = self.weights(guess)
-        here = _flat(guess.waveform_residual * waveform, guess.spectrum_residual * spectrum)
-        here = np.concatenate([here, guess.offsets])
-        slope = np.array(
-            [
-                _flat(one * waveform, other * spectrum)
-                for one, other in zip(slopes.waveform, slopes.spectrum, strict=True)
-            ]
-        )
+        """One Gauss-Newton step from a guess, or the best of what was tried on the way."""
         count = len(guess.offsets)
-        slope = np.hstack([slope, np.eye(1 + count, count, -1)])
+        tried = [
+            self.guess(guess.extent + SMALL_TURN, guess.edge, guess.offsets, guess),
+            *(
+                self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess)
+                for unit in np.eye(count)
+            ),
+        ]
+        sizes = np.array([SMALL_TURN] + [SMALL] * count)[:, None]
+        here = self.residuals(guess, guess)
+        slope = np.array([self.residuals(other, guess) - here for other in tried]) / sizes
         curvature = slope @ slope.T + 1e-9 * np.eye(1 + count)
         furthest = np.array([3.0 * EXTENT_STEP] + [1.0] * count)
         best = guess
-        for damping in dampings:
+        for damping in DAMPINGS:
             damped = curvature + damping * np.diag(np.diag(curvature))
             move = -np.linalg.solve(damped, slope @ here)
             move *= min(1.0, float(np.min(furthest / np.maximum(np.abs(move), 1e-12))))
-            there = self.guess(
-                guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess
-            )
+            there = self.guess(guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess)
             if there.score > best.score:
                 best = there
                 break
-        best = max([best, *slopes.tried], key=lambda other: other.score)
+        best = max([best, *tried], key=lambda other: other.score)
         inverse = np.linalg.inv(curvature)
         spread = math.sqrt(float(inverse[0, 0]))
         # what is left says how far off the residuals are (a sandwich of curvatures)
@@ -313,13 +277,7 @@ class Search:
         left[-count:] = 1.0
         lever = inverse[0] @ slope
         scatter = math.sqrt(float(((lever * left) ** 2).sum()))
-        kept = dataclasses.replace(slopes, tried=())
-        return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter, slopes=kept)
-
-
-def _flat(waveform: NDArray[np.complex128], spectrum: NDArray[np.float64]) -> NDArray[np.float64]:
-    left = waveform.ravel()
-    return np.concatenate([left.real, left.imag, spectrum.ravel()])
+        return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter)
 
 
 def edges_tried(told: str) -> tuple[str, str]:
@@ -438,7 +396,7 @@ def steps_needed(search: Search) -> int:
     library = len(EXTENTS) * (1.0 + PROMISING * DRAWS)
     cells = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / search.scene.bearing.ball_spacing)
     tries = 2 + len(search.tolerances.spread)
-    refined = tries * (STARTS + FURTHER * FURTHER_ROUNDS + 2 * cells)
+    refined = tries * (STARTS + sum(FURTHER) + 3 * sum(HOPPING) + 2 * cells)
     frequency = search.target.measured.frequency
     return (math.ceil(library) + refined) * steps_of(search.scene, frequency, search.count)
 
@@ -571,14 +529,14 @@ def _refined(
     for done, guess in enumerate(threads.map(begun, starts())):
         found.append(guess)
         progress(0.5 + 0.25 * (done + 1) / STARTS)
-    for done in range(FURTHER_ROUNDS):
+    for done, count in enumerate(FURTHER):
         found.sort(key=lambda guess: -guess.score)
         if done < len(HOPPING):
             found += threads.map(search.beside, found[: HOPPING[done]])
             found.sort(key=lambda guess: -guess.score)
-        before = [guess.score for guess in found[:FURTHER]]
-        found[:FURTHER] = threads.map(search.refined, found[:FURTHER])
-        progress(0.75 + 0.15 * (done + 1) / FURTHER_ROUNDS)
+        before = [guess.score for guess in found[:count]]
+        found[:count] = threads.map(search.refined, found[:count])
+        progress(0.75 + 0.15 * (done + 1) / len(FURTHER))
         gained = [one.score - old for one, old in zip(found, before, strict=False)]
         if done >= len(HOPPING) and max(gained) < LEAST_GAIN:
             break

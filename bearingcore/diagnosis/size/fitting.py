@@ -55,7 +55,7 @@ ROUGH_STEPS_A_CYCLE = 7.0
 """Steps in a cycle of the highest natural frequency in the library: they move a few thousandths of
 a pass's power, and what it is compared with is never nearer than a twentieth."""
 
-CLOSED_ROUGHLY, CLOSED = 0.05, 0.01
+CLOSED_ROUGHLY, CLOSED = 0.05, 0.005
 """Differences between passes, as a share of them, from which a motion has settled: in the library,
 and of what is refined."""
 
@@ -66,7 +66,7 @@ STARTS = 10
 STARTS_APART = math.radians(0.8)
 """How many extents are refined, and how far apart they are [rad]."""
 
-FURTHER = (4, 4, 2, 2, 2)
+FURTHER = (4, 4, 2, 2, 2, 2)
 """How many of them are refined further in each round; the last only while they gain by it."""
 
 HOPPING = (4, 2)

@@ -295,7 +295,7 @@ def test_refining_finds_a_scene_whose_numbers_are_off():
     search = Search(RIG, Target(passes, band), (0, 1), Tolerances())
     guess = search.guess(math.radians(20.25), "published", np.zeros(5))
     first = guess.score
-    for _ in range(6):
+    for _ in range(9):
         guess = search.refined(guess)
     assert guess.score > first + 10.0
     assert math.degrees(guess.extent) == pytest.approx(20.0, abs=0.1)

@@ -32,12 +32,15 @@ from bearingcore.model.defect import EDGES
 from bearingcore.model.scene import Scene
 from bearingcore.signals.averaging import BallPasses
 
-LEAST_EXTENT = math.radians(1.0)
+LEAST_EXTENT = math.radians(0.2)
 GREATEST_EXTENT = math.radians(110.0)
 """Extents [rad] that are looked for."""
 
 EXTENT_STEP = math.radians(0.5)
 """[rad] between simulated extents."""
+
+PITS = np.radians([0.2, 0.28, 0.4, 0.55, 0.75])
+"""[rad] Shorter ones than two steps, which are simulated too."""
 
 DRAWS = 2
 """Simulations of each extent with its scene's numbers varied, beside the one as given."""
@@ -73,7 +76,7 @@ HOPPING = (4, 2)
 """How many of the best are asked in each round whether an extent beside theirs does as well."""
 
 HOPS = np.radians([0.25, 0.5, 0.75, 1.0, 1.5])
-OTHER_EDGE_HOPS = np.radians([0.2, 0.7, 1.3])
+OTHER_EDGE_HOPS = np.radians([0.2, 0.45, 0.7, 1.0, 1.3])
 """How far beside [rad]: where edges excite the resonances a cycle later."""
 
 Stop = Callable[[float], None]
@@ -88,7 +91,7 @@ DAMPINGS = (0.02, 0.5, 10.0)
 LEAST_GAIN = 0.2
 """Of a score: less is not worth another step."""
 
-OTHER_EDGE = 2.0
+OTHER_EDGE = 1.0
 """Taken off the score of an edge model that was not told."""
 
 
@@ -248,18 +251,19 @@ class Search:
     def refined(self, guess: Guess) -> Guess:
         """One Gauss-Newton step from a guess, or the best of what was tried on the way."""
         count = len(guess.offsets)
+        turned = min(SMALL_TURN, 0.2 * guess.extent)
         tried = [
-            self.guess(guess.extent + SMALL_TURN, guess.edge, guess.offsets, guess),
+            self.guess(guess.extent + turned, guess.edge, guess.offsets, guess),
             *(
                 self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess)
                 for unit in np.eye(count)
             ),
         ]
-        sizes = np.array([SMALL_TURN] + [SMALL] * count)[:, None]
+        sizes = np.array([turned] + [SMALL] * count)[:, None]
         here = self.residuals(guess, guess)
         slope = np.array([self.residuals(other, guess) - here for other in tried]) / sizes
         curvature = slope @ slope.T + 1e-9 * np.eye(1 + count)
-        furthest = np.array([3.0 * EXTENT_STEP] + [1.0] * count)
+        furthest = np.array([min(3.0 * EXTENT_STEP, guess.extent)] + [1.0] * count)
         best = guess
         for damping in DAMPINGS:
             damped = curvature + damping * np.diag(np.diag(curvature))
@@ -314,7 +318,7 @@ class _Sought:
     tolerances: Tolerances
 
 
-EXTENTS = np.arange(LEAST_EXTENT, GREATEST_EXTENT, EXTENT_STEP)
+EXTENTS = np.concatenate([PITS, np.arange(2.0 * EXTENT_STEP, GREATEST_EXTENT, EXTENT_STEP)])
 """[rad] that are simulated."""
 
 _OF_PARTS = np.array_split(np.arange(len(EXTENTS)), PARTS)
@@ -365,8 +369,9 @@ def _varied(sought: _Sought, index: int) -> _Library:
     made, passes = [], []
     for _ in range(DRAWS):
         offsets = np.clip(rng.standard_normal(len(spread)), -2.0, 2.0) * (spread > 0.0)
-        extent = float(EXTENTS[index]) + rng.uniform(-0.5, 0.5) * EXTENT_STEP
-        made.append((max(extent, LEAST_EXTENT), edges[rng.integers(2)], offsets))
+        extent = float(EXTENTS[index])
+        extent += rng.uniform(-0.5, 0.5) * min(EXTENT_STEP, extent)
+        made.append((extent, edges[rng.integers(2)], offsets))
         passes.append(
             _simulator(sought).passes(*made[-1][:2], offsets * spread, CLOSED_ROUGHLY, begin)[0]
         )

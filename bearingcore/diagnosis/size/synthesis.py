@@ -34,6 +34,9 @@ STEPS_A_CYCLE = 9.0
 """Steps in a cycle of the highest natural frequency: an error near 0.2 dB, far below what a wrong
 model does."""
 
+STEPS_A_PIT = 10.0
+"""Least number of steps while a ball passes a defect; each sees the defect four times."""
+
 STIFFER = 1.1
 """By how much the highest natural frequency may rise while a scene's numbers are varied."""
 
@@ -165,7 +168,9 @@ class Simulator:
         state = resting if begin is None else begin.moving + (resting - begin.resting)
         y = state.ravel().copy()
         kernels.turn_smooth(y, 1.0, 0.0, system)
-        n, step = self._n, 1.0 / (self._n * self.frequency)
+        # a pit that a few steps lead over would not be what it is
+        n = self._n * math.ceil(STEPS_A_PIT * self.scene.bearing.ball_spacing / extent / self._n)
+        step = 1.0 / (n * self.frequency)
         parts: list[NDArray[np.complex128]] = []
         done, ahead = 0, self._first
         while True:

@@ -101,7 +101,7 @@ def test_an_extent_at_an_end_of_the_search_is_a_bound(paper):
     sized = paper[12.9]
     others = [c for c in sized.candidates if c is not sized.best]
     for extent, bound, words in (
-        (LEAST_EXTENT, "at most", "at most: shorter ones than 1°"),
+        (LEAST_EXTENT, "at most", "at most: shorter ones are not"),
         (GREATEST_EXTENT, "at least", "at least"),
     ):
         edge = dataclasses.replace(sized.best, extent=extent)

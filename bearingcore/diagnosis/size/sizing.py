@@ -69,8 +69,10 @@ WITHIN_TEMPERATURE = 1.0
 """The same for extents nearly as good that are less than half a ball spacing away: it makes the
 stated standard deviation that of the errors (`python -m tests.benchmarks.path_effects`)."""
 
-ERR_TOGETHER = 7.0
-"""Harmonics side by side that a path or a wrong number makes err alike: so many fewer count."""
+SLACK = 0.25
+"""Of the variance that the extent has where what is left is all that models err by: it counts with
+what is left by its lever on the extent. Both, and `WITHIN_TEMPERATURE`, were chosen on scenes other
+than those that are scored."""
 
 SPREAD_FLOOR = math.radians(0.02)
 """[rad] No extent is better known than what is simulated of it."""
@@ -547,7 +549,7 @@ def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
         weights = np.exp(behind / temperature)
         return float((weights * away**2).sum() / weights.sum())
 
-    own = ERR_TOGETHER * best.extent_scatter**2
+    own = best.extent_scatter**2 + SLACK * best.extent_spread**2
     spread = math.sqrt(own + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
     unknown = (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0)
     return min(spread, unknown), math.sqrt(between(TEMPERATURE))

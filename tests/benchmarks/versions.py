@@ -113,7 +113,7 @@ def tried(version: str, program: str, which: str, tests: list[str], home: Path, 
     environment["NUMBA_CACHE_DIR"] = str(home / "compiled")
     versions: tuple[str, ...] = ("–",) * len(LIBRARIES)
     words, code = "", 0
-    install = [python, "-m", "pip", "install", "-q", "-c", str(constraints)]
+    install = [python, "-m", "pip", "install", "-q", "--no-compile", "-c", str(constraints)]
     steps = [
         [*install, "-e", ".[test]"],
         [*install, "-U", *LIBRARIES],

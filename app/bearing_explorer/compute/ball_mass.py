@@ -44,7 +44,7 @@ HARD, MOST_STRIKES = 0.4, 2
 """Load of a strike over that of the hardest on its race from which on it is shown, and how many of
 a race at most. Elastic loads: the dashpot of a contact adds most of what the housing feels."""
 
-ENOUGH_PASSES = (3.0, 1.0)
+ENOUGH_PASSES = (3.0, 1.0, 0.6)
 """Ball passes out of which the stretch is taken; fewer where the motion is too short for more."""
 
 

@@ -104,6 +104,13 @@ SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
 
+GLANCE, PASSES_OF_GLANCE, DROP_OF_GLANCE = 0.05, 2.36, 0.3
+"""[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
+of it that counts as its start and is not shown. What is shown is as long as one stretch of a
+spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
+ends within six tenths of the next."""
+
+
 class Moved(NamedTuple):
     """A motion, and since when [s] it counts as settled."""
 
@@ -137,7 +144,8 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     motion = core.simulate(
         scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
     )
-    return Moved(motion, 0.5 * duration)
+    glance = how.coarse and duration < SHORTEST
+    return Moved(motion, (DROP_OF_GLANCE if glance else 0.5) * duration)
 
 
 def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
@@ -243,7 +251,11 @@ def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> fl
         return how.duration  # there is no motion
     if rate == 0.0:
         return how.duration
-    return min(how.duration, max(most / (rate * _step_cost(scene)), SHORTEST))
+    shortest = SHORTEST
+    if how.coarse and scene.cage_speed > 0.0:
+        glance = PASSES_OF_GLANCE * scene.bearing.ball_spacing / scene.cage_speed
+        shortest = min(max(glance, GLANCE), SHORTEST)
+    return min(how.duration, max(most / (rate * _step_cost(scene)), shortest))
 
 
 def _excerpt(scene: Scene, how: How) -> Excerpt:

@@ -12,11 +12,14 @@ shift of the simulated pass that fits best     | τ      | lag              | ra
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.fft import irfft
 from numpy.typing import NDArray
 
 from bearingcore.diagnosis.size.path_fit import DIRECT, Explained, PathFit, PathModel
@@ -41,8 +44,9 @@ filter, a neighbour's leakage or the last of a transient speaks."""
 PHASES = 2048
 """Places in time at which a simulated pass is laid over the measured one, before refinement."""
 
-PEAKS = 4
-"""Places at which it is laid over the measured one behind a path, which may delay it."""
+PEAKS, FEWER_PEAKS = 4, 2
+"""Places at which it is laid over the measured one behind a path, which may delay it; and over one
+drawn to see what chance does."""
 
 FINER = ((0.05, 2), (0.02, 2), (0.008, 2))
 """Steps [rad] in which such a place is looked for further, and how many to either side."""
@@ -112,11 +116,24 @@ class Target:
         self.noise_share = np.minimum(scatter.sum(axis=0) / self.energy, 1.0)
         # what a simulation may be off by, and noise, of a pass of power 1
         self.noise = WAVEFORM_FLOOR / max(len(self.kept), 1) + scatter / self.energy
+        self.weight = 1.0 / self.noise / max(len(self.kept), 1)
         self.noise_power = np.broadcast_to(measured.noise_power, measured.power.shape)[self.kept]
         self.window = _smoothing(frequency[self.kept], band)
         power = self.window @ measured.power[self.kept]
         self.floor = DYNAMIC_RANGE * power.max(axis=0) + 1e-300
         self.log_power = np.log(power + self.floor)
+        self._path_fits: dict[PathModel, tuple[PathFit, ...]] = {}
+
+    def path_fits(self, model: PathModel) -> tuple[PathFit, ...]:
+        """What a path may do to the pass of each direction."""
+        found = self._path_fits.get(model)
+        if found is None:
+            found = tuple(
+                PathFit(model, self.order, self.measured.frequency, self.noise[:, column])
+                for column in range(len(self.energy))
+            )
+            self._path_fits[model] = found
+        return found
 
     def match(
         self,
@@ -124,12 +141,14 @@ class Target:
         power: NDArray[np.float64],
         model: PathModel = DIRECT,
         exits: NDArray[np.float64] | None = None,
+        near: float | None = None,
     ) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d).
 
-        Behind a path balls leave at the phases `exits` (m,) [rad] of the simulated passes.
+        Behind a path balls leave at the phases `exits` (m,) [rad] of the simulated passes, and the
+        lag is looked for `near` one, where one is told.
         """
-        return Prepared(self, harmonics, model, exits).match(power)
+        return Prepared(self, harmonics, model, exits).match(power, near)
 
 
 class Prepared:
@@ -164,30 +183,46 @@ class Prepared:
         gain = np.exp((size - np.log(np.abs(self.relative) + tiny)).mean(axis=1))
         self.relative = self.relative * np.where(self.bad[:, None], 0.0, gain)[:, None, :]
         self.explained = [
-            PathFit(
-                self.model, target.order, target.measured.frequency, target.noise[:, column]
-            ).explained(self.relative[:, :, column], exits)
-            for column in range(len(target.energy))
+            fit.explained(self.relative[:, :, column], exits)
+            for column, fit in enumerate(target.path_fits(self.model))
         ]
+
+    def some(self, step: int) -> Prepared:
+        """Every so many of the passes."""
+        other = copy.copy(self)
+        for name in ("_weighed_conj", "_weighed_energy"):
+            other.__dict__.pop(name, None)
+        other.bad, other.simulated, other.relative = (
+            each[::step] for each in (self.bad, self.simulated, self.relative)
+        )
+        other.explained = [one.some(step) for one in self.explained]
+        return other
 
     def least_cost(self, harmonics: NDArray[np.complex128]) -> NDArray[np.float64]:
         """How much speaks against the cause of a pass (n, d), mean over directions: (m,)."""
         measured = harmonics * self.scale
-        if self.model.direct:
-            return self._cost(*self._direct(measured)[1:]).mean(axis=1)
-        return self._laid(measured, FINER[:1])[1]
+        if not self.model.direct:
+            return self._laid(measured, FINER[:1], FEWER_PEAKS)[1]
+        _, gain, agree, energy = self._direct(measured)
+        own = (self.target.weight * np.abs(measured) ** 2).sum(axis=0)
+        gain = gain[:, None]
+        left = own - gain * (2.0 * agree - gain * energy)
+        return np.asarray(np.log1p(np.maximum(left, 0.0)).mean(axis=1))
 
-    def match(self, power: NDArray[np.float64]) -> Match:
+    def match(self, power: NDArray[np.float64], near: float | None = None) -> Match:
         """Compare with the measured pass and spectrum."""
         target = self.target
         measured = target.harmonics * self.scale
         if self.model.direct:
-            lag, residual, weighed = self._direct(measured)
-            cost = self._cost(residual, weighed)
+            lag, gain, _, _ = self._direct(measured)
+            turn = np.exp(1j * lag[:, None] * target.order)
+            residual = measured - (gain[:, None] * turn)[:, :, None] * self.relative
+            weighed = residual * np.sqrt(target.weight)
+            cost = np.log1p((np.abs(weighed) ** 2).sum(axis=1))
             misfit = (np.abs(residual) ** 2).sum(axis=1)
             transfer = np.zeros(residual.shape)
         else:
-            lag, _ = self._laid(measured)
+            lag, _ = self._laid(measured, near=near)
             left = self._left(measured, lag[:, None])[:, 0]
             columns = range(left.shape[2])
             parts = [(self.explained[k], left[:, :, k]) for k in columns]
@@ -216,33 +251,42 @@ class Prepared:
             self.model.cost,
         )
 
-    def _cost(
-        self, residual: NDArray[np.complex128], weighed: NDArray[np.complex128]
-    ) -> NDArray[np.float64]:
-        return np.asarray(np.log1p((np.abs(weighed) ** 2).sum(axis=1)))
+    def _direct(self, measured: NDArray[np.complex128]) -> tuple[NDArray[np.float64], ...]:
+        """Lag and gain (m,) that fit best, and by direction (m, d) what agrees, and energies.
 
-    def _direct(
-        self, measured: NDArray[np.complex128]
-    ) -> tuple[NDArray[np.float64], NDArray[np.complex128], NDArray[np.complex128]]:
-        """Lag (m,), what is left (m, n, d) and the same weighted by the noise of harmonics."""
-        target = self.target
-        weight = 1.0 / target.noise / len(target.order)
-        lag = self._peaks((self.relative.conj() * measured * weight).sum(axis=2), 1)[:, 0]
-        turned = self.relative * np.exp(1j * lag[:, None] * target.order)[:, :, None]
-        energy = (weight * np.abs(turned) ** 2).sum(axis=(1, 2))
-        agree = (weight * (turned.conj() * measured).real).sum(axis=(1, 2))
-        gain = np.maximum(agree, 0.0) / np.maximum(energy, 1e-300)
-        residual = measured - gain[:, None, None] * turned
-        return lag, residual, residual * np.sqrt(weight)
+        Harmonics count by their noise.
+        """
+        cross = self._weighed_conj * measured
+        lag = self._peaks(cross.sum(axis=2), 1)[:, 0]
+        back = np.exp(-1j * lag[:, None] * self.target.order)
+        agree = (back[:, None, :] @ cross)[:, 0].real
+        energy = self._weighed_energy
+        gain = np.maximum(agree.sum(axis=1), 0.0) / np.maximum(energy.sum(axis=1), 1e-300)
+        return lag, gain, agree, energy
+
+    @cached_property
+    def _weighed_conj(self) -> NDArray[np.complex128]:
+        return np.asarray(self.relative.conj() * self.target.weight)
+
+    @cached_property
+    def _weighed_energy(self) -> NDArray[np.float64]:
+        return np.asarray((self.target.weight * np.abs(self.relative) ** 2).sum(axis=1))
 
     def _laid(
-        self, measured: NDArray[np.complex128], steps: Sequence[tuple[float, int]] = FINER
+        self,
+        measured: NDArray[np.complex128],
+        steps: Sequence[tuple[float, int]] = FINER,
+        peaks: int = PEAKS,
+        near: float | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The lag (m,) that fits best behind a path, and the cost there."""
-        cross = self.relative.conj() * measured
-        size = np.abs(cross)
-        likeness = [cross.sum(axis=2), (cross / np.maximum(np.sqrt(size), 1e-150)).sum(axis=2)]
-        lags = np.concatenate([self._peaks(one, PEAKS) for one in likeness], axis=1)
+        if near is None:
+            cross = self.relative.conj() * measured
+            size = np.abs(cross)
+            likeness = [cross.sum(axis=2), (cross / np.maximum(np.sqrt(size), 1e-150)).sum(axis=2)]
+            lags = np.concatenate([self._peaks(one, peaks) for one in likeness], axis=1)
+        else:
+            lags = np.full((len(self.relative), 1), near)
         row = np.arange(len(lags))
         lag = lags[:, 0]
         cost = np.full(len(lags), math.inf)
@@ -271,9 +315,11 @@ class Prepared:
     def _peaks(self, cross: NDArray[np.complex128], count: int) -> NDArray[np.float64]:
         """Lags (m, count) [rad] at which cross spectra (m, n) agree most, refined by parabolas."""
         phases = PHASES if count == 1 else PHASES // 4
-        padded = np.zeros((len(cross), phases), dtype=complex)
-        padded[:, self.target.order] = cross
-        likeness = np.fft.fft(padded, axis=1).real
+        while phases < 4 * self.target.order[-1]:
+            phases *= 2
+        padded = np.zeros((len(cross), phases // 2 + 1), dtype=complex)
+        padded[:, self.target.order] = cross.conj()
+        likeness = irfft(padded, phases, axis=1)
         row = np.arange(len(cross))[:, None]
         if count == 1:
             best = likeness.argmax(axis=1)[:, None]

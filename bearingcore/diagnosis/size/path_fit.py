@@ -31,6 +31,9 @@ from numpy.typing import NDArray
 STRIKE_REACH = 0.15
 """[rad] of a ball pass: standard deviation of where the strike is, about the exit."""
 
+FEW = 8
+"""Passes of which products are taken with all digits."""
+
 
 @dataclass(frozen=True)
 class PathModel:
@@ -111,13 +114,23 @@ class Explained:
         """(m, N, N) that makes what may be measured white; its square inverts the covariances.
 
         The squares themselves, N³ of work for each, are not needed: what they are asked for are
-        products with vectors.
+        products with vectors. Of many passes, which are compared and not refined, it is kept in
+        half the digits: covariances of the noise allowed for are well conditioned.
         """
-        return np.asarray(np.linalg.inv(self.lower))
+        several = len(self.lower) > FEW
+        return np.asarray(np.linalg.inv(self.lower.astype(np.complex64 if several else complex)))
+
+    def some(self, step: int) -> Explained:
+        """Every so many of the passes."""
+        other = Explained(
+            self.fit, self.simulated[::step], self.lower[::step], self.complexity[::step]
+        )
+        other.__dict__["root"] = self.root[::step]
+        return other
 
     def misfit(self, residual: NDArray[np.complex128]) -> NDArray[np.float64]:
         """Quadratic form (m, l) of what is left (m, l, N) after the simulation, per harmonic."""
-        white = residual @ self.root.swapaxes(1, 2)
+        white = residual.astype(self.root.dtype) @ self.root.swapaxes(1, 2)
         form = (white.real**2 + white.imag**2).sum(axis=2)
         return np.asarray(form / len(self.fit.order))
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.dynamics.modes import contact_damping
@@ -119,4 +120,26 @@ def variant(scene: Scene, extent: float, edge: str, exponents: NDArray[np.float6
             },
         ),
         contact_damping=contact_damping(scene) * damping,
+    )
+
+
+def system_variant(
+    system: kernels.System, row: NDArray[np.float64], exponents: NDArray[np.float64]
+) -> kernels.System:
+    """What kernels need of a `variant`, of what they need of its scene: a tenth of the time.
+
+    `row` describes the defect, see `kernels.PATH_COLUMNS`. A static load goes with the same factor
+    as the rotor's force, exp(exponents[2]).
+    """
+    stiffness, factor, load, damping, _ = (math.exp(x) for x in exponents.tolist())
+    rotor, contacts = system.rotor, system.contacts
+    return kernels.System(
+        rotor._replace(
+            force=rotor.force * load,
+            stiffness=rotor.stiffness * stiffness,
+            damping=rotor.damping * damping,
+            contact_damping=rotor.contact_damping * damping,
+        ),
+        contacts._replace(factor=contacts.factor * factor),
+        kernels.Path(row[None], system.path.tables),
     )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import pytest
-from bearing_explorer.compute.endurance import Asked, endurance
+from bearing_explorer.compute.endurance import ROWS_APART, Asked, endurance
 from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.life import FIELDS, LifeOfBearing, groups_of, read
 from bearing_explorer.widgets.limits import rows_of
 
@@ -148,3 +150,21 @@ def test_what_is_typed_changes_the_answer_and_a_refusal_does_not() -> None:
         view.forward(strange)
     view.say(Results(presets["6205"]), "")
     assert view.rows.shown["values"]["dynamic_load_rating"] == "14"
+
+
+def test_rows_with_contact_angles_of_their_own_have_no_life_and_all_the_rest() -> None:
+    pair = presets["7208-back-to-back"]
+    low, high = pair.bearing.rows
+    rows = (low, dataclasses.replace(high, contact_angle=0.7))
+    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
+    for asked in (Asked(), Asked(dynamic_load_rating=4e4)):
+        found = endurance(scene, asked)
+        assert found.life is None
+        assert found.no_life == ROWS_APART
+        assert found.pressures is not None
+        assert found.film is not None
+    passes = next(fact["value"] for fact in facts_of(scene) if fact["symbol"] == "BPFO")
+    assert passes.count("Hz") == 2, "one for each row"
+    assert facts_of(pair)[0]["value"].count("Hz") == 1
+    with pytest.raises(ValueError, match="nothing repeats"):
+        _ = Results(scene).motion

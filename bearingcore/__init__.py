@@ -25,12 +25,14 @@ from bearingcore.signals.files.read import read_table
 from bearingcore.signals.files.table import Table
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
+from bearingcore.statics.ball_positions import BallPositions, ball_positions, static_state
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.statics.film import Film, film
 from bearingcore.statics.life import Life, dynamic_load_rating, life
+from bearingcore.statics.limit import Limit
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
-from bearingcore.statics.validity import Limit, limits
+from bearingcore.statics.validity import limits
 
 __all__ = [
     "CONTACT_LAWS",
@@ -38,6 +40,7 @@ __all__ = [
     "EDGES",
     "RACES",
     "STIFFNESS_TERMS",
+    "BallPositions",
     "Bearing",
     "Candidate",
     "CatalogueBearing",
@@ -62,6 +65,7 @@ __all__ = [
     "Spectrum",
     "Support",
     "Table",
+    "ball_positions",
     "catalogue",
     "catalogue_text",
     "contact_damping",
@@ -84,6 +88,7 @@ __all__ = [
     "simulate",
     "size_defect",
     "spectrum",
+    "static_state",
     "stiffness_maps",
     "warm",
 ]

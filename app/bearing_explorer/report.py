@@ -80,7 +80,9 @@ def report(
             data, sentence = view.data(results), view.sentence(results)
         except ValueError as error:
             parts.append(
-                _figure(view, [], f"Not shown for this scene: {in_page_words(str(error))}.")
+                _figure(
+                    view, results, [], f"Not shown for this scene: {in_page_words(str(error))}."
+                )
             )
             continue
         except Exception:
@@ -92,7 +94,7 @@ def report(
         sources |= data[0]
         ranges |= data[1]
         shown.append(view)
-        parts.append(_figure(view, [plot.id for plot in view.figures], sentence))
+        parts.append(_figure(view, results, [plot.id for plot in view.figures], sentence))
     packed.send(sources, ranges)
     plots = [plot for view in shown for plot in view.figures]
     for plot in plots:
@@ -129,7 +131,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
         _changes(scene, about),
-        f"<p>Grey in the figures: {_text(_grey(results))}. Cage angle: "
+        f"<p>Grey in the figures: {_text(results.grey_words)}. Cage angle: "
         f"{_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
         f"{_text('; '.join(said['details'][:-1]))}.</p></section>",
@@ -180,18 +182,13 @@ def _link(address: str) -> str:
     return f"<a href='{_text(address)}'>open this scene</a>"
 
 
-def _figure(view: View, ids: Sequence[str], sentence: str) -> str:
+def _figure(view: View, results: Results, ids: Sequence[str], sentence: str) -> str:
+    caption = _text(view.caption(results.grey_words))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
-        f"<section><h2>{_text(view.title)}</h2><p class='about'>{_text(view.about)}</p>"
+        f"<section><h2>{_text(view.title)}</h2><p class='about'>{caption}</p>"
         f"<figure>{drawings}<figcaption>{_text(sentence)}</figcaption></figure></section>"
     )
-
-
-def _grey(results: Results) -> str:
-    if results.pinned is not None:
-        return f"the pinned scene “{results.pinned.name}”"
-    return "the bearing without its defect"
 
 
 def _changes(scene: Scene, about: About) -> str:

@@ -16,6 +16,7 @@ import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute import compiling
+from bearing_explorer.compute.endurance import Asked
 from bearing_explorer.compute.executors import in_thread
 from bearing_explorer.compute.idle_task import IdleTask
 from bearing_explorer.compute.jobs import Jobs
@@ -48,7 +49,7 @@ from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
 from bearingcore import Limit, Scene
 from bearingcore.model.bearings.catalogue import MOST_BYTES
 from bearingcore.plan import CURVES
-from bearingcore.statics.validity import summary
+from bearingcore.statics.limit import summary
 
 log = logging.getLogger(__name__)
 
@@ -98,7 +99,7 @@ class Inputs:
     computed. When the hand has `rested` it is drawn by the plans of what is `planned`, after a long
     search where it `seeks_orbit`, and once more after it `compares_balls` with and without mass.
     Until all is `compiled` some of it cannot be drawn. `before` is the scene before the last
-    change.
+    change, `asked` what somebody says of steel, oil and surfaces.
     """
 
     scene: Scene
@@ -113,6 +114,7 @@ class Inputs:
     compares_balls: bool = False
     compiled: bool = True
     before: Scene | None = None
+    asked: Asked = field(default_factory=Asked)
 
     @property
     def kind(self) -> Hashable:
@@ -145,6 +147,7 @@ class Inputs:
             planned=self.planned,
             pinned=self.pinned,
             before=self.before,
+            asked=self.asked,
         )
 
 
@@ -192,6 +195,7 @@ class Explorer:
         self._mark = 0
         self._drawn_mark = 0
         self._settings = Settings()
+        self._asked_endurance = Asked()
         self._slow_cost = 0.0
         self._slow_at = self._limits_at = -math.inf
         self._doc = pn.state.curdoc
@@ -241,6 +245,7 @@ class Explorer:
             ask=self._asked,
             add_controls=self._panels.append,
             take_steps=self._take_steps,
+            say_endurance=self._take_endurance,
         )
 
     @property
@@ -255,6 +260,7 @@ class Explorer:
             self._settings,
             pinned=self.bookmarks.pinned,
             before=self._last_state.before,
+            asked=self._asked_endurance,
         )
 
     @property
@@ -353,6 +359,9 @@ class Explorer:
                 self._set(values, confirm=False)
             if isinstance(typed := message.get("typed"), dict):
                 self._set(typed, confirm=True)
+            rests = "typed" in message or message.get("released") is True
+            if rests and (narrowed := self.editor.narrow()):
+                self._show_controls(state=self.editor.state(narrowed))
             if isinstance(file := message.get("floor"), dict):
                 self._read(file)
             if isinstance(file := message.get("catalogue"), dict):
@@ -489,6 +498,11 @@ class Explorer:
     def _take_steps(self, step_rate: float | None) -> None:
         """March motions with steps [Hz] set by hand, or None: with the program's own."""
         self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
+        self.draw()
+
+    def _take_endurance(self, asked: Asked) -> None:
+        """Judge life and film by what somebody says of steel, oil and surfaces."""
+        self._asked_endurance = asked
         self.draw()
 
     def _plan_asked(self, message: Any) -> None:

@@ -124,7 +124,14 @@ export function render({ model }) {
   model.on("pinned", show_pinned)
   show_pinned()
 
-  const rest = element("p", { class: "rest", id: "rest" }, model.rest)
+  const line = element("p", { class: "line" })
+  const rest = element("p", { class: "rest", id: "rest" })
+  const write_words = () => {
+    line.textContent = model.line
+    rest.textContent = model.compact ? `${model.line} ${model.rest}` : model.rest
+  }
+  for (const name of ["line", "rest"]) model.on(name, write_words)
+  write_words()
   const help = element("button", { type: "button", class: "help", "aria-controls": "rest",
                                    "aria-label": `More about “${model.title}”` }, "?")
   const explain = (shown) => {
@@ -143,11 +150,10 @@ export function render({ model }) {
   }
   const head = element("div", { class: "title" }, title, help)
   if (model.compact) {  // all there is to say is behind the "?"
-    rest.textContent = `${model.line} ${model.rest}`
     help.hidden = false
     return element("header", { class: "compact" }, element("div", { class: "words" }, head, rest, grey))
   }
-  const words = element("div", { class: "words" }, head, element("p", { class: "line" }, model.line), rest, grey)
+  const words = element("div", { class: "words" }, head, line, rest, grey)
 
   const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
                                      "aria-label": `Export “${model.title}”` }, "Export")

@@ -50,6 +50,17 @@ function put_tip(where, { label, symbol, unit, about, limit } = {}) {
   }, 350)
 }
 
+// A box as wide as its number, so that "−100000" is not cut.
+const WIDEST = 13  // digits
+function write_in(input, text) {
+  input.value = text
+  fit(input)
+}
+function fit(input) {
+  const count = Math.min(input.value.length, WIDEST)
+  input.style.width = count > 5 ? `calc(${count}ch + 16px)` : ""
+}
+
 // Rows of one panel. `changed` hears of every change of a value, `touched` of the control in use.
 function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
@@ -146,15 +157,15 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     twin.unit.textContent = known.unit
     twin.number.setAttribute("aria-label", `${rows[name].label} in ${known.unit}, ${known.words}`)
     twin.number.title = known.words
-    twin.number.value = value === null || value === undefined ? ""
-      : String(Number((value * known.factor).toPrecision(5))).replace("-", "\u2212")
+    write_in(twin.number, value === null || value === undefined ? ""
+      : String(Number((value * known.factor).toPrecision(5))).replace("-", "\u2212"))
   }
   const put = (name, value) => {
     const row = rows[name]
     values[name] = value
     row.slider.value = value ?? limits[name].least
     if (row.root.querySelector("input:focus") !== row.number)
-      row.number.value = format(value, limits[name].step)
+      write_in(row.number, format(value, limits[name].step))
     paint(name)
   }
   const refuse = (name, sentence) => {
@@ -168,7 +179,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const move = (name, value) => {
     refuse(name, "")
     put(name, value)
-    rows[name].number.value = format(value, limits[name].step)
+    write_in(rows[name].number, format(value, limits[name].step))
     push(name, value)
   }
 
@@ -223,6 +234,8 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
     }
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
+    for (const input of [number, twin.number])
+      input.addEventListener("input", () => fit(input))
     number.addEventListener("focus", () => number.select())
     twin.number.addEventListener("focus", () => twin.number.select())
     twin.number.addEventListener("blur", () => show_twin(name))
@@ -235,7 +248,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     number.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         refuse(name, "")
-        number.value = format(values[name], limits[name].step)
+        write_in(number, format(values[name], limits[name].step))
       } else if (/^(Arrow|Page)(Up|Down)$/.test(event.key)) {
         event.preventDefault()
         const { least, most, step } = limits[name]
@@ -293,7 +306,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       if (rows[name].asked > state.mark) continue  // moved since the server said this
       refuse(name, "")
       put(name, value)
-      rows[name].number.value = format(value, limits[name].step)
+      write_in(rows[name].number, format(value, limits[name].step))
     }
     for (const [name, value] of Object.entries(state.choices ?? {})) {
       if (!selects[name]) continue

@@ -71,10 +71,25 @@
       })
     }
   }
+  // Bokeh clears a canvas but for half a pixel along two of its edges, where the old paper would
+  // stay as a line: all of it is cleared before it is painted in other colours.
+  const clear_all = (where) => {
+    for (const element of where.querySelectorAll("*")) {
+      if (element.shadowRoot) clear_all(element.shadowRoot)
+      if (element.localName !== "canvas") continue
+      const context = element.getContext("2d")
+      if (!context) continue
+      context.save()
+      context.resetTransform()
+      context.clearRect(0, 0, element.width, element.height)
+      context.restore()
+    }
+  }
   const take = (next) => {
     theme = next
     root.dataset.theme = theme
     paint_all()
+    clear_all(document.body ?? root)
     // colours that come out of a mapper are worked out with the numbers
     for (const doc of window.Bokeh?.documents ?? [])
       for (const model of doc._all_models.values())

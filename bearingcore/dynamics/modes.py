@@ -81,6 +81,15 @@ class Modes:
             *((f"{label}_damping_ratio", "1", self.damping_ratio[:, i]) for i, label in labels),
         )
 
+    def bands_table(self) -> ResultTable:
+        """A row a mode: its least and greatest frequency over the cage angles."""
+        known = self.bands()
+        return table_of(
+            ("mode", "", list(known)),
+            ("least", "Hz", [low for low, _ in known.values()]),
+            ("greatest", "Hz", [high for _, high in known.values()]),
+        )
+
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest frequency [Hz] of each mode over the cage angles, by label.
 

@@ -1,8 +1,14 @@
-"""Implicit steps for the balls' own directions, to be compared with `kernels.march_balls`.
+"""Steps for the balls' own directions alone, to be compared with `kernels.march_balls`.
 
-The rings take leapfrog steps, between which each ball takes one or more steps of the implicit
-midpoint rule, the rings moving evenly meanwhile: order 2, stable however stiff and damped a contact
-is. Contacts stay in the plane.
+The rings take leapfrog steps, between which each ball takes one or more steps of its own, the rings
+moving evenly meanwhile. Contacts stay in the plane. Both kinds of steps are of order 2 while no
+contact opens or closes, and of order 1 with damping that switches as it does:
+
+- implicit: the midpoint rule, stable however stiff and damped a contact is;
+- exponential: the ball swings between the springs and dampers that its contacts are at the step's
+  beginning, with the rings in the middle of their step, which is solved exactly (the exponential
+  Rosenbrock-Euler method, Hochbruck and Ostermann, Acta Numerica 19 (2010) 209-286). The rings feel
+  the mean of these linear forces, so that momentum is kept.
 """
 
 from __future__ import annotations
@@ -13,7 +19,7 @@ import numpy as np
 
 from bearingcore.kernels.balls.motion import lay_out_inner, new_ball_march
 from bearingcore.kernels.balls.structs import INNER, OUTER
-from bearingcore.kernels.compiling import compiled, inlined
+from bearingcore.kernels.compiling import borrowing, compiled, inlined
 from bearingcore.kernels.contact import contact_load
 from bearingcore.kernels.motion.march import all_finite
 from bearingcore.kernels.path import BLOCK, lay_out_balls
@@ -41,12 +47,41 @@ def radial_state(x, v, cj, sj, w):
     return x[0] * cj + x[1] * sj, (v[0] + w * x[1]) * cj + (v[1] - w * x[0]) * sj
 
 
+@borrowing
+def swing(force, k, c, mass, speed, h):
+    """Way [m] and speed [m/s] after a time h of m ẅ = F − k w − c (ẇ − v), F at its beginning.
+
+    It sets out from w = 0 with the speed v; m, k and c are mass, stiffness and damping.
+    """
+    a = 0.5 * c / mass
+    square = k / mass  # of the frequency without damping
+    if square * h * h < 1e-8:
+        if a * h < 1e-6:
+            return h * (speed + 0.5 * h * force / mass), speed + h * force / mass
+        end = force / c + speed
+        left = math.exp(-2.0 * a * h)
+        return end * h + (speed - end) * (1.0 - left) / (2.0 * a), end + (speed - end) * left
+    rest = (force + c * speed) / k
+    split = a * a - square
+    if abs(split) * h * h < 1e-12:
+        cosine, sine = 1.0, h
+    elif split < 0.0:
+        omega = math.sqrt(-split)
+        cosine, sine = math.cos(omega * h), math.sin(omega * h) / omega
+    else:
+        rate = math.sqrt(split)
+        cosine, sine = math.cosh(rate * h), math.sinh(rate * h) / rate
+    left = math.exp(-a * h)
+    way = rest * (1.0 - left * (cosine + a * sine)) + speed * left * sine
+    return way, left * (cosine * speed + sine * (square * rest - a * speed))
+
+
 @inlined
-def forces_of_balls(X, V, balls, at, passage, inner, system, part):
+def forces_of_balls(X, V, balls, at, passage, inner, system, part, exponential):
     """Σ Q e of both races, (fi0, fi1, fo0, fo1), rings at X, V (2, 2), balls at (u, v).
 
-    part [s] > 0: each ball takes an implicit midpoint step of twice that; 0: where it is.
-    Returns the sums and the number of evaluations.
+    part [s] > 0: each ball takes a step of twice that, `exponential` or of the implicit midpoint
+    rule; 0: where it is. Returns the sums and the number of evaluations.
     """
     u, v = balls
     contacts = system.contacts
@@ -65,7 +100,24 @@ def forces_of_balls(X, V, balls, at, passage, inner, system, part):
         ro += passage.d_rate[at, j]
         load = races.centrifugal[j] - races.weight[j] * sj
         speed = v[j]
-        for _ in range(MOST_NEWTON_STEPS):
+        if exponential and part > 0.0:
+            Qi, ki, ci = push(xi - u[j], ri - speed, INNER, j, system)
+            Qe, ke, ce = push(u[j] - xo, speed - ro, OUTER, j, system)
+            calls += 1
+            h = 2.0 * part
+            force = Qi - Qe + load
+            way, after = swing(force, ki + ke, ci + ce, races.mass[j], speed, h)
+            faster = way / h - speed
+            mean = 0.5 * way
+            if (ki + ke) * h * h > 1e-6 * races.mass[j]:
+                # of the way over the step, from what it takes to change the speed by so much
+                change = races.mass[j] * (after - speed) / h
+                mean = (force - (ci + ce) * faster - change) / (ki + ke)
+            u[j] += way
+            v[j] = after
+            Qi -= ki * mean + ci * faster
+            Qe += ke * mean + ce * faster
+        for _ in range(0 if exponential and part > 0.0 else MOST_NEWTON_STEPS):
             place = u[j] + part * speed
             Qi, ki, ci = push(xi - place, ri - speed, INNER, j, system)
             Qe, ke, ce = push(place - xo, speed - ro, OUTER, j, system)
@@ -77,7 +129,7 @@ def forces_of_balls(X, V, balls, at, passage, inner, system, part):
             speed -= step
             if abs(step) <= 1e-10:
                 break
-        if part > 0.0:
+        if part > 0.0 and not exponential:
             u[j] += 2.0 * part * speed
             v[j] = 2.0 * speed - v[j]
         fi0 += Qi * cj
@@ -88,8 +140,10 @@ def forces_of_balls(X, V, balls, at, passage, inner, system, part):
 
 
 @compiled
-def march_implicit_balls(y, h, substeps, stride, system, history):
+def march_split_balls(y, h, substeps, stride, exponential, system, history):
     """Steps of h [s] of the rings from y, as `kernels.march_balls` has it, `substeps` of the balls.
+
+    The balls' steps are `exponential`, or implicit.
 
     history (samples, 6, 2) is filled every `stride` steps. Returns (steps that stayed finite,
     evaluations of all contacts).
@@ -99,6 +153,7 @@ def march_implicit_balls(y, h, substeps, stride, system, history):
     X = np.zeros((2, 2))
     V = np.zeros((2, 2))
     Xm = np.zeros((2, 2))
+    Vm = np.zeros((2, 2))
     A = np.zeros((2, 2))
     for a in range(2):
         X[INNER, a], V[INNER, a], X[OUTER, a], V[OUTER, a] = y[a], y[2 + a], y[4 + a], y[6 + a]
@@ -131,7 +186,7 @@ def march_implicit_balls(y, h, substeps, stride, system, history):
             laid = 0
         if step % stride == 0:
             fi0, fi1, fo0, fo1, more = forces_of_balls(
-                X, V, (u, v), 2 * laid, passage, inner, system, 0.0
+                X, V, (u, v), 2 * laid, passage, inner, system, 0.0, exponential
             )
             f = ((fi0, fi1), (fo0, fo1))
             row = history[step // stride]
@@ -150,9 +205,11 @@ def march_implicit_balls(y, h, substeps, stride, system, history):
             away = (sub + 0.5) * small
             for body in range(2):
                 for a in range(2):
+                    # by the acceleration of the step before, which errs by a power of h more
                     Xm[body, a] = X[body, a] + away * (V[body, a] + 0.5 * away * A[body, a])
+                    Vm[body, a] = V[body, a] + away * A[body, a]
             fi0, fi1, fo0, fo1, more = forces_of_balls(
-                Xm, V, (u, v), 2 * laid + 1, passage, inner, system, 0.5 * small
+                Xm, Vm, (u, v), 2 * laid + 1, passage, inner, system, 0.5 * small, exponential
             )
             calls += more
             laid += 1
@@ -160,7 +217,8 @@ def march_implicit_balls(y, h, substeps, stride, system, history):
             sums += np.array([fi0, fi1, fo0, fo1]) / substeps
         for a in range(2):
             middle = X[OUTER, a] + 0.5 * h * V[OUTER, a]
-            support = rotor.stiffness[a] * middle + rotor.damping[a] * V[OUTER, a]
+            speed = V[OUTER, a] + 0.5 * h * A[OUTER, a]
+            support = rotor.stiffness[a] * middle + rotor.damping[a] * speed
             A[INNER, a] = (rotor.force[a] - sums[a]) * rotor.inverse_inner[a]
             A[OUTER, a] = (sums[2 + a] - support) * rotor.inverse_outer[a]
             for body in range(2):

@@ -20,7 +20,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
-from bearingcore.experiments.ball_steps import march_implicit_balls
+from bearingcore.experiments.ball_steps import march_split_balls
 from bearingcore.experiments.points import Experiment, Point, Reference, failed, least_time
 from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
@@ -41,9 +41,8 @@ FINEST = 32
 """Steps a sample of the reference."""
 
 LEFT_OUT = (
-    "an exponential step for the ball's own direction, which takes two exponentials or a sine and "
-    "a cosine a contact where the implicit one takes a division; general-purpose methods, which "
-    "hold to tolerances between strikes and take five times as long (tests compare with them)"
+    "general-purpose methods, which hold to tolerances between strikes and take five times as long "
+    "(tests compare with them)"
 )
 
 
@@ -76,13 +75,14 @@ def _explicit(*, velocities: bool) -> Marcher:
     return march
 
 
-def _implicit(substeps: int) -> Marcher:
+def _split(substeps: int, *, exponential: bool = False) -> Marcher:
     def march(scene: Scene, stride: int, duration: float, sample_rate: float) -> BallMarch:
         n = round(duration * sample_rate)
         history = np.full((n, 6, 2), math.nan)
         h = 1.0 / (stride * sample_rate)
         system = ball_system(scene, scene.active_dofs)
-        done, calls = march_implicit_balls(_start(scene, 1), h, substeps, stride, system, history)
+        start = _start(scene, 1)
+        done, calls = march_split_balls(start, h, substeps, stride, exponential, system, history)
         return BallMarch(history, int(calls), _failure(int(done), stride * (n - 1)))
 
     return march
@@ -102,11 +102,14 @@ def _failure(done: int, steps: int) -> str:
 BALL_METHODS: dict[str, Marcher] = {
     "RK4": _explicit(velocities=False),
     "RK4 in velocities": _explicit(velocities=True),
-    "implicit balls": _implicit(1),
-    "implicit balls, 4 sub-steps": _implicit(4),
+    "implicit balls": _split(1),
+    "implicit balls, 4 sub-steps": _split(4),
+    "exponential balls": _split(1, exponential=True),
+    "exponential balls, 4 sub-steps": _split(4, exponential=True),
 }
-"""By name: the program's own, the same steps in variables that jump as a contact closes, implicit
-midpoint steps of the balls with the rings' leapfrog steps, and four of them in a rings' step."""
+"""By name: the program's own, the same steps in variables that jump as a contact closes; with the
+rings' leapfrog steps, implicit midpoint or exponential steps of the balls, and four of them in a
+rings' step."""
 
 
 def third_octaves(history: Array, sample_rate: float) -> dict[str, Array]:

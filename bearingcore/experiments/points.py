@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
+
+from bearingcore.common.table import ResultTable, table_of
 
 T = TypeVar("T")
 
@@ -141,8 +144,33 @@ class Experiment:
                 best.append(point)
         return tuple(best)
 
-    def table(self) -> str:
-        """All points as text, one a line."""
+    def unit(self, error: str) -> str:
+        """Unit of an error: "dB", or "1" for a ratio."""
+        return "dB" if "[dB]" in self.errors[error] else "1"
+
+    def table(self) -> ResultTable:
+        """A row a point: who, how set, its errors, its cost, and how it went."""
+        points = self.points
+        return table_of(
+            ("method", "", [p.method for p in points]),
+            ("setting", "", [p.setting for p in points]),
+            *(
+                (
+                    re.sub(r"\W+", "_", name).lower() + "_error",
+                    self.unit(name),
+                    [p.errors.get(name, nan) for p in points],
+                    meaning,
+                )
+                for name, meaning in self.errors.items()
+            ),
+            ("time", "s", [p.seconds for p in points]),
+            ("evaluations", "", [p.evaluations for p in points], self.evaluations),
+            ("status", "", [p.status for p in points]),
+            ("reference", "", [p.against for p in points]),
+        )
+
+    def text(self) -> str:
+        """All points as text, one a line, for a terminal."""
         lines = [self.title]
         lines += [
             f"  reference{f' {name}' if name else ''}: {reference.sentence}"

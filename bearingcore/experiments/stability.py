@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import (
     contact_damping,
     highest_natural_frequency,
@@ -69,7 +70,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class StabilityChart:
-    """Verdicts over methods and steps, with what linear theory foretells.
+    """Verdicts over methods and steps, with what linear theory predicts.
 
     Attributes
     ----------
@@ -102,8 +103,20 @@ class StabilityChart:
                 limit = trial.step_rate
         return limit
 
-    def table(self) -> str:
-        """Methods down, steps across, with the linear limit beside."""
+    def table(self) -> ResultTable:
+        """A row a trial: method, steps a second, verdict and errors, with the linear limit."""
+        trials = self.trials
+        return table_of(
+            ("method", "", [t.method for t in trials]),
+            ("step_rate", "Hz", [t.step_rate for t in trials]),
+            ("verdict", "", [t.verdict for t in trials]),
+            ("spectrum_error", "dB", [t.spectrum_error for t in trials]),
+            ("amplitude_ratio", "1", [t.amplitude for t in trials]),
+            ("linear_limit", "Hz", [self.linear_limit[t.method] for t in trials]),
+        )
+
+    def text(self) -> str:
+        """Methods down, steps across, with the linear limit beside, for a terminal."""
         rates = sorted({trial.step_rate for trial in self.trials})
         names = list(dict.fromkeys(trial.method for trial in self.trials))
         width = max(len(name) for name in names) + 2

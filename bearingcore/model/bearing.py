@@ -347,7 +347,7 @@ class Bearing:
         contact_angle, diametral_clearance
             α0 [rad] and s [m], at least one of them, as they describe the same freedom.
             Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
-            the angle that it stands for, `seated()` the same bearing told by that angle.
+            the angle that it stands for, `seated()` the same bearing given by that angle.
             Angle alone: r_L = 0; `diametral_play` is the clearance that it stands for.
             Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
         youngs_modulus, poisson
@@ -567,7 +567,7 @@ class Bearing:
         return 2.0 * math.asin(math.sqrt(0.25 * self.diametral_play / self.groove_center_distance))
 
     def seated(self) -> Self:
-        """The same bearing told by its free contact angle, without clearance on top.
+        """The same bearing given by its free contact angle, without clearance on top.
 
         Its axial origin lies where the balls touch, A0 (sin α_f − sin α0) further along z: at the
         same loads δz is smaller by that and all else is equal. Two things are not the same, as

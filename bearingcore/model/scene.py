@@ -49,7 +49,8 @@ class Scene:
     dofs
         free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs.
     balls
-        "massless" or "with mass", of simulated motions.
+        "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
+        the centrifugal load of each ball at the scene's speed.
 
     Raises
     ------

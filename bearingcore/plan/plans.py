@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.numbers import count, decibels, number, percent, scientific, with_prefix
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit
@@ -105,6 +107,10 @@ class Plan:
     offers: tuple[Offer, ...] = ()
     note: str = ""
 
+    def table(self) -> ResultTable:
+        """One row: what for, how, what it should miss and cost, and the same of the full model."""
+        return plans_table([self])
+
     @property
     def method(self) -> str:
         """One of "static", "orbit", "fixed steps" and "adaptive steps"."""
@@ -164,3 +170,26 @@ def _error(level: float) -> str:
 def fewer_directions(dofs: tuple[str, ...]) -> list[tuple[str, ...]]:
     """Smaller sets of directions that keep x and y."""
     return [DOF_NAMES[:n] for n in (2, 3) if n < len(dofs) and set(DOF_NAMES[:n]) <= set(dofs)]
+
+
+def plans_table(plans: Sequence[Plan]) -> ResultTable:
+    """A row a plan: what for, how, what it should miss and cost, and the same of the full model."""
+
+    def all_of(name: str) -> list[float]:
+        return [float(getattr(plan, name)) for plan in plans]
+
+    return table_of(
+        ("view", "", [plan.view for plan in plans]),
+        ("directions", "", [" ".join(plan.dofs) for plan in plans]),
+        ("method", "", [plan.method for plan in plans]),
+        ("step_rate", "Hz", all_of("step_rate")),
+        ("tolerance", "1", all_of("tolerance")),
+        ("predicted_error", "", all_of("predicted_error"), "in the unit of the budget"),
+        ("error_budget", "", all_of("error_budget"), "in the unit of the view's budget"),
+        ("evaluations", "", all_of("evaluations"), "of all contacts"),
+        ("full_error", "", all_of("full_error"), "of the full model, in the unit of the budget"),
+        ("full_evaluations", "", all_of("full_evaluations")),
+        ("time", "s", all_of("seconds")),
+        ("full_time", "s", all_of("full_seconds")),
+        ("planning_time", "s", all_of("planning_seconds")),
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -14,8 +14,14 @@ from bearingcore import kernels
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
-from bearingcore.model.scene import DOF_NAMES, Scene
-from bearingcore.statics.equilibrium import MOST_CONTACTS, REASONS, TERM_INDICES, equilibrium
+from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene
+from bearingcore.statics.equilibrium import (
+    MOST_CONTACTS,
+    REASONS,
+    TERM_INDICES,
+    Equilibrium,
+    equilibrium,
+)
 
 Array = NDArray[np.float64]
 
@@ -190,6 +196,73 @@ def ball_positions(
         status.astype(np.int8),
         residual,
         iterations,
+    )
+
+
+@dataclass(frozen=True)
+class EquilibriumWithMass(Equilibrium):
+    """Static equilibrium whose balls carry their centrifugal load.
+
+    As `Equilibrium`; `ball_load` and `contact_angle` are those at the outer race, which carries the
+    ball's load and its centrifugal load.
+
+    Attributes
+    ----------
+    positions
+        what it was made of: places of the balls, loads and contact angles of both races.
+    """
+
+    positions: BallPositions = field(kw_only=True)
+
+    @cached_property
+    def contact_angle(self) -> Array:
+        """(n, N_b) [rad] contact angle at the outer race; NaN for balls that carry nothing."""
+        return self.positions.contact_angle[1]
+
+    @property
+    def inner_load(self) -> Array:
+        """(n, N_b) [N] load of each ball at the inner race."""
+        return self.positions.load[0]
+
+    @property
+    def inner_contact_angle(self) -> Array:
+        """(n, N_b) [rad] contact angle at the inner race; NaN where that carries nothing."""
+        return self.positions.contact_angle[0]
+
+
+def static_state(
+    scene: Scene,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+    *,
+    most_contacts: int = MOST_CONTACTS,
+) -> Equilibrium:
+    """Static equilibrium as the scene asks for it.
+
+    `equilibrium` of massless balls. Balls with mass (`Scene.balls`) carry their centrifugal load at
+    the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
+    are those of `equilibrium`.
+    """
+    if scene.balls != WITH_MASS:
+        return equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
+    found = ball_positions(scene, cage_angles, dofs, most_contacts=most_contacts)
+    known = found.status < kernels.NOT_CARRIED
+    carries = (found.load[0] > 0.0) & (found.load[1] > 0.0)
+    return EquilibriumWithMass(
+        scene=scene,
+        dofs=found.dofs,
+        cage_angles=found.cage_angles,
+        displacement=found.displacement,
+        ball_load=found.load[1],
+        stiffness=found.stiffness,
+        loaded_balls=np.where(known, carries.sum(axis=1), 0),
+        status=found.status,
+        residual=found.residual,
+        iterations=found.iterations,
+        evaluations=found.iterations,
+        state=found.displacement * packing.length_units(scene),
+        cost=found.cost,
+        positions=found,
     )
 
 

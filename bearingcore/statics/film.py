@@ -1,4 +1,4 @@
-"""Thickness of the lubricant film between the heaviest loaded ball and each race.
+"""Thickness of the lubricant film between the heaviest loaded ball or roller and each race.
 
 Quantity                                        | Symbol | Name               | Unit
 ----------------------------------------------- | ------ | ------------------ | -----
@@ -8,22 +8,32 @@ mean speed of ball and race through the contact | u      | rolling_speed      | 
 radius of curvature along the rolling, ball and race together | R_x | | m
 modulus of both, E/(1 − ν²) for one material    | E'     |                    | Pa
 ellipse ratio a/b                               | k      | ellipse_ratio      |
-load of the ball                                | Q      | load               | N
+load of the ball or roller                      | Q      | load               | N
+length of a roller                              | l      | roller_length      | m
 least film thickness                            | h_min  | thickness          | m
 roughness of ball and race, root mean square    | σ      | roughness          | m
 film parameter, h_min over the roughness of both | Λ     | film_parameter     |
+
+Of balls
 
     h_min/R_x = 3.63 U^0.68 G^0.49 W^(−0.073) (1 − e^(−0.68 k)),
     U = η0 u/(E' R_x), G = ξ E', W = Q/(E' R_x²),
 
 for hard elliptical contacts that roll without sliding, at one temperature, with as much oil as they
 take in (Hamrock and Dowson, 1977, Part III; fully flooded). It was fitted to ellipses of k = 1 to
-8, across the rolling; closer grooves have longer ones, and the last factor is 1 there anyway.
+8, across the rolling; closer grooves have longer ones, and the last factor is 1 there anyway. Of
+rollers
+
+    h_min/R_x = 1.714 U^0.694 G^0.568 W'^(−0.128), W' = Q/(l E' R_x),
+
+for lines (Pan and Hamrock, 1989), with the same U and G; near its ends, where the pressure of an
+uncrowned roller rises, the film is thinner.
 Left out: heat of shear at the inlet, which thins the film at high speed, too little oil or grease
 (starvation), and the edges of a defect, which tear the film wherever it is.
 
 Source: Hamrock and Dowson, J. Lubrication Technology 99 (1977) 264-276; Hamrock and Anderson,
-Rolling-Element Bearings, NASA RP-1126, for the speeds and for what Λ means.
+Rolling-Element Bearings, NASA RP-1126, for the speeds and for what Λ means; Pan and Hamrock,
+J. Tribology 111 (1989) 246-252, for lines.
 """
 
 from __future__ import annotations
@@ -35,10 +45,11 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model.bearing import Bearing
+from bearingcore.model.contacts.line import RollerContact
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.limit import Limit
 from bearingcore.statics.pressure import RACES, heaviest_ball
-from bearingcore.statics.validity import Limit
 
 TOUCHING, PARTED = 1.0, 3.0
 """Film parameter below which peaks of the surfaces touch all the time, and above which they hardly
@@ -53,18 +64,18 @@ MINERAL_OIL = 2.0e-8
 
 @dataclass(frozen=True)
 class RaceFilm:
-    """Film between the heaviest loaded ball and one race. NaN where it is not known.
+    """Film between the heaviest loaded ball or roller and one race. NaN where it is not known.
 
     Attributes
     ----------
     race
         "inner" or "outer".
     load [N], ellipse_ratio
-        of the contact.
+        of the contact; a line is an ellipse of infinite ratio.
     thickness [m]
         h_min; 0 where the shaft stands still.
     roughness [m]
-        of ball and race together.
+        of both surfaces together.
     film_parameter
         Λ.
     lubrication
@@ -85,41 +96,39 @@ class RaceFilm:
 
 @dataclass(frozen=True)
 class Film:
-    """Lubricant film of a scene's heaviest loaded ball.
+    """Lubricant film of a scene's heaviest loaded ball or roller.
 
     Attributes
     ----------
+    scene
+        what it is of.
     rolling_speed [m/s]
         u, the same at both races.
     inner, outer
         the film at each race.
     """
 
+    scene: Scene
     rolling_speed: float
     inner: RaceFilm
     outer: RaceFilm
 
     @property
+    def thinner(self) -> RaceFilm:
+        """The film at the race where it is thinner against the roughness."""
+        return self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
+
+    @property
     def sentence(self) -> str:
         """The thinner film in words, and what was left out."""
-        thinner = (
-            self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
-        )
-        return f"{thinner.sentence} {LEFT_OUT}"
+        left_out = ROLLER_LEFT_OUT if self.scene.bearing.is_roller else LEFT_OUT
+        return f"{self.thinner.sentence} {left_out}"
 
-    def limits(self) -> tuple[Limit, ...]:
-        """The film parameter of each race beside the one below which surfaces touch."""
-        return tuple(
-            Limit(
-                f"film parameter, {film.race} race",
-                film.film_parameter,
-                TOUCHING,
-                "",
-                film.film_parameter < TOUCHING,
-                film.sentence,
-            )
-            for film in (self.inner, self.outer)
-        )
+    @property
+    def limit(self) -> Limit:
+        """The film parameter of the thinner film beside the one below which surfaces touch."""
+        value = self.thinner.film_parameter
+        return Limit("film parameter", value, TOUCHING, "", value < TOUCHING, self.thinner.sentence)
 
     def table(self) -> ResultTable:
         """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
@@ -130,11 +139,11 @@ class Film:
                 "rolling_speed",
                 "m/s",
                 [self.rolling_speed] * 2,
-                "mean speed of ball and race through the contact",
+                "mean speed of both surfaces through the contact",
             ),
             ("ball_load", "N", [film.load for film in races], "of the heaviest loaded ball"),
             ("film_thickness", "m", [film.thickness for film in races], "where it is least"),
-            ("roughness", "m", [film.roughness for film in races], "of ball and race together"),
+            ("roughness", "m", [film.roughness for film in races], "of both surfaces together"),
             (
                 "film_parameter",
                 "1",
@@ -148,6 +157,10 @@ class Film:
 LEFT_OUT = (
     "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
     "starvation are left out, and all of them make the film thinner."
+)
+
+ROLLER_LEFT_OUT = LEFT_OUT.replace(
+    "the edges of a defect", "the edges of a defect and of the roller"
 )
 
 
@@ -187,6 +200,21 @@ def least_thickness(
     return 3.63 * U**0.68 * G**0.49 * W**-0.073 * side_flow * radius
 
 
+def least_thickness_of_line(
+    speed: float,
+    load_per_length: float,
+    radius: float,
+    modulus: float,
+    viscosity: float,
+    pressure_viscosity: float,
+) -> float:
+    """h_min [m] of Pan and Hamrock; see the head of the module for u, Q/l, R_x, E', η0, ξ."""
+    U = viscosity * speed / (modulus * radius)
+    G = pressure_viscosity * modulus
+    W = load_per_length / (modulus * radius)
+    return 1.714 * U**0.694 * G**0.568 * W**-0.128 * radius
+
+
 def film(
     scene: Scene,
     *,
@@ -197,18 +225,18 @@ def film(
     roughness_ball: float = 0.05e-6,
     state: Equilibrium | None = None,
 ) -> Film:
-    """Least film thickness and film parameter at each race, where a ball carries most.
+    """Least film thickness and film parameter at each race, where a ball or roller carries most.
 
     Parameters
     ----------
     scene
-        bearing, load and speed; the bearing needs its groove radii.
+        bearing, load and speed; a ball bearing needs its groove radii.
     viscosity
         η0 [Pa·s] of the oil (a grease's base oil) at the temperature of the contact.
     pressure_viscosity
         ξ [1/Pa]; a usual mineral oil by default.
     roughness_inner, roughness_outer, roughness_ball
-        σ [m], root mean square, of each surface; usual ones of honed races by default.
+        σ [m], root mean square, of each surface, rollers too; usual ones of honed races by default.
         The root of the sum of squares counts, and must be above 0.
     state
         the scene's static equilibrium, if it is there already; None computes one period.
@@ -233,8 +261,6 @@ def film(
         )
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
-    if scene.bearing.is_roller:
-        raise checks.refuse("bearing", "of cylindrical rollers", "one of balls: Hamrock and Dowson")
     contacts = {race: scene.bearing.race_contact(race) for race in RACES}
     if state is None:
         state = equilibrium(scene)
@@ -248,16 +274,26 @@ def film(
         if load > 0.0:
             modulus = contact.youngs_modulus / (1.0 - contact.poisson**2)
             radius = rolling_radius(scene.bearing, race)
-            h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
-        films[race] = _race_film(race, load, contact.ellipse_ratio, h, sigma[race])
-    return Film(u, films["inner"], films["outer"])
+            if isinstance(contact, RollerContact):
+                h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)
+            else:
+                h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
+        element = "roller" if scene.bearing.is_roller else "ball"
+        films[race] = _race_film(race, load, contact.ellipse_ratio, h, sigma[race], element=element)
+    return Film(scene, u, films["inner"], films["outer"])
 
 
-def _race_film(race: str, load: float, k: float, h: float, sigma: float) -> RaceFilm:
+def _race_film(
+    race: str, load: float, k: float, h: float, sigma: float, *, element: str
+) -> RaceFilm:
     name = f"film, {race} race"
     ratio = h / sigma
     if math.isnan(h):
-        why = "no cage angle has a static equilibrium" if math.isnan(load) else "no ball is loaded"
+        why = (
+            "no cage angle has a static equilibrium"
+            if math.isnan(load)
+            else f"no {element} is loaded"
+        )
         return RaceFilm(
             race, load, k, h, sigma, ratio, "", f"{name.capitalize()}: not known, as {why}."
         )
@@ -266,13 +302,13 @@ def _race_film(race: str, load: float, k: float, h: float, sigma: float) -> Race
     elif ratio < PARTED:
         kind, so = LUBRICATION[1], "their peaks touch now and then"
     else:
-        kind, so = LUBRICATION[2], "ball and race hardly ever touch"
+        kind, so = LUBRICATION[2], f"{element} and race hardly ever touch"
     if h == 0.0:
-        standing = f"The shaft stands still and draws no oil between ball and {race} race."
+        standing = f"The shaft stands still and draws no oil between {element} and {race} race."
         return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
     sentence = (
-        f"The film on the {race} race is {with_prefix(h, 'm')} thick where a ball carries most "
-        f"({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
+        f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
+        f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
         f"({with_prefix(sigma, 'm')}): "
         f"{kind} lubrication, {so}."
     )

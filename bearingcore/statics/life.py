@@ -56,6 +56,9 @@ HEAVIEST_SHARE = 0.5
 MATERIAL_FACTOR = 1.3
 """b_m of ISO 281 for deep-groove and angular-contact ball bearings of today's steel."""
 
+ROLLER_MATERIAL_FACTOR = 1.1
+"""The same for cylindrical roller bearings whose rings are machined."""
+
 USUAL_CONFORMITY = {"inner": 0.52, "outer": 0.53}
 """Groove radius over ball diameter up to which ISO 281 rates a ball bearing in full."""
 
@@ -186,7 +189,7 @@ def life(
         bearing, defects, load, speed. A ball bearing needs its groove radii.
     dynamic_load_rating
         C_r [N] of the whole bearing, with all its rows, from the catalogue;
-        `dynamic_load_rating(bearing)` gives that of ISO 281 for ball bearings.
+        `dynamic_load_rating(bearing)` gives that of ISO 281.
     positions
         "load line": loads with a ball on the line of the radial load (cage angle 0 without a radial
         load), as the standard's examples and commercial codes take them; for a healthy bearing
@@ -324,23 +327,27 @@ def _groove_ratio(f_i: float, f_e: float) -> float:
 
 
 def dynamic_load_rating(bearing: Bearing) -> float:
-    """Basic dynamic load rating C_r [N] of a ball bearing from its dimensions, by ISO 281.
+    """Basic dynamic load rating C_r [N] of a bearing from its dimensions, by ISO 281.
 
-    C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm, for i
-    rows of Z balls, b_m = 1.3.
-    f_c is the standard's table as a formula, 0.2 % from each of its numbers: it holds for grooves
-    of 0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones
-    lower it, and a bearing whose grooves are not known counts as one with those. Catalogues give
-    more where a maker vouches for better steel.
+    Of balls C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm,
+    for i rows of Z balls, b_m = 1.3. Of cylindrical rollers of length l
+    C_r = b_m f_c l^(7/9) Z^(3/4) D^(29/27), b_m = 1.1; l is the length that touches, without the
+    roller's chamfers. f_c are the standard's tables as formulas, 0.2 % from each of their numbers:
+    that of balls holds for grooves of 0.52 (inner) and 0.53 (outer) ball diameters and is not
+    raised for closer ones; wider ones lower it, and a bearing whose grooves are not known counts as
+    one with those. Catalogues give more where a maker vouches for better steel.
 
-    ValueError for rollers and for self-aligning bearings, whose factors the standard tabulates
-    apart: their rating comes from the catalogue.
+    ValueError for self-aligning bearings, whose factors the standard tabulates apart: their rating
+    comes from the catalogue.
     """
-    if bearing.is_roller or bearing.is_self_aligning:
-        kind = "cylindrical rollers" if bearing.is_roller else "a self-aligning bearing"
+    if bearing.is_self_aligning:
         raise checks.refuse(
-            "dynamic_load_rating", f"to be computed for {kind}", "that of the catalogue"
+            "dynamic_load_rating",
+            "to be computed for a self-aligning bearing",
+            "that of the catalogue",
         )
+    if bearing.roller_length is not None:
+        return _roller_rating(bearing, bearing.roller_length)
     D, Z, rows = bearing.ball_diameter * 1e3, bearing.n_balls, len(bearing.all_rows)
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
@@ -356,6 +363,20 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     size = D**1.8 if D <= LARGE_BALL else 3.647 * D**1.4
     C = MATERIAL_FACTOR * full * min(wider, 1.0) * (rows * cosine) ** 0.7 * Z ** (2.0 / 3.0) * size
     return float(C)
+
+
+def _roller_rating(bearing: Bearing, length: float) -> float:
+    """C_r [N] of cylindrical rollers of a length [m]; see `dynamic_load_rating`.
+
+    f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
+    stands for what a real load along the roller takes.
+    """
+    gamma = bearing.ball_diameter / bearing.pitch_diameter
+    B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
+    shape = gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
+    factor = 0.377 * 551.13373 * 0.83 * shape * (1.0 + B**4.5) ** (-2.0 / 9.0)
+    C = (1e3 * length) ** (7.0 / 9.0) * (1e3 * bearing.ball_diameter) ** (29.0 / 27.0)
+    return float(ROLLER_MATERIAL_FACTOR * factor * C * bearing.n_balls**0.75)
 
 
 def _capacity_factor(gamma: float, f_i: float, f_e: float) -> float:

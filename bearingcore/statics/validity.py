@@ -20,9 +20,10 @@ What the model leaves out and what is looked at here:
   which go with it, and the shock of a ball that meets the far edge of a defect are left out too;
 - the size of the contact: Hertz takes it for small beside the ball;
 - stale stiffness: a load-deflection factor that does not go with the drawing;
+- the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect.
 
-Not looked at: lubricant film, friction, temperature, fits, rings that bend, a cage that slips.
+Not looked at: friction, temperature, fits, rings that bend, a cage that slips.
 Balls sunk deep into a defect, which the printed Eq. 8 mistakes for loaded ones, need no warning:
 the kernels tell them apart exactly.
 """
@@ -30,21 +31,20 @@ the kernels tell them apart exactly.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.numbers import count, number, percent, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.contacts.hertz import in_series
 from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
+from bearingcore.statics.film import TOUCHING, Film
+from bearingcore.statics.limit import Limit, unknown
 from bearingcore.statics.passes import STEPS_A_PASSAGE
 from bearingcore.statics.pressure import heaviest_ball
 
@@ -84,44 +84,6 @@ def usual_shoulder_height(contact_angle: float) -> float:
     return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
 
 
-@dataclass(frozen=True)
-class Limit:
-    """One number of a scene beside what it should not pass.
-
-    Attributes
-    ----------
-    name
-        what is looked at.
-    value, limit [unit]
-        value is NaN where it is not known.
-    unit
-        SI; empty for a ratio or a count.
-    crossed
-        True where the model no longer holds. False where the value is not known.
-    sentence
-        the same in words, with the number.
-    """
-
-    name: str
-    value: float
-    limit: float
-    unit: str
-    crossed: bool
-    sentence: str
-
-
-def limits_table(found: Sequence[Limit]) -> ResultTable:
-    """Limits as a table: a row each; what is not known is NaN."""
-    return table_of(
-        ("limit_of", "", [one.name for one in found], "what is looked at"),
-        ("value", "", [one.value for one in found]),
-        ("limit", "", [one.limit for one in found]),
-        ("unit", "", [one.unit for one in found]),
-        ("crossed", "", [one.crossed for one in found]),
-        ("sentence", "", [one.sentence for one in found]),
-    )
-
-
 def looked_at(scene: Scene) -> NDArray[np.float64]:
     """Cage angles [rad] at which `limits` looks: fine, and the same for everybody who asks.
 
@@ -139,6 +101,7 @@ def limits(
     dynamic_load: float | None = None,
     step_rate: float | None = None,
     shoulder_height: float | None = None,
+    film: Film | None = None,
 ) -> tuple[Limit, ...]:
     """What the model leaves out of `scene`, each with its number, its limit and a sentence.
 
@@ -157,18 +120,21 @@ def limits(
     shoulder_height
         of the grooves, over their bottom, in ball diameters, above 0 and at most 0.5; None:
         `usual_shoulder_height`.
+    film
+        of the scene's lubricant, from `film` with a viscosity and roughnesses; None where the oil
+        is not given: whether the surfaces touch is then not known.
 
     Returns
     -------
     tuple of Limit
-        in the order of the list at the head of the module. Loads in motion appear only where the
-        shaft turns; steps only with a step rate, a defect and a turning shaft.
+        in the order of the list at the head of the module. Loads in motion and the film appear only
+        where the shaft turns; steps only with a step rate, a defect and a turning shaft.
 
     Raises
     ------
     ValueError
-        for a shoulder height, step rate or load that is not possible, or a `state` of another
-        scene.
+        for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
+        another scene.
     """
     if shoulder_height is None:
         shoulder_height = usual_shoulder_height(scene.bearing.contact_angle)
@@ -177,6 +143,8 @@ def limits(
         state = equilibrium(scene, looked_at(scene))
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    if film is not None and film.scene != scene:
+        raise checks.refuse("film", "the film of another scene", "that of this scene")
     heaviest = heaviest_ball(state).load
     in_motion = None
     if dynamic_load is not None:
@@ -196,6 +164,7 @@ def limits(
             _compression_in_motion(scene, in_motion),
             _stiffness(scene),
         ]
+    found.append(_film(scene, film))
     if step_rate is not None:
         rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
@@ -205,10 +174,6 @@ def limits(
 def _known(state: Equilibrium) -> NDArray[np.bool_]:
     """Cage angles at which the balls' loads are known, also where the ring is free to move."""
     return np.isfinite(state.ball_load.sum(axis=1))
-
-
-def _unknown(name: str, limit: float, unit: str, why: str) -> Limit:
-    return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
 
 
 def _askew() -> Limit:
@@ -234,6 +199,7 @@ def _element(bearing: Bearing) -> str:
 NO_DRAWING = "the groove radii of this bearing are not known"
 NO_STATE = "no cage angle has a static equilibrium"
 NO_MOTION = "no motion of this scene has been simulated yet"
+NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not given"
 
 
 def _pressure(scene: Scene, race: str, load: float) -> Limit:
@@ -241,9 +207,9 @@ def _pressure(scene: Scene, race: str, load: float) -> Limit:
     name = f"contact pressure, {race} race"
     allowed = static_pressure(scene.bearing)
     if not scene.bearing.knows_contacts:
-        return _unknown(name, allowed, "Pa", NO_DRAWING)
+        return unknown(name, allowed, "Pa", NO_DRAWING)
     if math.isnan(load):
-        return _unknown(name, allowed, "Pa", NO_STATE)
+        return unknown(name, allowed, "Pa", NO_STATE)
     p = float(scene.bearing.race_contact(race).greatest_pressure(load))
     crossed = p > allowed
     sentence = (
@@ -266,9 +232,9 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
         return None
     name, allowed = "contact pressure in motion", static_pressure(scene.bearing)
     if not scene.bearing.knows_contacts:
-        return _unknown(name, allowed, "Pa", NO_DRAWING)
+        return unknown(name, allowed, "Pa", NO_DRAWING)
     if load is None:
-        return _unknown(name, allowed, "Pa", NO_MOTION)
+        return unknown(name, allowed, "Pa", NO_MOTION)
     p, race = max(
         (float(scene.bearing.race_contact(race).greatest_pressure(load)), race)
         for race in ("inner", "outer")
@@ -295,7 +261,7 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float) -> Limit:
     loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
     carries = loads > 0.0
     if not carries.any():
-        return _unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
+        return unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
     reach, angles = angles[carries], angles[carries]
     known = bearing.knows_contacts
     if known:
@@ -352,7 +318,7 @@ def _centrifugal_change(scene: Scene, force: float) -> Limit:
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))
     if not effect.converged:
-        return _unknown(name, limit, "", "a cage angle has no static state with it, or without")
+        return unknown(name, limit, "", "a cage angle has no static state with it, or without")
     value = max(effect.load, effect.stiffness)
     crossed = value > limit
     sentence = (
@@ -372,7 +338,7 @@ def _centrifugal_change(scene: Scene, force: float) -> Limit:
 def _share(which: str, force: float, load: float, limit: float, so_what: str) -> Limit:
     name = f"centrifugal force, {which}"
     if not load > 0.0:
-        return _unknown(name, limit, "", "no ball is known to carry load")
+        return unknown(name, limit, "", "no ball is known to carry load")
     share = force / load
     crossed = share > limit
     sentence = (
@@ -388,7 +354,7 @@ def _compression(scene: Scene, load: float) -> Limit:
     """Compression of the most loaded ball against the distance of the groove centres."""
     name = "compression against groove centre distance"
     if math.isnan(load):
-        return _unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
+        return unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
     return _compressed(scene, name, load, "The most loaded ball is")
 
 
@@ -398,7 +364,7 @@ def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
         return None
     name = "compression in motion"
     if load is None:
-        return _unknown(name, GREATEST_COMPRESSION, "", NO_MOTION)
+        return unknown(name, GREATEST_COMPRESSION, "", NO_MOTION)
     return _compressed(scene, name, load, "In the simulated motion a ball is")
 
 
@@ -419,19 +385,6 @@ def _compressed(scene: Scene, name: str, load: float, who: str) -> Limit:
         )
     )
     return Limit(name, share, GREATEST_COMPRESSION, "", crossed, sentence)
-
-
-def summary(found: Sequence[Limit]) -> str:
-    """How it stands in a line: "1 limit crossed, 4 kept, 2 not known"."""
-    unknown = sum(math.isnan(one.value) for one in found)
-    crossed = sum(one.crossed for one in found)
-    kept = len(found) - crossed - unknown
-    words = [count(crossed, "limit") + " crossed"] if crossed else []
-    if kept or not crossed:
-        words.append(f"{kept} kept" if crossed else f"{count(kept, 'limit')} kept")
-    if unknown:
-        words.append(f"{unknown} not known")
-    return ", ".join(words)
 
 
 def _stiffness(scene: Scene) -> Limit | None:
@@ -455,6 +408,16 @@ def _stiffness(scene: Scene) -> Limit | None:
     )
     name = "load-deflection factor against the drawing"
     return Limit(name, off, STIFFNESS_MISMATCH, "", crossed, sentence)
+
+
+def _film(scene: Scene, film: Film | None) -> Limit | None:
+    """Thickness of the thinner film over the roughness; None where no oil is drawn in."""
+    if scene.shaft_speed == 0.0:
+        return None
+    if film is not None:
+        return film.limit
+    why = NO_OIL if scene.bearing.knows_contacts else NO_DRAWING
+    return unknown("film parameter", TOUCHING, "", why)
 
 
 def _steps(scene: Scene, step_rate: float) -> Limit | None:

@@ -198,13 +198,13 @@ def main() -> None:
             (motion, ("spectrum", "acceleration", "displacement")),
             (models, ("spectrum", "level")),
         ):
-            print(f"{experiment.table()}\n{pace()}\n", flush=True)
+            print(f"{experiment.text()}\n{pace()}\n", flush=True)
             title = f"{name}: {experiment.title}"
             draw_experiment(experiment, f"{name}-{experiment.name}", title, errors)
     print(order_table(measured_orders()), flush=True)
     charts = {name: stability_chart(presets[name]) for name in ("fan-rig", "liew-lim")}
     for name, chart in charts.items():
-        print(f"{name}\n{chart.table()}", flush=True)
+        print(f"{name}\n{chart.text()}", flush=True)
     draw_stability(charts)
     drifts = energy_drifts(fan_rig)
     for drift in drifts:

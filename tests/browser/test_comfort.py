@@ -413,6 +413,7 @@ def test_the_projector_has_large_type_and_fewer_controls(
     assert page.evaluate(labels) == before
 
 
+@pytest.mark.proof
 def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)

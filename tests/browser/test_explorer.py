@@ -267,6 +267,7 @@ def test_the_keyboard_moves_sliders_numbers_and_tabs(
     expect(page.locator(".view-bearing")).to_be_hidden()
 
 
+@pytest.mark.proof
 def test_the_page_fits_the_screen(watch: tuple[Page, Watch], explorer: Server) -> None:
     """Opened on each screen, and each tab on each of them."""
     page, _ = watch

@@ -44,6 +44,7 @@ def open_scene(page: Page, server: Server, preset: str, tab: str = "load") -> No
     settle(page)
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("preset", ["7208-back-to-back", "nu208"])
 def test_every_tab_shows_it(watch: tuple[Page, Watch], explorer: Server, preset: str) -> None:
     page, _ = watch

@@ -81,6 +81,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     assert "Traceback" not in server.log
 
 
+@pytest.mark.proof
 def test_panel_serve_shows_the_page_too(watch: tuple[Page, Watch]) -> None:
     page, _ = watch
     with serving(page_server(ROOT / "app" / "app.py")) as server:

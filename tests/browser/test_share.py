@@ -206,6 +206,7 @@ def test_scenes_are_kept_pinned_and_read_back_with_care(
     expect(menu(page, "Keep").locator(".kept li")).to_have_count(0)
 
 
+@pytest.mark.proof
 def test_everything_can_be_taken_away(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     opened(page, explorer, LINK.replace("stiffness", "load"))

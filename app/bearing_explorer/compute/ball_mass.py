@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.compute.excerpt import Event, excerpt
+from bearing_explorer.compute.excerpt import Event, acceleration_columns, excerpt
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.dynamics.strikes import Flight, Strike, flights, strikes
+from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, flights, strikes
 from bearingcore.model.defect import RACES
 from bearingcore.plan.balls import QUIET, compared_directions
 from bearingcore.statics.passes import path_kinks
@@ -43,7 +44,7 @@ HARD, MOST_STRIKES = 0.4, 2
 """Load of a strike over that of the hardest on its race from which on it is shown, and how many of
 a race at most. Elastic loads: the dashpot of a contact adds most of what the housing feels."""
 
-ENOUGH_PASSES = (3.0, 1.0)
+ENOUGH_PASSES = (3.0, 1.0, 0.6)
 """Ball passes out of which the stretch is taken; fewer where the motion is too short for more."""
 
 
@@ -108,6 +109,44 @@ class BallMass:
     spread: Array
     added: Array
     quiet: NDArray[np.bool_]
+
+    def table(self) -> ResultTable:
+        """A row a time: acceleration without and with mass, loads of the balls at both races."""
+        loads = [
+            (f"ball_{ball + 1}_{race}_race_load", "N", load[:, k])
+            for k, ball in enumerate(self.balls)
+            for race, load in zip(RACES_OF_LOADS, self.loads, strict=True)
+        ]
+        return table_of(
+            ("time", "s", self.time),
+            *acceleration_columns("massless_", self.massless),
+            *acceleration_columns("with_mass_", self.with_mass),
+            *loads,
+        )
+
+    def spectrum_table(self) -> ResultTable:
+        """A row a frequency: the density without and with mass."""
+        both = (("massless", self.massless_spectra), ("with_mass", self.spectra))
+        any_of_all = [one for _, spectra in both for one in spectra.values()]
+        return table_of(
+            *(("frequency", "Hz", one.frequency) for one in any_of_all[:1]),
+            *(
+                (f"{who}_density_{dof}", "(m/s²)²/Hz", one.density)
+                for who, spectra in both
+                for dof, one in spectra.items()
+            ),
+        )
+
+    def share_table(self) -> ResultTable:
+        """A row an octave: the share of the power that mass adds."""
+        return table_of(
+            ("lowest_frequency", "Hz", self.octaves[:-1]),
+            ("highest_frequency", "Hz", self.octaves[1:]),
+            ("mass_share", "1", self.share),
+            ("mass_share_standard_error", "1", self.spread),
+            ("added", "dB", self.added),
+            ("quiet", "", self.quiet),
+        )
 
     @property
     def entry(self) -> Event | None:

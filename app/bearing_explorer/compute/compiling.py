@@ -13,7 +13,7 @@ import subprocess
 import threading
 
 from bearingcore import kernels, presets
-from bearingcore.experiments.ball_steps import march_implicit_balls
+from bearingcore.experiments.ball_steps import march_split_balls
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
 from bearingcore.plan.warm_up import motions_with_mass, start_python
@@ -63,7 +63,7 @@ def _slowest() -> tuple[object, ...]:
         kernels.march_with_tangent,
         kernels.march_balls,
         kernels.race_loads,
-        march_implicit_balls,
+        march_split_balls,
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import DOF_NAMES, Equilibrium, Scene, Spectrum
+from bearingcore.common.table import ResultTable, table_of
 
 HEARD = 40.0
 """[dB] below the loudest line down to which spectra are compared."""
@@ -35,6 +36,17 @@ class DofComparison:
     static: dict[str, float]
     motion: dict[str, float]
     no_motion: str = ""
+
+    def table(self) -> ResultTable:
+        """The directions compared, and a row a quantity: its greatest difference."""
+        names = [*self.static, *(f"spectrum along {dof}" for dof in self.motion)]
+        values = [f"{value:.3g}" for value in (*self.static.values(), *self.motion.values())]
+        units = ["1"] * len(self.static) + ["dB"] * len(self.motion)
+        return table_of(
+            ("quantity", "", ["free directions", "compared with", *names]),
+            ("greatest_difference", "", [" ".join(self.chosen), " ".join(self.other), *values]),
+            ("unit", "", ["", "", *units]),
+        )
 
 
 def other_dofs(scene: Scene) -> tuple[str, ...]:

@@ -10,7 +10,11 @@ from bearingcore import contact_pressures, dynamic_load_rating, equilibrium, fil
 from bearingcore.statics.validity import looked_at
 
 if TYPE_CHECKING:
-    from bearingcore import ContactPressures, Film, Life, Limit, Scene
+    from bearingcore import ContactPressures, Equilibrium, Film, Life, Scene
+
+
+ASSUMED_VISCOSITY = 0.02
+"""[Pa·s] of an oil of which nothing is said: a usual one, warm."""
 
 
 @dataclass(frozen=True)
@@ -20,13 +24,14 @@ class Asked:
     dynamic_load_rating
         C_r [N] of the catalogue; None: computed by ISO 281.
     viscosity [Pa·s]
-        of the oil where it is drawn in, at its temperature.
+        of the oil where it is drawn in, at its temperature; None: not known, and then a film is
+        shown for `ASSUMED_VISCOSITY` but no limit of the scene judged by it.
     race_roughness, ball_roughness [m]
         root mean square.
     """
 
     dynamic_load_rating: float | None = None
-    viscosity: float = 0.02
+    viscosity: float | None = None
     race_roughness: float = 0.1e-6
     ball_roughness: float = 0.05e-6
 
@@ -51,11 +56,6 @@ class Endurance:
     no_pressures: str
     film: Film | None
     no_film: str
-
-    @property
-    def limits(self) -> tuple[Limit, ...]:
-        """The film of each race beside the one below which surfaces touch."""
-        return () if self.film is None else self.film.limits()
 
 
 def _endurance(scene: Scene, asked: Asked) -> Endurance:
@@ -84,21 +84,23 @@ def _endurance(scene: Scene, asked: Asked) -> Endurance:
     except ValueError as error:
         no_pressures = _why(error)
     oil, no_film = None, ""
-    if scene.bearing.is_roller:
-        no_film = "The formula for the film here is that of balls; for rollers it is not computed."
-    else:
-        try:
-            oil = film(
-                scene,
-                viscosity=asked.viscosity,
-                roughness_inner=asked.race_roughness,
-                roughness_outer=asked.race_roughness,
-                roughness_ball=asked.ball_roughness,
-                state=state,
-            )
-        except ValueError as error:
-            no_film = _why(error)
+    try:
+        oil = film_of(scene, asked, state)
+    except ValueError as error:
+        no_film = _why(error)
     return Endurance(lasting, no_life, rating, rating_words, pressures, no_pressures, oil, no_film)
+
+
+def film_of(scene: Scene, asked: Asked, state: Equilibrium) -> Film:
+    """The film of a scene with the oil that was asked for; ValueError as of `film`."""
+    return film(
+        scene,
+        viscosity=asked.viscosity or ASSUMED_VISCOSITY,
+        roughness_inner=asked.race_roughness,
+        roughness_outer=asked.race_roughness,
+        roughness_ball=asked.ball_roughness,
+        state=state,
+    )
 
 
 def _why(error: ValueError) -> str:

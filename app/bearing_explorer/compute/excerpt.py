@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import Scene, equilibrium
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.passes import Crossing, crossings
 
 if TYPE_CHECKING:
@@ -61,6 +63,31 @@ class Excerpt:
     static_load: NDArray[np.float64]
     greatest_static_load: float
     broke_off: str
+
+    def table(self) -> ResultTable:
+        """Rows in time: acceleration and loads as they move; and the loads at rest."""
+        return table_of(
+            ("time", "s", self.time),
+            *acceleration_columns("", self.acceleration),
+            *self._of_balls("load", self.ball_load),
+            ("static_time", "s", self.static_time),
+            *self._of_balls("static_load", self.static_load),
+        )
+
+    def _of_balls(
+        self, what: str, values: NDArray[np.float64]
+    ) -> list[tuple[str, str, NDArray[np.float64]]]:
+        """Columns of loads (n, k) of the balls."""
+        named = zip(self.balls, values.T, strict=True)
+        return [(f"ball_{ball + 1}_{what}", "N", load) for ball, load in named]
+
+
+def acceleration_columns(
+    who: str, acceleration: Mapping[str, NDArray[np.float64]]
+) -> Iterator[tuple[str, str, NDArray[np.float64]]]:
+    """Columns of accelerations by direction, `who` before their names."""
+    for dof, signal in acceleration.items():
+        yield f"{who}acceleration_{dof}", "rad/s²" if dof.startswith("r") else "m/s²", signal
 
 
 def excerpt(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:

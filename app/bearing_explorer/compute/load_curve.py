@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from bearingcore.common.table import ResultTable, table_of
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium
@@ -18,8 +21,12 @@ BINS = 720
 SAME_PLACE = 1e-9  # [rad]
 
 
-def load_curve(equilibrium: Equilibrium, row: int = 0) -> Curve:
+def load_curve(
+    equilibrium: Equilibrium, row: int = 0, loads: NDArray[np.float64] | None = None
+) -> Curve:
     """Angle from 0 to 2π [rad] and load [N] of a ball there, every position of the row's balls.
+
+    `loads` (n, N_b) [N]: others than `ball_load`, such as those at the inner race.
 
     With a defect that stands still the load depends on the ball's angle alone and this is one
     curve. A defect of the inner race comes by everywhere: then the greatest load at each half
@@ -29,7 +36,7 @@ def load_curve(equilibrium: Equilibrium, row: int = 0) -> Curve:
     own = slice(row * n, (row + 1) * n)
     angle = np.mod(equilibrium.ball_angle[:, own], TWO_PI).ravel()
     angle[angle > TWO_PI - SAME_PLACE] = 0.0
-    load = equilibrium.ball_load[:, own].ravel()
+    load = (equilibrium.ball_load if loads is None else loads)[:, own].ravel()
     if any(defect.race == "inner" for defect in equilibrium.scene.defects):
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")
@@ -42,6 +49,20 @@ def load_curve(equilibrium: Equilibrium, row: int = 0) -> Curve:
         np.concatenate([[angle[-1] - TWO_PI], angle, [angle[0] + TWO_PI]]),
         np.concatenate([[load[-1]], load, [load[0]]]),
     )
+
+
+def row_name(row: int) -> str:
+    """How names of a row's columns begin: those of the first have no number."""
+    return f"row_{row + 1}_" if row else ""
+
+
+def curves_table(curves: Sequence[Curve]) -> ResultTable:
+    """Angles and loads of each row's curve; only the first row's columns have no number."""
+    columns = []
+    for row, (angle, load) in enumerate(curves):
+        own = row_name(row)
+        columns += [(f"{own}ball_angle", "rad", angle[1:-1]), (f"{own}ball_load", "N", load[1:-1])]
+    return table_of(*columns)
 
 
 def _greatest(angle: NDArray[np.float64], load: NDArray[np.float64]) -> Curve:

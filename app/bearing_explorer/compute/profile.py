@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.compute.defect_shape import race_depth, spans
 from bearingcore import Scene
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.passes import ball_drop
 
 TWO_PI = 2.0 * math.pi
@@ -30,6 +31,14 @@ class Profile:
     depth: NDArray[np.float64]
     path: NDArray[np.float64]
     row: int = 0
+
+    def table(self) -> ResultTable:
+        """A row an angle: depth of the race, and how far the ball's centre drops."""
+        return table_of(
+            ("angle", "rad", self.angle),
+            ("race_depth", "m", self.depth),
+            ("ball_center_drop", "m", self.path),
+        )
 
 
 def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:

@@ -28,6 +28,7 @@ from bearing_explorer.compute.dof_comparison import (
     spectrum_differences,
     static_differences,
 )
+from bearing_explorer.compute.endurance import Asked, Endurance, endurance, film_of
 from bearing_explorer.compute.excerpt import Excerpt, excerpt
 from bearing_explorer.compute.executors import BESIDE
 from bearing_explorer.compute.load_curve import Curve, load_curve
@@ -35,7 +36,7 @@ from bearing_explorer.compute.planning import plan_for
 from bearing_explorer.compute.profile import Profile, profile
 from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.adaptive import simulate_adaptive
@@ -48,8 +49,10 @@ from bearingcore.model.packing import is_planar
 from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.plan.balls import BallComparison, compare_balls
+from bearingcore.statics.ball_positions import EquilibriumWithMass
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import drops_now
+from bearingcore.statics.validity import looked_at
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
@@ -67,15 +70,15 @@ HASTY_PERIODS = 30
 
 
 def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
-    return core.equilibrium(scene, np.linspace(first, last, n_cage_angles))
+    return core.static_state(scene, np.linspace(first, last, n_cage_angles))
 
 
 def _over_nodes(scene: Scene, nodes: bytes) -> Equilibrium:
-    return core.equilibrium(scene, np.frombuffer(nodes))
+    return core.static_state(scene, np.frombuffer(nodes))
 
 
 def _at(scene: Scene, cage_angle: float) -> Equilibrium:
-    return core.equilibrium(scene, np.array([cage_angle]))
+    return core.static_state(scene, np.array([cage_angle]))
 
 
 def _modes(scene: Scene, first: float, last: float, n_cage_angles: int) -> Modes:
@@ -99,6 +102,13 @@ COARSE_STEPS = 0.45
 """Part of the usual steps that is taken while a slider moves, where all of them take too long."""
 SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
+
+
+GLANCE, PASSES_OF_GLANCE, DROP_OF_GLANCE = 0.05, 2.36, 0.3
+"""[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
+of it that counts as its start and is not shown. What is shown is as long as one stretch of a
+spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
+ends within six tenths of the next."""
 
 
 class Moved(NamedTuple):
@@ -134,7 +144,8 @@ def _marched(scene: Scene, how: Marching) -> Moved:
     motion = core.simulate(
         scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
     )
-    return Moved(motion, 0.5 * duration)
+    glance = how.coarse and duration < SHORTEST
+    return Moved(motion, (DROP_OF_GLANCE if glance else 0.5) * duration)
 
 
 def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
@@ -240,7 +251,11 @@ def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> fl
         return how.duration  # there is no motion
     if rate == 0.0:
         return how.duration
-    return min(how.duration, max(most / (rate * _step_cost(scene)), SHORTEST))
+    shortest = SHORTEST
+    if how.coarse and scene.cage_speed > 0.0:
+        glance = PASSES_OF_GLANCE * scene.bearing.ball_spacing / scene.cage_speed
+        shortest = min(max(glance, GLANCE), SHORTEST)
+    return min(how.duration, max(most / (rate * _step_cost(scene)), shortest))
 
 
 def _excerpt(scene: Scene, how: How) -> Excerpt:
@@ -287,8 +302,14 @@ def _dynamic_load(scene: Scene, how: How) -> float:
     return float(loads.max(initial=0.0))
 
 
-def _limits(scene: Scene, step_rate: float | None, dynamic_load: float | None) -> tuple[Limit, ...]:
-    return core.limits(scene, dynamic_load=dynamic_load, step_rate=step_rate)
+def _limits(
+    scene: Scene, step_rate: float | None, dynamic_load: float | None, asked: Asked
+) -> tuple[Limit, ...]:
+    state = core.equilibrium(scene, looked_at(scene))
+    oil = None
+    if asked.viscosity is not None and scene.bearing.knows_contacts:
+        oil = film_of(scene, asked, state)
+    return core.limits(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
 
 
 def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
@@ -348,6 +369,7 @@ class Results:
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
     plans: {view: Plan} of what is to be planned; without those that cannot be
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
+    endurance: life, contact pressure and film, with the oil and steel of `asked`
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
     chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
@@ -397,11 +419,13 @@ class Results:
         planned: tuple[str, ...] = (),
         pinned: Reference | None = None,
         before: Scene | None = None,
+        asked: Asked | None = None,
     ) -> None:
         """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
 
         `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
         without its defect. `before`: the scene before the last change, where there was one.
+        `asked`: what somebody says of steel, oil and surfaces.
         """
         self.scene = scene
         self.cage_angle = cage_angle
@@ -411,6 +435,7 @@ class Results:
         self.planned = planned
         self.pinned = pinned
         self.before = before
+        self.asked = asked or Asked()
         #: times [s] that processors have worked on it, in any thread: waiting is no cost
         self.costs: list[float] = []
 
@@ -425,6 +450,11 @@ class Results:
         if self.pinned is not None:
             return self.pinned.words
         return "without the defect" if self.scene.defects else ""
+
+    @property
+    def grey_words(self) -> str:
+        """What it is called in a caption."""
+        return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
 
     @property
     def beside_name(self) -> str:
@@ -537,6 +567,15 @@ class Results:
         """Load [N] of a ball over its angle [rad], a curve a row."""
         return _load_curves(self.equilibrium)
 
+    @cached_property
+    def inner_load_curves(self) -> list[Curve]:
+        """The same at the inner race, where balls with mass carry less; none of massless ones."""
+        found = self.equilibrium
+        if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
+            return []
+        rows = range(len(found.scene.bearing.all_rows))
+        return [load_curve(found, row, found.inner_load) for row in rows]
+
     @property
     def load_curve(self) -> Curve:
         """That of the first row."""
@@ -557,6 +596,11 @@ class Results:
         """Static answer at the cage angle shown; arrays of length 1."""
         return single_equilibria(self.scene, self.cage_angle)
 
+    @property
+    def massless_now(self) -> Equilibrium:
+        """The same as maps have it: without the mass of the balls."""
+        return single_equilibria(self.scene.replace(balls=MASSLESS), self.cage_angle)
+
     @cached_property
     def healthy_now(self) -> Equilibrium:
         """The same without the defect."""
@@ -569,11 +613,17 @@ class Results:
 
     @cached_property
     def band_modes(self) -> Modes:
-        """`modes` for their bands alone: while a hand moves, at every third cage angle."""
-        if not self.moving:
-            return self.modes
+        """`modes` for their bands alone: while a hand moves, at every third cage angle.
+
+        When it rests, at thrice as many where no plan says which: a band is then the same to a
+        hertz on every tab.
+        """
         first, last, n = self.stretch
-        return modes(self.scene, first, last, n // 3 + 1)
+        if self.moving:
+            return modes(self.scene, first, last, n // 3 + 1)
+        if self.settings.cage_angles is not None or self._nodes(healthy=False) is not None:
+            return self.modes
+        return modes(self.scene, first, last, 3 * n - 2)
 
     @cached_property
     def healthy_modes(self) -> Modes:
@@ -824,7 +874,12 @@ class Results:
                 step_rate = step_rates(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return limits_of(self.scene, step_rate, self._dynamic_load)
+        return limits_of(self.scene, step_rate, self._dynamic_load, self.asked)
+
+    @property
+    def endurance(self) -> Endurance:
+        """Life, pressure and film of the scene, with the oil and steel that were asked for."""
+        return endurance(self.scene, self.asked)
 
     @property
     def _dynamic_load(self) -> float | None:

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from bearing_explorer.compute.endurance import endurance
+from bearing_explorer.compute.endurance import ASSUMED_VISCOSITY
 from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
 from bearingcore import RACES, Scene
 from bearingcore.dynamics.orbit import Orbit
+from bearingcore.model.scene import WITH_MASS
 from bearingcore.plan import CURVES
 
 if TYPE_CHECKING:
@@ -89,6 +90,13 @@ def _both(
     )
 
 
+def statics_of(results: Results) -> str:
+    """The core's function that the statics on screen are from."""
+    with_mass = results.scene.balls == WITH_MASS
+    beside = results.pinned is not None and results.beside.balls == WITH_MASS
+    return "static_state" if with_mass or beside else "equilibrium"
+
+
 def _plot(script: Script, *lines: str) -> None:
     script.module("import matplotlib.pyplot as plt")
     script.add("", *lines, "plt.show()")
@@ -133,21 +141,22 @@ def _least_rate(found: Orbit) -> float:
 
 
 def _anything(script: Script, results: Results, view: Any) -> None:
-    script.core("equilibrium")
+    function = statics_of(results)
+    script.core(function)
     angles = _angles(script, results.equilibrium.cage_angles, results, "scene")
     script.add(
-        f"found = equilibrium(scene, {angles})  # see also the numbers of this view as CSV",
+        f"found = {function}(scene, {angles})  # see also the numbers of this view as CSV",
         "print(found.ball_load.max(), found.converged.all())",
     )
 
 
 def _bearing(script: Script, results: Results, view: Any) -> None:
     script.numpy()
-    script.core("equilibrium")
+    script.core(statics_of(results))
     script.part("statics.passes", "drops_now")
     script.add(
         f"cage_angle = {short(results.cage_angle)}",
-        "now = equilibrium(scene, [cage_angle])",
+        f"now = {statics_of(results)}(scene, [cage_angle])",
         "angle = now.ball_angle[0]",
         "columns = {",
         '    "row": 1 + np.arange(angle.size) // scene.bearing.n_balls,',
@@ -169,8 +178,7 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
 
 
 def _life(script: Script, results: Results, view: Any) -> None:
-    asked = view.asked
-    found = endurance(results.scene, asked)
+    asked, found = results.asked, results.endurance
     if found.life is not None:
         script.core("life")
         rating = short(found.life.dynamic_load_rating)
@@ -188,7 +196,7 @@ def _life(script: Script, results: Results, view: Any) -> None:
         script.core("film")
         script.add(
             "oil = film(",
-            f"    scene, viscosity={short(asked.viscosity)}, "
+            f"    scene, viscosity={short(asked.viscosity or ASSUMED_VISCOSITY)}, "
             f"roughness_inner={short(asked.race_roughness)},",
             f"    roughness_outer={short(asked.race_roughness)}, "
             f"roughness_ball={short(asked.ball_roughness)},",
@@ -199,7 +207,14 @@ def _life(script: Script, results: Results, view: Any) -> None:
 
 def _load_distribution(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "equilibrium", results.equilibrium, results.healthy_all_around, beside)
+    _both(
+        script,
+        results,
+        statics_of(results),
+        results.equilibrium,
+        results.healthy_all_around,
+        beside,
+    )
     script.add(
         "columns = {}  # every position of every ball, row after row",
         f'for kind, answer in (("", found), ("{results.beside_name}_", grey)):',
@@ -259,7 +274,14 @@ def _depth_profile(script: Script, results: Results, view: Any) -> None:
 
 def _stiffness(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
-    _both(script, results, "equilibrium", results.equilibrium, results.healthy_equilibrium, beside)
+    _both(
+        script,
+        results,
+        statics_of(results),
+        results.equilibrium,
+        results.healthy_equilibrium,
+        beside,
+    )
     script.core("STIFFNESS_TERMS")
     script.add(
         "columns = {}",
@@ -548,13 +570,13 @@ _EXPERIMENTS = {
 
 def _dofs(script: Script, results: Results, view: Any) -> None:
     found = results.dof_comparison
-    script.core("equilibrium")
+    script.core(statics_of(results))
     script.numpy()
     angles = _angles(script, results.equilibrium.cage_angles, results, "scene")
     script.add(
         f"angles = {angles}",
-        "chosen = equilibrium(scene, angles)",
-        f"other = equilibrium(scene.replace(dofs={quoted(repr(found.other))}), angles)",
+        f"chosen = {statics_of(results)}(scene, angles)",
+        f"other = {statics_of(results)}(scene.replace(dofs={quoted(repr(found.other))}), angles)",
         'for term in ("k_xx", "k_yy"):',
         "    difference = np.abs(chosen.term(term) - other.term(term)).max()",
         "    print(term, difference / np.abs(other.term(term)).max())",

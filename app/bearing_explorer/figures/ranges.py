@@ -8,6 +8,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+ROOM = 0.03
+"""Of the numbers' span: that a line of some pixels does not lie on the frame."""
+
 Anchor = Literal["free", "zero", "symmetric"]
 
 
@@ -25,6 +28,9 @@ class StickyRange:
         "zero": always holds zero. "symmetric": zero in the middle. "free": neither.
     least_span
         smallest width of a fitted range, so that rounding noise is not blown up to full height.
+    room
+        part of the numbers' span that is kept free above and below them, so that no curve touches
+        the edge; it ends at zero.
     """
 
     def __init__(
@@ -35,11 +41,13 @@ class StickyRange:
         anchor: Anchor = "free",
         least_span: float = 0.0,
         shrink_below: float = 0.5,
+        room: float = 0.0,
     ) -> None:
         self.start, self.end = float(start), float(end)
         self._anchor = anchor
         self._least_span = least_span
         self._shrink_below = shrink_below
+        self._room = room
         self._fitted = False
 
     def fit(self, *values: ArrayLike) -> tuple[float, float]:
@@ -77,7 +85,11 @@ class StickyRange:
         elif high - low < self._least_span:
             middle = 0.5 * (low + high)
             low, high = middle - 0.5 * self._least_span, middle + 0.5 * self._least_span
-        return low, high
+        room = self._room * (high - low)
+        return (
+            low - room if low < 0.0 else max(low - room, 0.0),
+            high + room if high > 0.0 else min(high + room, 0.0),
+        )
 
 
 def nice_range(low: float, high: float, ticks: int = 8) -> tuple[float, float]:

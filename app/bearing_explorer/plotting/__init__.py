@@ -1,11 +1,12 @@
 """Figures of bearingcore's results for notebooks, as HoloViews objects.
 
-``from app import plotting`` and hand a result to the function that is called like it:
+``from bearing_explorer import plotting`` and hand a result to the function that is called like it:
 
     plotting.load_distribution(equilibrium(scene), healthy=equilibrium(scene.healthy()))
 
 Every object has dimensions with names and units, lies on the page's colours, and can be laid out,
-overlaid, sliced and saved as any HoloViews object can (``+``, ``*``, ``.select``, ``hv.save``).
+overlaid, sliced and saved as any HoloViews object can (``+``, ``*``, ``.select``, ``hv.save``; with
+``resources="inline"`` what it saves needs nothing from outside).
 Numbers are in SI units, with the prefix of the axis chosen as one zooms; angles are in degrees, and
 their dimensions say so: ``cage_angle_deg``.
 """
@@ -17,9 +18,12 @@ if "bokeh" not in hv.Store.loaded_backends():
 
 from bearing_explorer.plotting.maps import maps
 from bearing_explorer.plotting.motion import motion, orbit, spectrum
+from bearing_explorer.plotting.notebook import bring_style_sheets
 from bearing_explorer.plotting.plane import plane
 from bearing_explorer.plotting.sizing import sizing
 from bearing_explorer.plotting.statics import load_distribution, modes, stiffness
+
+bring_style_sheets()
 
 __all__ = [
     "load_distribution",

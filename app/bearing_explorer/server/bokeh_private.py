@@ -35,6 +35,7 @@ from panel.custom import JSComponent
 from panel.io import document as panel_document
 from panel.models.esm import DataEvent
 from panel.template.base import BaseTemplate
+from panel.viewable import Viewable
 
 log = logging.getLogger(__name__)
 
@@ -95,6 +96,7 @@ def _names() -> Iterator[PrivateName]:
     for kind, name in (
         (JSComponent, "_process_bokeh_event"),
         (JSComponent, "_send_msg"),
+        (Viewable, "_preprocessing_hooks"),
     ):
         yield PrivateName("panel", f"{kind.__name__}.{name}", hasattr(kind, name))
     for kind, name in (
@@ -349,3 +351,13 @@ def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
             _walk(made[name], visitor)
         elif unstable:
             _walk(getattr(value, name), visitor)
+
+
+# What is made outside of a server
+
+
+def before_showing(change: Callable[[Any, Any], None]) -> None:
+    """Have `change` see the roots of all that Panel shows; where it cannot, they stay as made."""
+    hooks = getattr(Viewable, "_preprocessing_hooks", None)
+    if hooks is not None and change not in hooks:
+        hooks.append(change)

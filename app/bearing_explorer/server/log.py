@@ -44,7 +44,7 @@ class OneLine(logging.Formatter):
 class Seldom(logging.Filter):
     """Trouble of one kind is written once a second at most; the next line counts the others.
 
-    A flood must not become one of lines. What is of one kind is told by the place in a program
+    A flood must not become one of lines. What is of one kind is known by the place in a program
     that writes it, and by the first word of our own lines.
     """
 

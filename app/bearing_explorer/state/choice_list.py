@@ -259,8 +259,8 @@ BALLS = Choice(
             "with mass",
             "With mass",
             "Each ball has its own place, its inertia, centrifugal load and weight, and a contact "
-            "with each race: it flies, and strikes. Of simulated motions; statics stay as they "
-            "are.",
+            "with each race: it flies, and strikes. Loads and stiffness at rest count the "
+            "centrifugal load; maps and natural frequencies leave it out.",
         ),
     ),
     of="scene",

@@ -48,9 +48,13 @@ class Limits:
             self.most if math.isnan(self.typed_most) else self.typed_most,
         )
 
+    def holds(self, value: float) -> bool:
+        """Whether the slider reaches `value`, or it is left open."""
+        return self.least <= value <= self.most or math.isnan(value)
+
     def around(self, value: float) -> Limits:
         """The same, with a slider that reaches `value`: to the end or a round number past it."""
-        if self.least <= value <= self.most or math.isnan(value):
+        if self.holds(value):
             return self
         low, high = self.allowed
         room = _round_up(1.5 * abs(value))

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 from bearingcore import Scene
 
+WITHOUT_DEFECT = "the bearing without its defect"
+"""What figures draw in grey while nothing is pinned."""
+
 
 @dataclass(frozen=True)
 class Reference:

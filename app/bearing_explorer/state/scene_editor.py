@@ -96,6 +96,7 @@ class Snapshot:
     selected: int = field(compare=False)
     values: Values = field(compare=False)
     limits: dict[str, Limits] = field(compare=False)
+    usual: dict[str, Limits] = field(compare=False)
     floors: tuple[FloorChoice, ...] = field(compare=False)
 
 
@@ -107,6 +108,8 @@ class SceneEditor:
     scene: Scene = field(init=False)
     values: Values = field(init=False)
     limits: dict[str, Limits] = field(init=False)
+    usual: dict[str, Limits] = field(init=False)
+    """The limits while no number lies outside of its slider."""
     selected: int = field(init=False)
     floors: list[FloorChoice] = field(init=False)
     own_name: str = field(init=False, default="")
@@ -130,7 +133,7 @@ class SceneEditor:
         self.drop_draft()
         self.selected = 0
         self.floors = [_choice_of(defect) for defect in self.defects]
-        self.limits = limits_of(self.scene)
+        self._begin_limits(limits_of(self.scene))
         self.values = {}
         self._write_values(cage_angle=0.0)
 
@@ -166,7 +169,7 @@ class SceneEditor:
         self.own_name, self.origin = clean_name(name), ""
         self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
-        self.limits = limits
+        self._begin_limits(limits)
         self.values = {}
         self._write_values(cage_angle)
 
@@ -182,6 +185,7 @@ class SceneEditor:
             selected=self.selected,
             values=dict(self.values),
             limits=dict(self.limits),
+            usual=dict(self.usual),
             floors=tuple(dataclasses.replace(floor) for floor in self.floors),
         )
 
@@ -191,6 +195,7 @@ class SceneEditor:
         self.own_name, self.origin = kept.own_name, kept.origin
         self.drop_draft()
         self.values, self.limits = dict(kept.values), dict(kept.limits)
+        self.usual = dict(kept.usual)
         self.floors = [dataclasses.replace(floor) for floor in kept.floors]
 
     @property
@@ -227,7 +232,7 @@ class SceneEditor:
         ValueError, and nothing changed, where the scene's defects do not go with it.
         """
         self._take(scene_with(self.scene, bearing))
-        self.limits = limits_of(self.scene)
+        self._begin_limits(limits_of(self.scene))
         self._write_values()
         self.own_name, self.origin = clean_name(name), origin
         self.drop_draft()
@@ -275,6 +280,22 @@ class SceneEditor:
         }
         return refused, changed
 
+    def narrow(self) -> list[str]:
+        """Give sliders that a number had widened their usual length where it is back on it.
+
+        Returns their names. Not for a hand that holds one: it would move from under it.
+        """
+        names = [
+            name
+            for name, limit in self.limits.items()
+            if limit != (usual := self.usual[name]) and usual.holds(self.values[name])
+        ]
+        self.limits |= {name: self.usual[name] for name in names}
+        return names
+
+    def _begin_limits(self, usual: dict[str, Limits]) -> None:
+        self.limits, self.usual = dict(usual), dict(usual)
+
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
         rough: dict[str, Any] = {}
@@ -312,7 +333,8 @@ class SceneEditor:
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
         """Make `scene` the one that is shown."""
         if scene.bearing != self.scene.bearing:
-            self.limits |= groove_limits(scene)
+            grooves = groove_limits(scene)
+            self.limits, self.usual = self.limits | grooves, self.usual | grooves
         self.scene = scene
         self._write_values(cage_angle)
 
@@ -389,7 +411,7 @@ class SceneEditor:
 
     def _take_kind(self, kind: str) -> None:
         self._take(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
-        self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
+        self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
         self._write_values()
         self.drop_draft()
 

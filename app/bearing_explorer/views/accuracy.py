@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 import math
-import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -71,7 +70,6 @@ AXES = {
     next(iter(BANDS)): f"Error of third octaves, {next(iter(BANDS))} (dB)",
 }
 """The error that each experiment draws."""
-UNITS = {"spectrum": "_db", "level": "_db", **dict.fromkeys(BANDS, "_db")}
 
 NEAR = 0.04
 """Part of the figure within which a click means a point."""
@@ -361,32 +359,7 @@ class Accuracy(JobView[Found]):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         if self.found is None:
             return {}
-        result = self.found.result
-        if isinstance(result, StabilityChart):
-            trials = result.trials
-            return {
-                "method": np.array([t.method for t in trials]),
-                "step_rate_hz": np.array([t.step_rate for t in trials]),
-                "verdict": np.array([t.verdict for t in trials]),
-                "spectrum_error_db": np.array([t.spectrum_error for t in trials]),
-                "amplitude_ratio": np.array([t.amplitude for t in trials]),
-                "linear_limit_hz": np.array([result.linear_limit[t.method] for t in trials]),
-            }
-        points = result.points
-        return {
-            "method": np.array([p.method for p in points]),
-            "setting": np.array([p.setting for p in points]),
-            **{
-                f"{_column(name)}_error{UNITS.get(name, '')}": np.array(
-                    [p.errors.get(name, math.nan) for p in points]
-                )
-                for name in result.errors
-            },
-            "time_s": np.array([p.seconds for p in points]),
-            "evaluations": np.array([p.evaluations for p in points]),
-            "status": np.array([p.status for p in points]),
-            "reference": np.array([p.against for p in points]),
-        }
+        return self.found.result.table().named()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -427,11 +400,6 @@ def look(slot: int) -> tuple[str, str]:
 def _usable(point: Point) -> bool:
     """Whether the scene's motion can be marched with a point's steps."""
     return point.method == "RK4" and "step_rate" in point.settings and not point.failed
-
-
-def _column(name: str) -> str:
-    """An error's name in a table."""
-    return re.sub(r"\W+", "_", name).lower()
 
 
 def _said(name: str) -> str:
@@ -505,11 +473,17 @@ def _agreement(result: Experiment | StabilityChart) -> str:
         list(result.references.values()) if isinstance(result, Experiment) else [result.reference]
     )
     worst = max(references, key=lambda r: (not r.trusted, r.agreement[name]))
-    unit = " dB" if name in UNITS else ""
+    unit = _unit(result, name)
     verdict = "agree" if worst.trusted else "do not agree, so small errors mean little"
     words = f"Reference: {worst.families[0]} and {worst.families[1]} {verdict}"
     words += f"; their {_said(name)} is apart by {scientific(worst.agreement[name])}{unit}."
     return f"{words} {worst.note}." if worst.note else words
+
+
+def _unit(result: Experiment | StabilityChart, error: str) -> str:
+    """The unit of an error behind its number; charts of stability compare spectra."""
+    unit = result.unit(error) if isinstance(result, Experiment) else "dB"
+    return " dB" if unit == "dB" else ""
 
 
 def _short(error: float) -> str:
@@ -521,7 +495,7 @@ def _work_words(result: Experiment) -> str:
     words = f"{result.title}. "
     if frontier := result.frontier():
         first, last = frontier[0], frontier[-1]
-        unit = " dB" if _drawn(result) in UNITS else ""
+        unit = _unit(result, _drawn(result))
         words += ", ".join(
             f"{kind}: {p.method} with {p.setting} "
             f"({style.with_prefix(p.seconds, 's')}, error {_short(drawn_error(result, p))}"

@@ -14,6 +14,8 @@ stands on one line above the figure, and the rest is shown when asked for), and 
 A view that asks for something, a scene, a job, a measured signal, takes what it needs of the
 session in `attach(parts)`.
 
+What is drawn in grey is ``{grey}`` in `about`: the healthy bearing, or a scene that is pinned.
+
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
 
@@ -34,9 +36,11 @@ from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.figures.zoom import zoomable
 from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.state.reference import WITHOUT_DEFECT
 from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
+    from bearing_explorer.compute.endurance import Asked
     from bearing_explorer.compute.jobs import Jobs
     from bearing_explorer.compute.results import Results
     from bearing_explorer.measurement.session import Measurement
@@ -104,6 +108,8 @@ class SessionParts:
         has a panel of controls follow the scene.
     take_steps
         has motions marched with a step rate [Hz], or with None by the program's own.
+    say_endurance
+        takes what somebody says of steel, oil and surfaces.
     """
 
     editor: SceneEditor
@@ -113,6 +119,7 @@ class SessionParts:
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
+    say_endurance: Callable[[Asked], None]
 
 
 class View:
@@ -148,7 +155,7 @@ class View:
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
-        line, rest = first_sentence(self.about)
+        line, rest = first_sentence(self.caption())
         self._caption = Caption(
             title=self.title,
             line=line,
@@ -205,7 +212,13 @@ class View:
         self._sentence.put(text=sentence)
         self._caption.put(empty=self.is_empty)
         if results is not None and self.compares:
-            self._caption.put(pinned=results.pinned.name if results.pinned else "")
+            line, rest = first_sentence(self.caption(results.grey_words))
+            pinned = results.pinned.name if results.pinned else ""
+            self._caption.put(line=line, rest=rest, pinned=pinned)
+
+    def caption(self, grey: str = WITHOUT_DEFECT) -> str:
+        """What the figure shows; `grey` is what is drawn in grey."""
+        return self.about.replace("{grey}", grey)
 
     @property
     def compares(self) -> bool:

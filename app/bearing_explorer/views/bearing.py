@@ -18,6 +18,7 @@ from bearing_explorer.figures.heat_map import color_bar
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.common.table import table_of
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -71,9 +72,9 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "What the balls carry now, seen along the shaft, several rows side by side. Bars and "
-        "colours: their loads. Grey rim: the same without the defect. Arrow: the load on the "
-        "shaft. The keyway turns with the shaft; z points towards you."
+        "What each ball carries now, seen along the shaft. Several rows stand side by side. Bars "
+        "and colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The "
+        "keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
     equal_aspect = True
@@ -324,18 +325,21 @@ class BearingDrawing(View):
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        now = results.now
-        return {
-            "row": 1
-            + np.arange(results.scene.bearing.total_balls) // results.scene.bearing.n_balls,
-            "ball": 1
-            + np.arange(results.scene.bearing.total_balls) % results.scene.bearing.n_balls,
-            "ball_angle_deg": np.degrees(now.ball_angle[0]),
-            "ball_load_n": now.ball_load[0],
-            "contact_angle_deg": np.degrees(now.contact_angle[0]),
-            "drop_into_outer_race_um": 1e6 * results.drop["outer"],
-            "drop_into_inner_race_um": 1e6 * results.drop["inner"],
-        }
+        bearing, now = results.scene.bearing, results.now
+        row, ball = np.divmod(np.arange(bearing.total_balls), bearing.n_balls)
+        return (
+            table_of(
+                ("row", "", row + 1),
+                ("ball", "", ball + 1),
+                ("ball_angle", "rad", now.ball_angle[0]),
+                ("ball_load", "N", now.ball_load[0]),
+                ("contact_angle", "rad", now.contact_angle[0]),
+                ("drop_into_outer_race", "m", results.drop["outer"]),
+                ("drop_into_inner_race", "m", results.drop["inner"]),
+            )
+            .in_units()
+            .named()
+        )
 
 
 def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:

@@ -127,9 +127,4 @@ class DepthProfile(View):
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        profile = results.profile
-        return {
-            "angle_deg": np.degrees(profile.angle),
-            "race_depth_um": 1e6 * profile.depth,
-            "ball_center_drop_um": 1e6 * profile.path,
-        }
+        return results.profile.table().in_units().named()

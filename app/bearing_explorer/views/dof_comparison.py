@@ -95,19 +95,7 @@ class DofDifferences(ControlView):
             }
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        found = results.dof_comparison
-        names = [*found.static, *(f"spectrum along {dof}" for dof in found.motion)]
-        return {
-            "quantity": np.array(["free directions", "compared with", *names]),
-            "greatest_difference": np.array(
-                [
-                    " ".join(found.chosen),
-                    " ".join(found.other),
-                    *(f"{value:.3g}" for value in (*found.static.values(), *found.motion.values())),
-                ]
-            ),
-            "unit": np.array(["", "", *("1" for _ in found.static), *("dB" for _ in found.motion)]),
-        }
+        return results.dof_comparison.table().named()
 
 
 def facts_of(found: DofComparison) -> list[dict[str, str]]:

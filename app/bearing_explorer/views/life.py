@@ -11,13 +11,13 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute.endurance import Asked, Endurance, endurance
+from bearing_explorer.compute.endurance import ASSUMED_VISCOSITY, Asked, Endurance
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
-from bearing_explorer.widgets.limits import rows_of
+from bearingcore.statics.film import TOUCHING
 from bearingcore.statics.life import LEFT_OUT
 from bearingcore.statics.validity import static_pressure
 
@@ -57,7 +57,8 @@ FIELDS = (
         1e-3,
         0.1,
         1e4,
-        "Of the oil, or a grease's base oil, at the temperature of the contact.",
+        "Of the oil, or a grease's base oil, at the temperature of the contact. Left empty, "
+        f"{ASSUMED_VISCOSITY * 1e3:g} mPa·s are assumed here, and no limit is judged by it.",
     ),
     Field(
         "race_roughness",
@@ -70,7 +71,7 @@ FIELDS = (
     ),
     Field(
         "ball_roughness",
-        "Roughness of the balls",
+        "Roughness of the balls or rollers",
         "µm",
         1e-6,
         0.0,
@@ -78,6 +79,9 @@ FIELDS = (
         "Root mean square; 0.05 µm is usual.",
     ),
 )
+
+MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
+"""Fields of which the program takes a number of its own where none is given."""
 
 
 class LifeRows(Rows):
@@ -101,11 +105,11 @@ class LifeOfBearing(ControlView):
     title = "Life, pressure and oil film"
     about = (
         "Fatigue life, pressure on each race, and the oil film. Life by ISO 16281 from the loads "
-        "of all balls; the greatest pressure by Hertz; the film where a ball carries most, by "
-        "Hamrock and Dowson."
+        "of all balls; the greatest pressure by Hertz; the film where a ball or roller carries "
+        "most, by Hamrock and Dowson."
     )
     needs = frozenset[str]()
-    _draw: Callable[[], None] | None = None
+    _say: Callable[[Asked], None] | None = None
 
     def build(self, packed: PackedSource) -> Any:
         self.asked = Asked()
@@ -117,7 +121,7 @@ class LifeOfBearing(ControlView):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self._draw = parts.draw
+        self._say = parts.say_endurance
 
     def forward(self, message: Any) -> None:
         """Take a number that was typed; what is refused stays as it was, with a sentence."""
@@ -134,23 +138,22 @@ class LifeOfBearing(ControlView):
             except ValueError as error:
                 refused[field.name] = str(error)
         self.rows.send({"life": {"refused": refused}})
-        if self._draw is not None:
-            self._draw()
+        if self._say is not None:
+            self._say(self.asked)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        endurance(results.scene, self.asked)
+        _ = results.endurance  # computed here, in a thread
         return {}, {}
 
     def sentence(self, results: Results) -> str:
-        found = endurance(results.scene, self.asked)
+        found = results.endurance
         return found.no_life if found.life is None else found.life.sentence
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if results is None:
             return
-        found = endurance(results.scene, self.asked)  # computed already, by `data`
-        self.rows.shown = {"groups": groups_of(results, found), "values": self._values()}
+        self.rows.shown = {"groups": groups_of(results), "values": self._values()}
 
     def _values(self) -> dict[str, str]:
         texts = {}
@@ -160,7 +163,7 @@ class LifeOfBearing(ControlView):
         return texts
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        groups = groups_of(results, endurance(results.scene, self.asked))
+        groups = groups_of(results)
         rows = [
             (group["title"], fact["label"], fact["value"])
             for group in groups
@@ -173,7 +176,7 @@ class LifeOfBearing(ControlView):
 def read(field: Field, given: object) -> float | None:
     """The number [SI] a person gave; ValueError with a sentence for the page."""
     text = str(given)[:40].strip().replace("−", "-").replace(",", ".")
-    if not text and field.name == "dynamic_load_rating":
+    if not text and field.name in MAY_BE_EMPTY:
         return None
     try:
         value = float(text)
@@ -187,9 +190,10 @@ def read(field: Field, given: object) -> float | None:
     return value * field.unit_si
 
 
-def groups_of(results: Results, found: Endurance) -> list[dict[str, Any]]:
+def groups_of(results: Results) -> list[dict[str, Any]]:
     """What is shown: titles, words, and facts with their numbers."""
-    return [_life(results, found), _pressures(results, found), _film(found)]
+    found = results.endurance
+    return [_life(results, found), _pressures(results, found), _film(results, found)]
 
 
 def _group(title: str, words: str, facts: list[tuple[str, str, str]]) -> dict[str, Any]:
@@ -278,14 +282,13 @@ def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
     return _group(title, words, facts)
 
 
-def _film(found: Endurance) -> dict[str, Any]:
+def _film(results: Results, found: Endurance) -> dict[str, Any]:
     title = "Oil film"
     if found.film is None:
         return _group(title, found.no_film, [])
     facts = []
-    states = {row["name"]: row["state"] for row in rows_of(found.limits)}
     for film in (found.film.inner, found.film.outer):
-        crossed = states.get(f"film parameter, {film.race} race") == "crossed"
+        crossed = film.film_parameter < TOUCHING
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"
         facts.append(
             (
@@ -302,4 +305,8 @@ def _film(found: Endurance) -> dict[str, Any]:
                 "above 3 hardly ever.",
             )
         )
-    return _group(title, found.film.sentence, facts)
+    words = found.film.sentence
+    if results.asked.viscosity is None:
+        viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
+        words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
+    return _group(title, words, facts)

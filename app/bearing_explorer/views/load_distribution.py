@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import or_
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.compute.defect_shape import pieces, spans
+from bearing_explorer.compute.load_curve import curves_table, load_curve, row_name
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element, elements
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.statics.ball_positions import EquilibriumWithMass
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.load_curve import Curve
     from bearing_explorer.compute.results import Results
-    from bearingcore import Scene
+    from bearingcore import Equilibrium, Scene
 
 
 OTHER_ROWS = style.DIRECTION_COLORS[1]
@@ -30,15 +35,17 @@ class LoadDistribution(View):
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle: blue with the defect, grey without. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a turn"
-        " of the shaft. A second row is orange, and dashed without the defect."
+        "What a ball carries at each angle. Blue: this scene. Grey: {grey}. Shaded: the "
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
+        "turn of the shaft. A second row is orange, and in grey dashed. Of balls with mass the "
+        "full line is the load at the outer race, where their centrifugal load comes on top, the "
+        "dashed one that at the inner race."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("load",)
 
     def build(self, packed: PackedSource) -> Any:
-        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
         plot = style.house_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,
@@ -70,6 +77,14 @@ class LoadDistribution(View):
             line_color=style.HEALTHY,
             line_width=2.0,
             line_dash=[6, 4],
+        )
+        plot.line(
+            "angle",
+            "load",
+            source=packed.source("load_distribution_inner", "angle", "load"),
+            line_color=style.DEFECTIVE,
+            line_width=1.4,
+            line_dash=[5, 3],
         )
         curves = [
             plot.line(
@@ -121,6 +136,7 @@ class LoadDistribution(View):
         sources = {
             "load_distribution_other_rows": _one_line(others),
             "load_distribution_other_healthy": _one_line(healthy_others),
+            "load_distribution_inner": _one_line(results.inner_load_curves),
             "load_distribution_rows": _names(results.load_curves),
             "load_distribution_defect": shaded(results.scene, results.cage_angle),
             "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
@@ -144,7 +160,7 @@ class LoadDistribution(View):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
             part = (
-                f"{'a' if told else 'A'} {element(bearing)}{which} carries most, "
+                f"{'the' if told else 'The'} greatest load of a {element(bearing)}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.beside_words and np.isfinite(healthy).any():
@@ -160,25 +176,50 @@ class LoadDistribution(View):
                 f". At this cage angle {count} of {bearing.total_balls} {elements(bearing)} "
                 f"{'carries' if count == 1 else 'carry'} load"
             )
+            if isinstance(now, EquilibriumWithMass) and results.inner_load_curves:
+                words += f". {_both_races(now)}"
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        beside = results.beside_name
-        table = {}
-        for row, (angle, load) in enumerate(results.load_curves):
-            own = _row_column(row)
-            table[f"{own}ball_angle_deg"] = np.degrees(angle[1:-1])
-            table[f"{own}ball_load_n"] = load[1:-1]
-        for row, (angle, load) in enumerate(results.healthy_load_curves):
-            own = _row_column(row)
-            table[f"{beside}_{own}ball_angle_deg"] = np.degrees(angle[1:-1])
-            table[f"{beside}_{own}ball_load_n"] = load[1:-1]
-        return table
+        tables = [curves_table(results.load_curves)]
+        if results.inner_load_curves:
+            rows = range(len(results.load_curves))
+            tables += [_at_both_races(results.equilibrium, row) for row in rows]
+        tables.append(curves_table(results.healthy_load_curves).prefixed(results.beside_name))
+        return reduce(or_, tables).in_units().named()
 
 
-def _row_column(row: int) -> str:
-    """How columns of a row begin: those of the first have no number."""
-    return f"row_{row + 1}_" if row else ""
+def _both_races(now: EquilibriumWithMass) -> str:
+    """What the heaviest ball of one cage angle carries at each race, and at which angles."""
+    most = int(np.argmax(now.ball_load[0]))
+    inner, outer = now.inner_load[0, most], now.ball_load[0, most]
+    angles = [now.inner_contact_angle[0, most], now.contact_angle[0, most]]
+    words = (
+        f"Centrifugal load is {style.with_prefix(now.positions.centrifugal_load, 'N')} for each: "
+        f"the heaviest loaded one carries {style.with_prefix(inner, 'N', 4)} at the inner race and "
+        f"{style.with_prefix(outer, 'N', 4)} at the outer"
+    )
+    if np.abs(angles).max() > 1e-3:
+        words += f", at contact angles of {style.in_degrees(angles[0])} and "
+        words += style.in_degrees(angles[1])
+    return words
+
+
+def _at_both_races(found: Equilibrium, row: int) -> ResultTable:
+    """Loads and contact angles of a row's balls with mass, along its curve."""
+    assert isinstance(found, EquilibriumWithMass)
+    own = row_name(row)
+    columns = (
+        ("inner_race_load", "N", found.inner_load),
+        ("inner_contact_angle", "rad", found.inner_contact_angle),
+        ("outer_contact_angle", "rad", found.contact_angle),
+    )
+    return table_of(
+        *(
+            (f"{own}{name}", unit, load_curve(found, row, values)[1][1:-1])
+            for name, unit, values in columns
+        )
+    )
 
 
 def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:

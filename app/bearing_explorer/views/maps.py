@@ -142,7 +142,7 @@ class StiffnessMaps(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Points as whole numbers, their scales, and where the sliders stand."""
-        maps, now = results.maps, results.now
+        maps, now = results.maps, results.massless_now
         sizes = term_sizes(maps.term)
         cells: list[tuple[float, ...]] = []
         points = [np.empty(0, np.uint16)]
@@ -214,7 +214,7 @@ class StiffnessMaps(View):
                 words += f", against {mean[0]:.1f} without the defect"
         words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
         words += in_degrees(results.cage_angle)
-        now = results.now
+        now = results.massless_now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
             carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"

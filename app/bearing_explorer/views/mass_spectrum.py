@@ -59,10 +59,4 @@ class MassInSpectrum(View):
         return f"{resonance}{comparison.sentence[0].upper()}{comparison.sentence[1:]}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        found = results.ball_mass
-        table: dict[str, np.ndarray] = {}
-        for name, spectra in (("massless", found.massless_spectra), ("with_mass", found.spectra)):
-            for dof, (frequency, density) in spectra.items():
-                table.setdefault("frequency_hz", frequency)
-                table[f"{name}_density_{dof}_m2_per_s4_per_hz"] = density
-        return table
+        return results.ball_mass.spectrum_table().named()

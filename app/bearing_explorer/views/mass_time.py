@@ -25,12 +25,12 @@ from bearing_explorer.views.vibration_time import (
     SHOWN,
     TIME,
 )
+from bearingcore.dynamics.strikes import RACES_OF_LOADS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
 
 SLOTS = len(style.BALL_COLORS)
-RACES = ("inner", "outer")
 WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")
 """Of events, by the numbers that the packed source carries."""
 EVENT_ROWS = 3
@@ -106,7 +106,7 @@ class MassInTime(View):
         plot.vstrip("from", "to", source=free, fill_color={"field": "slot", "transform": colors},
                     fill_alpha=0.13, line_color=None)  # fmt: skip
         loads = packed.source(
-            "mass_loads", "time", *(f"{race}{i}" for race in RACES for i in range(SLOTS))
+            "mass_loads", "time", *(f"{race}{i}" for race in RACES_OF_LOADS for i in range(SLOTS))
         )
         for i, color in enumerate(style.BALL_COLORS):
             plot.line("time", f"inner{i}", source=loads, line_color=color, line_width=1.3,
@@ -136,7 +136,7 @@ class MassInTime(View):
             first = race * SLOTS
             loads[:, first : first + balls.size] = shown.loads[race, :, :SLOTS]
         load_rows, loads_drawn = least_and_greatest(loads, PIXELS)
-        columns = [f"{race}{i}" for race in RACES for i in range(SLOTS)]
+        columns = [f"{race}{i}" for race in RACES_OF_LOADS for i in range(SLOTS)]
         slots = np.arange(float(balls.size))
         slot_of = {int(ball): slot for slot, ball in enumerate(balls)}
         free = [flight for flight in shown.flights if flight.ball in slot_of]
@@ -189,15 +189,7 @@ class MassInTime(View):
         return "; ".join([words, *peaks]) + flying + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        shown = results.ball_mass
-        table = {"time_s": shown.time}
-        for name, kind in (("massless", shown.massless), ("with_mass", shown.with_mass)):
-            for dof, signal in kind.items():
-                table[f"{name}_acceleration_{dof}_m_per_s2"] = signal
-        for k, ball in enumerate(shown.balls):
-            for race, load in zip(RACES, shown.loads, strict=True):
-                table[f"ball_{ball + 1}_{race}_race_load_n"] = load[:, k]
-        return table
+        return results.ball_mass.table().named()
 
 
 def way_of_the_ball(shown: BallMass) -> str:
@@ -222,7 +214,7 @@ def way_of_the_ball(shown: BallMass) -> str:
 def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarray]:
     """Entries, exits and the strike as columns, with labels in rows where they have room."""
     events = [(e.time, e.ball, 0 if e.enters else 1) for e in shown.events]
-    events += [(s.time, s.ball, 2 + RACES.index(s.race)) for s in shown.strikes]
+    events += [(s.time, s.ball, 2 + RACES_OF_LOADS.index(s.race)) for s in shown.strikes]
     if shown.entry is not None and math.isfinite(shown.far_edge):
         events.append((shown.far_edge, shown.entry.ball, 4))
     # those of the ball that enters at 0 get their labels first

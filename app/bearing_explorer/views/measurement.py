@@ -16,7 +16,7 @@ from panel.custom import JSComponent
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.excerpt import least_and_greatest
 from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.server.bokeh_private import send_message
@@ -96,7 +96,7 @@ class MeasuredSignal(MeasuredView):
     def build(self, packed: PackedSource) -> Any:
         self.form = MeasurementPanel(self._asked, spec=spec())
         self.form.show(MeasurementState())
-        self._all, self._close = StickyRange(-1.0, 1.0), StickyRange(-1.0, 1.0)
+        self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
         self._mark_events(packed, plots[1])
         wide: dict[str, Any] = {

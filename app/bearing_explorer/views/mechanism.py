@@ -103,15 +103,7 @@ class WhichMechanism(View):
         return in_words(found)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        found = results.ball_mass
-        return {
-            "lowest_frequency_hz": found.octaves[:-1],
-            "highest_frequency_hz": found.octaves[1:],
-            "mass_share": found.share,
-            "mass_share_standard_error": found.spread,
-            "added_db": found.added,
-            "quiet": found.quiet,
-        }
+        return results.ball_mass.share_table().named()
 
 
 def in_words(found: BallMass) -> str:

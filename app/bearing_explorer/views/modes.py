@@ -10,10 +10,11 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.numbers import span
+from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -44,14 +45,14 @@ class NaturalFrequencies(View):
     title = "Natural frequencies"
     about = (
         "Each natural frequency as the bearing turns: blue x, orange y. A mode is named after the"
-        " direction that moves most. Shaded: the band in which it moves. Grey: the bearing "
-        "without its defect. Black: now."
+        " direction that moves most. Shaded: the band in which it moves. Grey: {grey}. "
+        "Black: now."
     )
     needs = frozenset({"modes", "healthy_modes"})
     plans = ("modes",)
 
     def build(self, packed: PackedSource) -> Any:
-        self._range = StickyRange(0.0, 2000.0, least_span=20.0)
+        self._range = StickyRange(0.0, 2000.0, least_span=20.0, room=ROOM)
         self._angle_range = packed.range("modes_angle", 0.0, 30.0)
         plot = style.house_figure(
             style.CAGE_ANGLE,
@@ -136,12 +137,12 @@ class NaturalFrequencies(View):
         if not known:
             return "There is no static state to take natural frequencies from."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
-        words = [f"{label} {_from_to(known[label])}" for label in radial]
+        words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in radial]
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
         if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {first} {_from_to(healthy[first])}"
+            text += f"; {results.beside_words} {mode_symbol(first)} {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.compute.verdict import of_orbit
 from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_spectrum import (
@@ -27,6 +27,7 @@ from bearing_explorer.views.vibration_spectrum import (
 )
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore.common.numbers import count, scientific
+from bearingcore.common.table import table_of
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
 from bearingcore.model.scene import MASSLESS
@@ -73,7 +74,7 @@ class SteadyOrbit(View):
     needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
 
     def build(self, packed: PackedSource) -> Any:
-        self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02) for _ in SHOWN]
+        self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02, room=ROOM) for _ in SHOWN]
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
@@ -231,15 +232,15 @@ class SteadyOrbit(View):
         return text + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        orbit = results.orbit
-        path = orbit_path(results)
+        orbit, path = results.orbit, orbit_path(results)
         table = {} if orbit is None else orbit.table().named()
-        table |= {f"inner_{dof}_um": path[dof] for dof in SHOWN}
+        table |= table_of(*((f"inner_{dof}", "µm", path[dof]) for dof in SHOWN)).named()
         for who, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
             for dof in SHOWN:
                 if dof in spectra:
-                    table.setdefault("frequency_hz", spectra[dof].frequency)
-                    table[f"{who}_density_{dof}_m2_per_s4_per_hz"] = spectra[dof].density
+                    frequency, density = spectra[dof].table([dof]).named().items()
+                    table.setdefault(*frequency)
+                    table[f"{who}_{density[0]}"] = density[1]
         return table
 
 

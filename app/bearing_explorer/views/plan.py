@@ -17,8 +17,10 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.plan_choice import TITLES
 from bearingcore.common.numbers import count, decibels, percent, scientific
+from bearingcore.common.table import table_of
 from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.plan import CURVES, SETTLED
+from bearingcore.plan.plans import plans_table
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -26,13 +28,13 @@ if TYPE_CHECKING:
 
 HEADS = (
     "What is drawn",
-    "Moving",
+    "Directions",
     "How",
     "Error expected",
-    "allowed",
-    "Takes",
-    "Full model takes",
-    "errs",
+    "Error allowed",
+    "Time",
+    "Full model: time",
+    "Its error",
     "Planned in",
 )
 
@@ -127,24 +129,11 @@ class PlanInFull(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         made = list(results.plans.values())
-        columns = {
-            "what": np.array([TITLES[plan.view] for plan in made]),
-            "directions": np.array([" ".join(plan.dofs) for plan in made]),
-            "method": np.array([plan.method for plan in made]),
-        }
-        for name in ("step_rate", "tolerance", "predicted_error", "error_budget", "evaluations",
-                     "full_error", "full_evaluations"):  # fmt: skip
-            columns[name + ("_hz" if name == "step_rate" else "")] = np.array(
-                [float(getattr(plan, name)) for plan in made]
-            )
-        for name in ("seconds", "full_seconds", "planning_seconds"):
-            named = name.replace("seconds", "time_s")
-            columns[named] = np.array([getattr(plan, name) for plan in made])
-        columns |= {
-            f"{view}_cage_angle_deg": np.degrees(angles)
-            for view, angles in nodes_of(results).items()
-        }
-        return columns
+        titles = table_of(("what", "", [TITLES[plan.view] for plan in made]))
+        nodes = (
+            (f"{view}_cage_angle", "rad", angles) for view, angles in nodes_of(results).items()
+        )
+        return (titles | plans_table(made) | table_of(*nodes)).in_units().named()
 
 
 def nodes_of(results: Results) -> dict[str, np.ndarray]:

@@ -30,7 +30,7 @@ from bearing_explorer.figures.matrix_cells import (
     term_sizes,
     trace_limits,
 )
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.figures.style import (
     DEFECTIVE,
     FAINT_INK,
@@ -76,14 +76,14 @@ class Stiffness(View):
     about = (
         "How hard the inner ring resists each displacement with each load. The 15 independent "
         "terms of its symmetric 5×5 stiffness matrix as the bearing turns: displacements are the "
-        "columns, loads the rows."
+        "columns, loads the rows. Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)
 
     def build(self, packed: PackedSource) -> Any:
         """One canvas for all traces."""
-        self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
+        self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         plot = bare_figure(Range1d(-0.02, 5.03), Range1d(-5.08, 0.0), height=524)
         # Fifteen cells need some width; on a phone they scroll inside their card. (As a

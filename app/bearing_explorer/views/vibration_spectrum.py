@@ -51,7 +51,7 @@ class VibrationSpectra(View):
     title = "Spectrum of the vibration"
     about = (
         "Spectrum of the housing's acceleration once the start is forgotten. Power spectral "
-        "density along x and y, 32 Hz resolution. Grey: without the defect. Shaded: the bands of "
+        "density along x and y, 32 Hz resolution. Grey: {grey}. Shaded: the bands of "
         "the natural frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "band_modes"})
@@ -254,7 +254,7 @@ class VibrationSpectra(View):
         for who, spectra in spectra_of.items():
             for dof, one in spectra.items():
                 unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"
-                # samples of an orbit fit its period: a hair's breadth off those of a march
+                # samples of an orbit fit its period: a little off those of a march
                 columns = one.table([dof], unit).named()
                 table |= {f"{who}{name}": values for name, values in columns.items()}
         return table

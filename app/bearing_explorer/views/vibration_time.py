@@ -198,17 +198,7 @@ class VibrationInTime(View):
         return text + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        shown = results.excerpt
-        table = {"time_s": shown.time}
-        for dof, signal in shown.acceleration.items():
-            unit = "rad_per_s2" if dof.startswith("r") else "m_per_s2"
-            table[f"acceleration_{dof}_{unit}"] = signal
-        for k, ball in enumerate(shown.balls):
-            table[f"ball_{ball + 1}_load_n"] = shown.ball_load[:, k]
-        table["static_time_s"] = shown.static_time
-        for k, ball in enumerate(shown.balls):
-            table[f"ball_{ball + 1}_static_load_n"] = shown.static_load[:, k]
-        return table
+        return results.excerpt.table().named()
 
 
 def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:

@@ -10,6 +10,7 @@ import param
 from bearing_explorer.assets import asset_path, asset_text
 from bearing_explorer.server.live_component import LiveComponent
 from bearingcore.common import numbers
+from bearingcore.statics.validity import NO_OIL
 
 if TYPE_CHECKING:
     from bearingcore import Limit
@@ -43,11 +44,18 @@ def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:
             else "crossed"
             if limit.crossed
             else "kept",
-            "sentence": limit.sentence,
+            "sentence": limit.sentence + _where(limit),
         }
         for limit in limits
     ]
     return sorted(rows, key=lambda row: row["state"] != "crossed")
+
+
+def _where(limit: Limit) -> str:
+    """Where on the page is asked for what is not known."""
+    if math.isnan(limit.value) and NO_OIL in limit.sentence:
+        return " The tab Life takes them."
+    return ""
 
 
 def _number(value: float, unit: str) -> str:

@@ -6,12 +6,13 @@ import asyncio
 
 import pytest
 from bearing_explorer.compute import compiling
-from bearing_explorer.compute.results import Results
+from bearing_explorer.compute.results import Results, quick_duration
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mechanism import WhichMechanism
 
 from bearingcore import presets
+from bearingcore.model.packing import is_planar
 from bearingcore.plan import SETTLED
 from tests.helpers.loops import run
 
@@ -62,6 +63,25 @@ def test_a_motion_that_was_compared_is_not_moved_again() -> None:
     again = Results(FAN_RIG.replace(balls="with mass"), moving=True).ball_mass
     assert coarse.ball_mass is again
     assert Results(FAN_RIG, moving=True).ball_mass is again, "whatever the scene's own choice"
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: str) -> None:
+    """Counted, not timed: contacts that are stepped; a general one costs four flat ones."""
+    scene = presets[name].replace(balls="with mass")
+    moving = Results(scene, moving=True)
+    how = moving._ball_marching
+    if how.coarse:
+        duration = quick_duration(scene, how)
+        found = moving.ball_mass
+        assert found.samples == round(duration * how.sample_rate)
+        cost = duration * found.step_rates["with mass"] * scene.bearing.total_balls
+        assert cost * (1.0 if is_planar(scene) else 4.0) < 2.1e6
+        assert found.entry is not None
+        if all(one.extent < 0.35 * scene.bearing.ball_spacing for one in scene.defects):
+            assert found.exit is not None  # else it is a longer way than is shown
+        assert not found.broke_off
+        assert found.spectra
 
 
 def test_what_the_choice_of_balls_by_the_plan_draws() -> None:

@@ -131,7 +131,11 @@ def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
 def test_bands_of_frequencies_are_looked_at_coarsely_while_a_hand_moves(name: str) -> None:
     scene = presets[name].replace(extent=math.radians(38.0))
     moving, rested = Results(scene, moving=True), Results(scene)
-    assert rested.band_modes is rested.modes
+    assert rested.band_modes.cage_angles.size == 3 * rested.modes.cage_angles.size - 2
+    planned = Results(rested.scene, 0.0, planned=("modes",))
+    assert planned.band_modes is planned.modes
+    for label, (low, high) in rested.band_modes.bands().items():
+        assert planned.modes.bands()[label] == pytest.approx((low, high), abs=0.3), label
     assert moving.band_modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
     exact = rested.modes.bands()
     for label, band in moving.band_modes.bands().items():

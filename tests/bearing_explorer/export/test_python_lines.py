@@ -35,6 +35,11 @@ SCENES = {
         0.05,
         None,
     ),
+    "balls with mass": (
+        presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass"),
+        0.05,
+        None,
+    ),
     "pinned": (FAN_RIG, 0.0, Reference(presets["fan-rig"].replace(n_balls=11, depth=9e-6), "x")),
 }
 VIEWS = {
@@ -93,6 +98,7 @@ CASES = [
     *(("two defects", name, False) for name in ("depth-profile", "maps", "vibration-time")),
     *(("inner race", name, False) for name in ("load-distribution", "depth-profile", "modes")),
     ("inner race", "vibration-spectrum", True),
+    *(("balls with mass", name, False) for name in ("bearing", "load-distribution", "stiffness")),
 ]
 
 

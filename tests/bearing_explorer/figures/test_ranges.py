@@ -61,6 +61,15 @@ def test_zero_stays_in_and_symmetric_ranges_are_symmetric() -> None:
 
 
 @pytest.mark.parametrize("anchor", ["free", "zero", "symmetric"])
+def test_room_keeps_curves_off_the_edges(anchor: str) -> None:
+    shown = StickyRange(0.0, 1.0, anchor=anchor, room=0.03)  # type: ignore[arg-type]
+    for top in (50.0, 80.0, 100.0, 60.0, 30.0):
+        low, high = shown.fit([0.0, top])
+        assert high - top >= 0.03 * top
+        assert low < 0.0 if anchor == "symmetric" else low == 0.0
+
+
+@pytest.mark.parametrize("anchor", ["free", "zero", "symmetric"])
 def test_noise_is_not_blown_up(anchor: str) -> None:
     shown = StickyRange(-1.0, 1.0, anchor=anchor, least_span=0.5)  # type: ignore[arg-type]
     low, high = shown.fit([1e-12, 2e-12])

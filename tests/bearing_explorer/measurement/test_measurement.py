@@ -92,6 +92,7 @@ def test_a_simulated_measurement_can_have_a_small_pit_and_balls_with_mass() -> N
     assert diagnose(made.recording, motor.bearing, made.shaft_speed).fault == "outer race"
 
 
+@pytest.mark.proof
 def test_a_file_from_elsewhere_is_understood_without_a_word():
     """A motion by DOP853 in g, clock 0.1 % off, offset, drift, hum: columns and rate are found."""
     truth, content = file_from_elsewhere()

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import nbformat
 import pytest
 from nbclient import NotebookClient
 
+OUTSIDE = re.compile(r"https?://[^\s\"\\]+\.(?:css|js)\b")
 FOLDER = Path(__file__).resolve().parents[3] / "assets" / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
@@ -16,6 +18,7 @@ def test_there_are_notebooks() -> None:
     assert [path.stem for path in NOTEBOOKS] == ["first-steps", "size-of-a-defect"]
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs_and_shows_what_it_says(path: Path) -> None:
     notebook = nbformat.read(path, as_version=4)
@@ -26,3 +29,5 @@ def test_a_notebook_runs_and_shows_what_it_says(path: Path) -> None:
         last = cell.source.strip().splitlines()[-1]
         if last.startswith("plotting."):
             assert any("text/html" in output.get("data", {}) for output in cell.outputs), last
+            shown = "".join(output.get("data", {}).get("text/html", "") for output in cell.outputs)
+            assert not OUTSIDE.findall(shown), "an exported notebook needs nothing from outside"

@@ -143,6 +143,8 @@ def test_what_panel_lacks_is_done_without(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.delattr(bokeh_private.panel_document, "_garbage_collect")
     bokeh_private.collect_elsewhere(lambda: None)
     assert not hasattr(bokeh_private.panel_document, "_garbage_collect")
+    monkeypatch.delattr(bokeh_private.Viewable, "_preprocessing_hooks")
+    bokeh_private.before_showing(lambda pane, root: None)
     assert bokeh_private.tornado_of(object()) is None
     assert bokeh_private.sockets_of(object()) == []
     assert list(bokeh_private.parts_of(object())) == []  # type: ignore[arg-type]

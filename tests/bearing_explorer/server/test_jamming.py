@@ -19,11 +19,11 @@ from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
 from bearing_explorer.server.message_cost import too_much, weight
 from bearing_explorer.server.turns import Turns
 
-from tests.bearing_explorer.server.test_serving import get, origin, served, session_of
 from tests.browser.helpers import Server, free_port
 from tests.browser.helpers import serving as server_up
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient
+from tests.helpers.served import get, origin, served, session_of
 
 HALF = b"GET / HTTP/1.1\r\nHost: x\r\n"
 

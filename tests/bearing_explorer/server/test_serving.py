@@ -8,20 +8,17 @@ import logging
 import re
 import signal
 import time
-from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from bearing_explorer.page import page
 from bearing_explorer.server import serving
 from bearing_explorer.server.allowed_messages import by_name, welcome
 from bearing_explorer.server.headers import policy
 from bearing_explorer.server.limits import Limits
-from bearing_explorer.server.serving import make_server
 from bearing_explorer.server.small_pages import message_page
 from bokeh.model import util as model_util
-from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPResponse
+from tornado.httpclient import HTTPClientError
 from tornado.websocket import websocket_connect
 
 from tests.browser.helpers import explorer_server
@@ -29,56 +26,7 @@ from tests.browser.helpers import serving as server_up
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient
 from tests.helpers.proxies import Proxy
-
-SMALL = Limits(sessions=3, message=300_000, idle=3600.0)
-
-
-def served(
-    test: Callable[[str, Any], Awaitable[None]], bounds: Limits = SMALL, **options: Any
-) -> None:
-    """Run `test(url, server)` beside a server, both on one event loop."""
-
-    async def both() -> None:
-        server = make_server(page=page, port=0, address="127.0.0.1", bounds=bounds, **options)
-        server.start()
-        try:
-            await test(f"http://127.0.0.1:{server.port}{server.prefix}/", server)
-        finally:
-            for socket in list(serving.sockets):
-                socket.close()
-            server.stop()
-
-    run(both())
-
-
-async def get(url: str, **options: Any) -> HTTPResponse:
-    return await AsyncHTTPClient().fetch(
-        url, raise_error=False, follow_redirects=False, request_timeout=60.0, **options
-    )
-
-
-def origin(url: str) -> str:
-    return url.rstrip("/")
-
-
-def wait_until(holds: Callable[[], bool], seconds: float = 120.0) -> None:
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.05)
-
-
-async def closed(client: PageClient, seconds: float = 120.0) -> None:
-    """Wait until the server ends a connection."""
-    end = time.monotonic() + seconds
-    while not client.closed:
-        assert time.monotonic() < end
-        await client.news(0.1)
-
-
-def session_of(server: Any) -> Any:
-    [context] = server._tornado._applications.values()
-    return list(context.sessions)
+from tests.helpers.served import SMALL, closed, get, origin, served, session_of, wait_until
 
 
 def test_every_answer_has_the_headers_and_no_more_than_it_needs() -> None:
@@ -395,6 +343,7 @@ def test_behind_a_proxy_under_a_path(strip: bool) -> None:
     served(through, root_path="" if strip else "/bearing")
 
 
+@pytest.mark.proof
 def test_two_processes_share_the_port_and_end_together() -> None:
     async def many(url: str) -> None:
         people = [PageClient(url) for _ in range(6)]

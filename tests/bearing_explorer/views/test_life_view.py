@@ -9,13 +9,22 @@ from bearing_explorer.compute.endurance import Asked, endurance
 from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.life import FIELDS, LifeOfBearing, groups_of, read
+from bearing_explorer.widgets.limits import rows_of
 
-from bearingcore import contact_pressures, dynamic_load_rating, life, presets
+from bearingcore import (
+    Limit,
+    contact_pressures,
+    dynamic_load_rating,
+    equilibrium,
+    film,
+    life,
+    presets,
+)
+from bearingcore.statics.validity import looked_at
 
 
 def facts(name: str, asked: Asked | None = None) -> dict[str, dict[str, str]]:
-    results = Results(presets[name])
-    groups = groups_of(results, endurance(results.scene, asked or Asked()))
+    groups = groups_of(Results(presets[name], asked=asked))
     return {
         group["title"]: {fact["label"]: fact["value"] for fact in group["facts"]}
         | {"words": group["words"]}
@@ -45,11 +54,33 @@ def test_a_given_rating_is_taken_and_said() -> None:
 
 
 def test_thin_oil_lets_surfaces_touch_and_thick_oil_does_not() -> None:
-    thin, thick = (
-        endurance(presets["6205"], Asked(viscosity=viscosity)) for viscosity in (1e-3, 1.0)
+    thin, thick = (facts("6205", Asked(viscosity=viscosity))["Oil film"] for viscosity in (1e-3, 1))
+    assert "below 1" in thin["film parameter Λ"]
+    assert "below 1" not in thick["film parameter Λ"]
+
+
+def film_limit(asked: Asked) -> Limit:
+    limits = Results(presets["nu208"], asked=asked).limits
+    return next(limit for limit in limits if limit.name == "film parameter")
+
+
+def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() -> None:
+    assumed = film_limit(Asked())
+    assert math.isnan(assumed.value)
+    row = next(row for row in rows_of((assumed,)))
+    assert row["state"] == "unknown"
+    assert "tab Life" in row["sentence"]
+    assert film_limit(Asked(viscosity=1e-3)).crossed
+    kept = film_limit(Asked(viscosity=1.0))
+    oil = film(
+        presets["nu208"],
+        viscosity=1.0,
+        state=equilibrium(presets["nu208"], looked_at(presets["nu208"])),
     )
-    assert any(limit.crossed for limit in thin.limits)
-    assert not any(limit.crossed for limit in thick.limits)
+    assert kept == oil.limit
+    assert not kept.crossed
+    assert "assumed viscosity" in facts("nu208")["Oil film"]["words"]
+    assert "assumed" not in facts("nu208", Asked(viscosity=1.0))["Oil film"]["words"]
 
 
 @pytest.mark.parametrize("name", list(presets))
@@ -69,20 +100,26 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
         assert rated.pressures is not None
 
 
-def test_rollers_and_self_aligning_bearings_ask_for_the_rating_of_the_catalogue() -> None:
-    for name in ("1208", "nu208"):
-        found = endurance(presets[name], Asked())
-        assert found.life is None
-        assert "enter that of the catalogue" in found.no_life
-    assert "rollers it is not computed" in endurance(presets["nu208"], Asked()).no_film
+def test_self_aligning_bearings_ask_for_the_rating_of_the_catalogue() -> None:
+    found = endurance(presets["1208"], Asked())
+    assert found.life is None
+    assert "enter that of the catalogue" in found.no_life
+
+
+def test_rollers_have_a_computed_rating_and_a_film() -> None:
+    found = endurance(presets["nu208"], Asked())
+    assert found.life is not None
+    assert found.rating == dynamic_load_rating(presets["nu208"].bearing)
+    assert found.film is not None
 
 
 def test_numbers_are_read_as_people_write_them_and_refused_in_words() -> None:
     by_name = {field.name: field for field in FIELDS}
     assert read(by_name["dynamic_load_rating"], " 14,5 ") == pytest.approx(14_500.0)
     assert read(by_name["dynamic_load_rating"], "") is None
+    assert read(by_name["viscosity"], "") is None
     assert read(by_name["race_roughness"], "0.2") == pytest.approx(2e-7)
-    for name, text in (("viscosity", ""), ("viscosity", "0"), ("race_roughness", "nan")):
+    for name, text in (("race_roughness", ""), ("viscosity", "0"), ("race_roughness", "nan")):
         with pytest.raises(ValueError, match="goes from"):
             read(by_name[name], text)
 

@@ -47,8 +47,8 @@ def test_two_rows_have_a_curve_and_a_name_each() -> None:
     assert first == pytest.approx(results.equilibrium.ball_load[:, :14].max())
     assert second == pytest.approx(results.equilibrium.ball_load[:, 14:].max())
     assert abs(first / second - 1.0) > 0.2
-    assert "A ball of row 1 carries most" in view.sentence(results)
-    assert "a ball of row 2 carries most" in view.sentence(results)
+    assert "The greatest load of a ball of row 1 is" in view.sentence(results)
+    assert "the greatest load of a ball of row 2 is" in view.sentence(results)
     assert "of 28 balls" in view.sentence(results)
     one, _ = view.data(Results(FAN_RIG))
     assert one["load_distribution_rows"]["row"].size == 0
@@ -130,3 +130,28 @@ def test_the_table_has_as_many_rows_as_the_curve_and_no_row_twice() -> None:
     assert table["ball_angle_deg"].size == table["ball_load_n"].size
     assert table["ball_angle_deg"].min() >= 0.0
     assert table["ball_angle_deg"].max() < 360.0
+
+
+def test_balls_with_mass_show_both_races() -> None:
+    """At the outer race comes what the ball's centrifugal load adds, here some newtons."""
+    heavy = presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass")
+    results = Results(heavy)
+    view = LoadDistribution(PackedSource())
+    sources, _ = view.data(results)
+    outer, inner = sources["load_distribution_curve"], sources["load_distribution_inner"]
+    assert np.array_equal(outer["angle"], inner["angle"])
+    F_c = heavy.bearing.centrifugal_load(1500.0)
+    assert np.all(outer["load"] > inner["load"])
+    assert np.max(outer["load"] - inner["load"]) < 1.2 * F_c
+    assert "at contact angles of" in view.sentence(results)
+    table = view.table(results)
+    radial = [
+        table[f"{load}_load_n"] * np.cos(np.radians(table[f"{race}_contact_angle_deg"]))
+        for load, race in (("inner_race", "inner"), ("ball", "outer"))
+    ]
+    carries = table["inner_race_load_n"] > 1.0
+    assert (radial[1] - radial[0])[carries] == pytest.approx(F_c, rel=1e-4)
+    massless = Results(heavy.replace(balls="massless"))
+    assert not view.data(massless)[0]["load_distribution_inner"]["angle"].size
+    assert "inner race" not in view.sentence(massless)
+    assert np.array_equal(massless.now.ball_load, results.massless_now.ball_load)

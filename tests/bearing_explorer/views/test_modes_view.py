@@ -72,8 +72,8 @@ def test_labels_with_room_stay_where_they_belong() -> None:
 
 def test_the_sentence_tells_the_bands_and_the_healthy_one() -> None:
     words = NaturalFrequencies(PackedSource()).sentence(Results(FAN_RIG))
-    assert "x1 from 365 to 480 Hz" in words
-    assert "without the defect x1 from 365 to 436 Hz" in words
+    assert "x₁ from 365 to 480 Hz" in words
+    assert "without the defect x₁ from 365 to 436 Hz" in words
 
 
 def test_without_a_static_state_there_is_nothing_to_draw_and_it_is_said() -> None:

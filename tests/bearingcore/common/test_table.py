@@ -23,7 +23,7 @@ from bearingcore import (
 from bearingcore.common.table import FACTORS, SUFFIXES, ResultTable, table_of
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import stability_map
-from bearingcore.statics.validity import limits_table
+from bearingcore.statics.limit import limits_table
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 

@@ -133,7 +133,10 @@ def test_methods_break_where_linear_theory_says() -> None:
         assert all(t.verdict != DIVERGED for t in chart.trials if t.method == name)
     finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
     assert all(trial.verdict == "right" for trial in finest)
-    assert "linear limit" in chart.table()
+    assert "linear limit" in chart.text()
+    table = chart.table()
+    assert table["verdict"].tolist() == [trial.verdict for trial in chart.trials]
+    assert table.unit("linear_limit") == table.unit("step_rate") == "Hz"
 
 
 def test_energy_of_an_undamped_bounce() -> None:
@@ -159,7 +162,10 @@ def check_that_all_is_told(experiment: Experiment) -> None:
         if not point.failed:
             assert set(point.errors) <= set(experiment.errors)
             assert point.errors
-    text = experiment.table()
+    text = experiment.text()
+    table = experiment.table()
+    assert table["method"].tolist() == [point.method for point in experiment.points]
+    assert {table.unit(name) for name in table if name.endswith("_error")} <= {"dB", "1"}
     for method in experiment.methods:
         assert method in text
 
@@ -217,7 +223,7 @@ def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
     experiment = models_experiment(fast, duration=0.1)
     (orbit,) = experiment.of("orbit")
     assert orbit.status == "failed: unstable orbit through -1"
-    assert "unstable orbit" in experiment.table()
+    assert "unstable orbit" in experiment.text()
 
 
 def test_an_experiment_tells_its_progress_and_can_be_cancelled() -> None:
@@ -231,7 +237,7 @@ def test_an_experiment_tells_its_progress_and_can_be_cancelled() -> None:
     )
     assert len(experiment.points) == 2
     assert not experiment.completed
-    assert "cancelled" in experiment.table()
+    assert "cancelled" in experiment.text()
     assert told == sorted(told)
     assert 0.0 <= told[0] <= told[-1] < 1.0
 

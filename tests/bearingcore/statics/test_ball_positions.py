@@ -9,7 +9,12 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
-from bearingcore.statics.ball_positions import ball_positions, centrifugal_effect
+from bearingcore.statics.ball_positions import (
+    EquilibriumWithMass,
+    ball_positions,
+    centrifugal_effect,
+    static_state,
+)
 from tests.benchmarks.random_balls import faults, random_scene
 from tests.two_contacts import TwoContacts
 
@@ -192,3 +197,45 @@ def test_heavy_balls_under_next_to_no_load_are_answered_or_said_not_to_be() -> N
     found = ball_positions(scene, [0.0], weight=True)
     assert found.converged[0] or np.isnan(found.load).all()
     assert faults(found, 0, weights=(True,)) == ""
+
+
+FAST = presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass")
+
+
+def test_the_static_state_is_what_the_scene_asks_for() -> None:
+    """Massless balls: `equilibrium`. With mass: on each ball the races' loads differ by F_c."""
+    massless = FAST.replace(balls="massless")
+    plain = static_state(massless, [0.1])
+    assert not isinstance(plain, EquilibriumWithMass)
+    assert np.array_equal(plain.ball_load, equilibrium(massless, [0.1]).ball_load)
+    found = static_state(FAST)
+    assert isinstance(found, EquilibriumWithMass)
+    assert found.converged.all()
+    F_c = FAST.bearing.centrifugal_load(1500.0)
+    inner, outer = found.inner_load, found.ball_load
+    carries = inner > 0.0
+    alpha_i, alpha_o = found.inner_contact_angle[carries], found.contact_angle[carries]
+    Q_i, Q_o = inner[carries], outer[carries]
+    size = Q_o.max()
+    assert Q_o * np.cos(alpha_o) - Q_i * np.cos(alpha_i) == pytest.approx(F_c, abs=1e-7 * size)
+    assert Q_o * np.sin(alpha_o) == pytest.approx(Q_i * np.sin(alpha_i), abs=1e-7 * size)
+    assert outer[~carries] == pytest.approx(F_c, rel=1e-6), "the others ride on the outer race"
+    assert np.array_equal(found.loaded_balls, carries.sum(axis=1))
+    changed = np.abs(found.term("k_yy") / static_state(massless).term("k_yy") - 1.0)
+    assert changed.max() > 1e-3
+
+
+def test_the_static_state_of_a_standing_shaft_has_no_centrifugal_load() -> None:
+    still = FAST.replace(shaft_speed=0.0)
+    found, plain = static_state(still), equilibrium(still)
+    assert found.ball_load == pytest.approx(plain.ball_load, abs=1e-9 * plain.ball_load.max())
+    assert np.array_equal(found.loaded_balls, plain.loaded_balls)
+    for term in ("k_xx", "k_yy", "k_zz", "k_yrx"):
+        assert found.term(term) == pytest.approx(plain.term(term), rel=1e-9)
+
+
+def test_a_state_that_costs_too_much_is_not_begun() -> None:
+    found = static_state(FAST, most_contacts=10)
+    assert "too many contacts" in found.reason(0)
+    assert not found.converged.any()
+    assert not found.loaded_balls.any()

@@ -8,13 +8,13 @@ import re
 import numpy as np
 import pytest
 
-from bearingcore import Bearing, Limit, Scene, equilibrium, limits, presets, simulate
+from bearingcore import Bearing, Limit, Scene, equilibrium, film, limits, presets, simulate
 from bearingcore.statics.ball_positions import centrifugal_effect
+from bearingcore.statics.limit import summary
 from bearingcore.statics.validity import (
     STATIC_PRESSURE,
     centrifugal_force,
     looked_at,
-    summary,
     usual_shoulder_height,
 )
 
@@ -196,13 +196,32 @@ def test_loads_in_motion_count_where_they_are_known() -> None:
 
 
 def test_the_summary_counts_all_three_kinds() -> None:
-    known = limits(presets["6205"], dynamic_load=1.0)
+    scene = presets["6205"]
+    known = limits(scene, dynamic_load=1.0, film=film(scene, viscosity=0.1))
     assert summary(known) == f"{len(known)} limits kept"
-    assert summary(limits(presets["6205"])) == f"{len(known) - 2} limits kept, 2 not known"
+    assert summary(limits(scene)) == f"{len(known) - 3} limits kept, 3 not known"
     assert summary(known[:1]) == "1 limit kept"
     heavy = limits(HEALTHY_6205.replace(fy=-40e3))
     crossed = sum(limit.crossed for limit in heavy)
     assert summary(heavy).startswith(f"{crossed} limits crossed, ")
+
+
+def test_the_film_counts_where_the_oil_is_given() -> None:
+    scene, name = presets["6205"], "film parameter"
+    assert math.isnan(found(scene, name).value)
+    assert "viscosity of the oil" in found(scene, name).sentence
+    assert "groove radii" in found(presets["fan-rig"], name).sentence
+    for viscosity, crossed in ((2e-3, True), (0.1, False)):
+        oil = film(scene, viscosity=viscosity)
+        limit = found(scene, name, film=oil)  # type: ignore[arg-type]
+        assert limit == oil.limit
+        assert limit.value == min(oil.inner.film_parameter, oil.outer.film_parameter)
+        assert limit.crossed == (limit.value < 1.0) == crossed
+    assert name not in {one.name for one in limits(scene.replace(shaft_speed=0.0))}
+    with pytest.raises(ValueError, match="film of another scene"):
+        limits(scene.replace(fy=-100.0), film=oil)
+    rollers = presets["nu208"]
+    assert found(rollers, name, film=film(rollers, viscosity=0.1)).value > 0.0  # type: ignore[arg-type]
 
 
 def test_tight_grooves_of_the_published_bearing_are_told() -> None:

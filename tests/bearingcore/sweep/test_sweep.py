@@ -626,6 +626,7 @@ fy = {start = -200.0, stop = -50.0, num = 60}
 )
 
 
+@pytest.mark.proof
 def test_a_killed_program_goes_on_where_it_was(reference: xarray.Dataset, tmp_path: Path) -> None:
     file, out = tmp_path / "sweep.toml", tmp_path / "results.zarr"
     file.write_text(FILE)

@@ -12,6 +12,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, FREQUENCY, band_rows, direction_mapper
 from bearing_explorer.views.vibration_spectrum import HIGHEST
+from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -26,8 +27,8 @@ class OverviewBands(View):
     name = "overview-bands"
     title = "Natural frequencies"
     about = (
-        "The band in which each mode moves as the bearing turns, blue x, orange y. Grey: the "
-        "same without the defect. Black: where it is at this cage angle. The axis is that of the "
+        "The band in which each mode moves as the bearing turns, blue x, orange y. Grey: "
+        "{grey}. Black: where it is at this cage angle. The axis is that of the "
         "spectrum below."
     )
     needs = frozenset({"band_modes", "healthy_modes"})
@@ -78,8 +79,7 @@ class OverviewBands(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes = results.band_modes
         bands, usual = band_rows(modes), band_rows(results.healthy_modes)
-        highest = 1.05 * np.max(np.append(bands["high"], usual["high"]), initial=0.0)
-        top = self._frequency.fit(HIGHEST, highest)[1]
+        top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         order = np.argsort(bands["low"], kind="stable")
         bands = {name: column[order] for name, column in bands.items()}
         rows = {
@@ -110,18 +110,22 @@ class OverviewBands(View):
         bands = {
             label: band for label, band in results.band_modes.bands().items() if band[0] == band[0]
         }
-        words = [f"{label} {low:.0f} to {high:.0f} Hz" for label, (low, high) in bands.items()]
+        words = [
+            f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
+            for label, (low, high) in bands.items()
+        ]
         if not words:
             return "There is no static state to take natural frequencies from."
         return f"The natural frequencies move within: {style.list_words(words)}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        known = results.band_modes.bands()
-        return {
-            "mode": np.array(list(known)),
-            "least_hz": np.array([low for low, _ in known.values()]),
-            "greatest_hz": np.array([high for _, high in known.values()]),
-        }
+        return results.band_modes.bands_table().named()
+
+
+def highest_band(results: Results) -> float:
+    """Up to where [Hz] the cards of the overview reach, for the bands that they share."""
+    ends = [band_rows(modes)["high"] for modes in (results.band_modes, results.healthy_modes)]
+    return float(1.05 * np.max(np.concatenate(ends), initial=0.0))
 
 
 def _now(modes: Modes, results: Results) -> np.ndarray:

@@ -11,6 +11,7 @@ from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import band_rows
+from bearing_explorer.views.overview.bands import highest_band
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
     FREQUENCY,
@@ -34,10 +35,10 @@ class OverviewSpectrum(View):
     title = "Vibration of the housing"
     about = (
         "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
-        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: without the defect. Shaded: the bands "
+        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
-    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs
+    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs | {"healthy_modes"}
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "vibration"
@@ -71,7 +72,7 @@ class OverviewSpectrum(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         bands = band_rows(results.band_modes)
-        top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
+        top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         drawn = drawn_levels(results.late_spectra, top)
         healthy = drawn_levels(results.healthy_late_spectra, top)
         in_view = np.concatenate([drawn[dof] for dof in SHOWN])

@@ -20,7 +20,7 @@ from bearing_explorer.figures.matrix_cells import (
     term_sizes,
     trace_limits,
 )
-from bearing_explorer.figures.ranges import StickyRange
+from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -58,8 +58,8 @@ class OverviewStiffness(View):
     title = "Stiffness of the bearing"
     about = (
         "The 15 terms of the stiffness matrix as the bearing turns. Blue, with their value now: "
-        "those that vary, or are not what they are in the healthy bearing, which is grey. Pale: "
-        "those to which nothing happens, or along which the ring cannot move in this scene."
+        "those that vary, or differ from the grey ones. Grey: {grey}. Pale: those to which "
+        "nothing happens, or along which the ring cannot move in this scene."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     compact = True
@@ -68,7 +68,7 @@ class OverviewStiffness(View):
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:
-        self._limits = [StickyRange(0.0, 1.0) for _ in _CELLS]
+        self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         plot = style.bare_figure(
             Range1d(0.0, COLUMNS, syncable=False),
             Range1d(-_ROWS, 0.0, syncable=False),

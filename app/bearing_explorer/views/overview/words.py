@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from bearing_explorer.compute.chain import Chain, Peak
 from bearing_explorer.figures import style
+from bearingcore.statics.equilibrium import TERM_SYMBOLS
+from bearingcore.sweep.outputs import mode_symbol
 
 LEAST = 0.01
 """Of a number: less is no change."""
@@ -15,13 +19,15 @@ LEAST_LOAD = 0.05
 """Of the greatest load of a ball."""
 LEAST_LEVEL = 2.0
 """[dB] of the loudest line."""
+_SAME = 1e-9  # of a number: rounding
 _BESIDE = 1.5  # times the change of a stiffness that another one has to have to be named too
 
-_BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
+def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
+    """One sentence: the `cause`, then link after link what it did.
 
-def story(cause: str, now: Chain, before: Chain) -> str:
-    """One sentence: the `cause`, then link after link what it did."""
+    `why_not` is why the loads stay exactly as they are, should they.
+    """
     if now.answered == 0.0:
         return f"{cause}: there is no equilibrium any more, {now.reason}."
     if before.answered == 0.0:
@@ -31,9 +37,10 @@ def story(cause: str, now: Chain, before: Chain) -> str:
     label = moved_band(now, before, along)
     if label:
         said.append(band_words(label, now.bands[label], before.bands[label]))
-    said.append(peak_words(now, before, along, label))
+    peaks = (along, *(dof for dof in now.peaks if dof != along))
+    said.append(next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), ""))
     said = [words for words in said if words]
-    text = f"{cause}: {style.list_words(said) or 'nothing along the chain changes by 1 %'}"
+    text = f"{cause}: {style.list_words(said) or unchanged(now, before, why_not)}"
     if now.answered < 1.0:
         text += (
             f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
@@ -47,7 +54,8 @@ def story(cause: str, now: Chain, before: Chain) -> str:
 def direction(now: Chain, before: Chain) -> str:
     """The direction that the chain is followed along: where the housing is loudest.
 
-    Where nothing changes along it, the one whose stiffness changes most.
+    Where nothing changes along it, the one whose stiffness changes most; where none does, one with
+    a band that moves.
     """
     loudest = now.loudest
     if loudest and (
@@ -57,7 +65,24 @@ def direction(now: Chain, before: Chain) -> str:
         return loudest
     terms = [term for term in now.stiffness if abs(_change(now, before, term)) >= LEAST]
     most = max(terms, key=lambda term: abs(_change(now, before, term)), default="")
-    return most[2 : 2 + (len(most) - 2) // 2] or loudest
+    if most:
+        return most[2 : 2 + (len(most) - 2) // 2]
+    others = dict.fromkeys(label[:-1] for label in now.bands)
+    return next((dof for dof in others if moved_band(now, before, dof)), loudest)
+
+
+def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
+    """That nothing changes, or nothing by as much as is named."""
+    if not np.allclose(loads_of(now), loads_of(before), rtol=_SAME, atol=0.0, equal_nan=True):
+        return "hardly anything changes along the chain"
+    if why_not:
+        return f"nothing changes along the chain, as {why_not}"
+    return "nothing changes along the chain"
+
+
+def loads_of(chain: Chain) -> tuple[float, ...]:
+    """All that depends on the loads of the balls at rest."""
+    return (chain.off_line, chain.greatest_load, chain.loaded_balls, *chain.stiffness.values())
 
 
 def load_words(now: Chain, before: Chain) -> str:
@@ -82,7 +107,7 @@ def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
     terms = [main] if own >= LEAST else []
     if abs(_change(now, before, most)) >= max(_BESIDE * own, LEAST) and most != main:
         terms.append(most)
-    return [f"{term} {_by(_change(now, before, term))}" for term in terms]
+    return [f"k_{TERM_SYMBOLS[term][1:]} {_by(_change(now, before, term))}" for term in terms]
 
 
 def moved_band(now: Chain, before: Chain, along: str) -> str:
@@ -112,7 +137,7 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
 def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:
     """How a band moves."""
     low, high = (_ratio(new, old) for new, old in zip(now, before, strict=True))
-    name = f"the {label.translate(_BELOW)} band"
+    name = f"the {mode_symbol(label)} band"
     still = 0.5 * LEAST
     if min(low, high) > -still:
         verb = "rises"
@@ -134,7 +159,8 @@ def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
         level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
     moved = new.frequency - old.frequency
     if abs(moved) <= 1.01 * max(new.resolution, old.resolution):
-        return f"the spectrum's peak at {new.frequency:.0f} Hz is {level}" if level else ""
+        where = "" if along == now.loudest else f" along {along}"
+        return f"the spectrum's peak{where} at {new.frequency:.0f} Hz is {level}" if level else ""
     to = f"from {old.frequency:.0f} to {new.frequency:.0f} Hz"
     with_it = bool(label) and _goes_along(new, old, now.bands[label], before.bands[label])
     words = "the spectrum's peak with it" if with_it else f"the spectrum's peak along {along} moves"

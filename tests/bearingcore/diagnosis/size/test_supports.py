@@ -26,6 +26,7 @@ def test_other_supports_differ_in_one_thing_and_keep_their_damping_ratio() -> No
     assert tried[3][1].inner_mass == 0.5 * told.inner_mass
 
 
+@pytest.mark.proof
 def test_the_support_that_explains_the_signal_is_found_among_others() -> None:
     """The truth stands on springs twice as stiff as told."""
     truth = RIG.replace(

@@ -1,0 +1,66 @@
+"""A number of a scene beside what it should not pass, and what it means in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from bearingcore.common.numbers import count
+from bearingcore.common.table import ResultTable, table_of
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One number of a scene beside what it should not pass.
+
+    Attributes
+    ----------
+    name
+        what is looked at.
+    value, limit [unit]
+        value is NaN where it is not known.
+    unit
+        SI; empty for a ratio or a count.
+    crossed
+        True where the model no longer holds. False where the value is not known.
+    sentence
+        the same in words, with the number.
+    """
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    crossed: bool
+    sentence: str
+
+
+def limits_table(found: Sequence[Limit]) -> ResultTable:
+    """Limits as a table: a row each; what is not known is NaN."""
+    return table_of(
+        ("limit_of", "", [one.name for one in found], "what is looked at"),
+        ("value", "", [one.value for one in found]),
+        ("limit", "", [one.limit for one in found]),
+        ("unit", "", [one.unit for one in found]),
+        ("crossed", "", [one.crossed for one in found]),
+        ("sentence", "", [one.sentence for one in found]),
+    )
+
+
+def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
+    """A limit whose value is not known; `why` goes on after "as"."""
+    return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
+
+
+def summary(found: Sequence[Limit]) -> str:
+    """How it stands in a line: "1 limit crossed, 4 kept, 2 not known"."""
+    not_known = sum(math.isnan(one.value) for one in found)
+    crossed = sum(one.crossed for one in found)
+    kept = len(found) - crossed - not_known
+    words = [count(crossed, "limit") + " crossed"] if crossed else []
+    if kept or not crossed:
+        words.append(f"{kept} kept" if crossed else f"{count(kept, 'limit')} kept")
+    if not_known:
+        words.append(f"{not_known} not known")
+    return ", ".join(words)

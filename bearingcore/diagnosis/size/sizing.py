@@ -88,7 +88,7 @@ MUCH_UNEXPLAINED = 0.25
 """Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
 
 PIT = math.radians(2.0)
-"""[rad] Extents up to which a defect is a pit. """
+"""[rad] Extents up to which a defect counts as a pit."""
 
 PIT_UNEXPLAINED = 0.45
 """The same for pits, of which only a bound or a small extent is told."""

@@ -106,6 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
+    from bearing_explorer.compute.executors import still_at_work
     from bearing_explorer.page import TABS, page
     from bearing_explorer.server import idle_collection
     from bearing_explorer.server.limits import MEGABYTE, Limits
@@ -167,6 +168,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     finally:
         server.stop()
     _say("Stopped.")
+    if still_at_work():
+        sys.stderr.flush()
+        os._exit(0)  # at once: what threads still compute has nobody to be shown to
     return 0
 
 

@@ -17,6 +17,7 @@ from datetime import UTC, datetime
 from typing import Any
 from urllib.parse import urlsplit
 
+from bokeh.document import Document
 from bokeh.embed import json_item
 from bokeh.models import Column
 
@@ -100,6 +101,7 @@ def report(
     for plot in plots:
         plot.frame_align = False  # or all would leave as much room as the one that needs most
     layout = Column(children=[*plots, packed.anchor], sizing_mode="stretch_width")
+    Document().add_root(layout)  # else Bokeh looks at that of whichever session is at work now
     return {
         "name": FILE,
         "html": page(results, about, parts),

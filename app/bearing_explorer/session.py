@@ -589,6 +589,9 @@ class Explorer:
         for other, container in self._containers.items():
             shown = "on-screen" if other == name else "off-screen"
             container.css_classes = ["section", f"section-{other}", shown]
+            if other != name:
+                for view in self._views[other]:
+                    view.put_away()
         self.tabs.active = self._on_screen = name
 
     # Drawing: off the event loop to compute, on it to assign.

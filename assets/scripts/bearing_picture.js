@@ -78,12 +78,12 @@ function bearing_picture(pointed) {
     }
     const flat = `V${inner}H${left}`  // rollers run on an inner ring without shoulders
     const line = (row) => {  // the line of contact, on to the middle of the shaft
-      const x = middle + scale * row.place, lean = row.facing * Math.tan(n.contact_angle)
+      const x = middle + scale * row.place, lean = row.facing * Math.tan(row.contact_angle)
       const over = 1.5 * ball
       return shape("path", { class: "line dashed",
         d: `M${x + over * lean} ${centre - over}L${x - (axis - centre) * lean} ${axis}` })
     }
-    const paired = n.rows.length > 1 && !sphere && n.contact_angle > 0
+    const paired = n.rows.length > 1 && !sphere && n.rows.some((row) => row.contact_angle > 0)
     const parts = [
       shape("path", { class: "steel", d: `M${left} ${top}H${right}` + (sphere ? arc()
         : `V${outer + lip}` + at.map((x) => groove(x, outer, 1)).join("") + `H${left}`) + "Z" }),

@@ -18,6 +18,7 @@ export function render({ model }) {
       refusal, element("p", { class: "note", id: `${id}-about` }, about)))
   }
   inputs.dynamic_load_rating.number.placeholder = "ISO 281"
+  inputs.viscosity.number.placeholder = "not given"
   const answers = element("div", { class: "answers" })
   const show = () => {
     const { groups = [], values = {} } = model.shown

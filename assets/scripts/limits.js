@@ -49,7 +49,10 @@ export function render({ model }) {
     strip.dataset.crossed = String(crossed.length)
     // beside the status line where all is well, a line of its own where it is not
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)
-    more.textContent = model.summary
+    // where there is little room, the first of it: how many are crossed, or kept
+    const [first, ...others] = model.summary.split(", ")
+    more.replaceChildren(first, element("span", { class: "rest" }, others.length ? `, ${others.join(", ")}` : ""))
+    more.setAttribute("aria-label", model.summary)
     more.title = list.hidden ? "Show all limits of the model" : "Hide the limits"
     if (!list.hidden) fill()
   }

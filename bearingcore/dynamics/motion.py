@@ -37,6 +37,10 @@ MOST_STEPS = 1_000_000
 """Steps that a motion, or the periods of one orbit, take at most unless told otherwise: up to
 15 s of marching in five directions, 40 s with the tangent."""
 
+MOST_STEPS_IN_ALL = 1_000_000_000
+"""Steps that all points of a map or speeds of a run take at most unless told otherwise: some
+minutes of marching in two directions, hours in five."""
+
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
@@ -399,6 +403,17 @@ def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | N
     y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
     y[0] = y[2] + start.state[0, packing.direction_numbers(dofs)]
     return y.ravel()
+
+
+def too_many_in_all(steps: float, where: str, most: int) -> str:
+    """What so many steps would cost, where they are too many; else empty."""
+    most = checks.whole_number("most_steps_in_all", most, at_least=1, at_most=10**15)
+    if steps <= most:
+        return ""
+    return (
+        f"{TOO_MANY_STEPS}: about {thousands(steps)} {where}, allowed are "
+        f"most_steps_in_all = {thousands(most)}"
+    )
 
 
 def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:

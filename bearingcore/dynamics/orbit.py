@@ -24,6 +24,7 @@ from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
+    MOST_SAMPLES,
     MOST_STEPS,
     TOO_MANY_STEPS,
     default_step_rate,
@@ -149,7 +150,15 @@ class Orbit:
         Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
         begins with the period, without making the record: each Fourier line of the orbit is seen
         through the Hann window, and lines beat with each other from segment to segment.
+
+        ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
         """
+        sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+        least, most = sample_rate / MOST_SAMPLES, MOST_SAMPLES / sample_rate
+        resolution = checks.number(
+            "resolution", resolution, at_least=least, at_most=0.5 * sample_rate, unit="Hz"
+        )
+        duration = checks.number("duration", duration, above=0.0, at_most=most, unit="s")
         segment = round(sample_rate / resolution)
         hop = segment - segment // 2
         segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
@@ -245,9 +254,8 @@ def orbit(
     if ball_passes == 0:
         return nothing
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
-    rate = step_rate or default_step_rate(scene, 65536.0, highest_natural_frequency(scene))
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
-    steps = max(math.ceil(period * rate), 8)
+    steps = _steps_in(scene, period, step_rate)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:
         most = thousands(most_steps)
@@ -269,6 +277,19 @@ def orbit(
         if found.status != NOT_CONVERGED or shooting.given_up:
             break
     return shooting.told(found)
+
+
+def _steps_in(scene: Scene, period: float, step_rate: float | None) -> int:
+    rate = step_rate or default_step_rate(scene, 65536.0, highest_natural_frequency(scene))
+    return max(math.ceil(period * rate), 8)
+
+
+def least_steps(scene: Scene, ball_passes: int | None = None) -> int:
+    """Steps that `orbit` takes at least: two periods; 0 where there is none to look for."""
+    passes = ball_passes or common_ball_passes(scene)
+    if passes is None or scene.shaft_speed == 0.0:
+        return 0
+    return 2 * _steps_in(scene, passes * scene.bearing.ball_spacing / scene.cage_speed, None)
 
 
 def common_ball_passes(scene: Scene) -> int | None:

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.dynamics.modes import modes
-from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS, simulate
+from bearingcore.dynamics.modes import highest_natural_frequency, modes
+from bearingcore.dynamics.motion import (
+    MOST_SAMPLES,
+    MOST_STEPS,
+    MOST_STEPS_IN_ALL,
+    TOO_MANY_STEPS,
+    default_step_rate,
+    simulate,
+    too_many_in_all,
+)
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.signals.spectrum import spectrum
@@ -43,6 +53,8 @@ class SpeedRun:
         False where it was cancelled.
     refusals
         why there is no such motion, by the index of the speeds that are refused.
+    cost
+        what the run would have taken, where that was too much to begin; else empty.
     """
 
     scene: Scene
@@ -55,6 +67,7 @@ class SpeedRun:
     bands: dict[str, tuple[float, float]]
     completed: bool
     refusals: dict[int, str] = field(default_factory=dict)
+    cost: str = ""
 
     def table(self) -> ResultTable:
         """A row a speed and frequency: the density of each direction."""
@@ -81,6 +94,7 @@ def speed_run(
     resolution: float = 32.0,
     duration: float = 1.4,
     most_steps: int = MOST_STEPS,
+    most_steps_in_all: int = MOST_STEPS_IN_ALL,
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> SpeedRun:
@@ -100,6 +114,10 @@ def speed_run(
     most_steps
         steps that may be taken for the orbit of a speed, and for its marched motion. Where there
         would be more, `refusals` says how many.
+    most_steps_in_all
+        steps of all speeds. What marching them would take is counted before the first: where that
+        is more nothing is begun, and `cost` says how many. Where orbits take what is left, the
+        speeds that are left are refused.
     progress, cancelled
         called and asked before each speed.
 
@@ -114,16 +132,44 @@ def speed_run(
         raise checks.refuse("number of shaft_speeds", int(speeds.size), "1 to 1000")
     for speed in speeds:
         checks.number("shaft_speeds", speed, above=0.0, unit="rad/s")
+    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    most = MOST_SAMPLES / sample_rate * (1.0 - SETTLING)
+    duration = checks.number("duration", duration, above=0.0, at_most=most, unit="s")
+    resolution = checks.number(
+        "resolution", resolution, at_least=1.0 / duration, at_most=0.5 * sample_rate, unit="Hz"
+    )
     dofs = scene.active_dofs
     segment = round(sample_rate / resolution)
     frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
-    density = np.full((speeds.size, frequency.size, len(dofs)), math.nan)
-    proven = np.zeros(speeds.size, dtype=bool)
     inner = any(defect.race == "inner" for defect in scene.defects)
-    bearing = scene.bearing
+    passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
+
+    def told(density: NDArray[np.float64], **more: Any) -> SpeedRun:
+        return SpeedRun(
+            scene=scene,
+            dofs=dofs,
+            shaft_speed=speeds,
+            frequency=frequency,
+            density=density,
+            ball_pass_frequency=np.array([passing(float(speed)) for speed in speeds]),
+            **more,
+        )
+
+    shape = (speeds.size, frequency.size, len(dofs))
+    steps = _steps_of_marching(scene, speeds, duration / (1.0 - SETTLING), sample_rate)
+    if cost := too_many_in_all(steps, f"at {speeds.size} speeds", most_steps_in_all):
+        return told(
+            np.broadcast_to(np.float64(math.nan), shape),
+            from_orbit=np.zeros(speeds.size, dtype=bool),
+            bands=modes(scene).bands(),
+            completed=False,
+            cost=cost,
+        )
+    density = np.full(shape, math.nan)
+    proven = np.zeros(speeds.size, dtype=bool)
     nearby: Orbit | None = None
     refusals: dict[int, str] = {}
-    done = 0
+    done, left = 0, most_steps_in_all
     for i in in_turn(
         range(speeds.size),
         lambda i: f"{speeds[i] / (2 * math.pi):.1f} Hz",
@@ -133,15 +179,20 @@ def speed_run(
         done += 1
         try:
             at = scene.replace(shaft_speed=float(speeds[i]))
+            if left < 1:
+                raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
             found = None
             if at.balls == MASSLESS:
-                found = orbit(at, start=nearby, most_steps=most_steps)
+                found = orbit(at, start=nearby, most_steps=min(most_steps, left))
+                left -= found.right_hand_side_calls // 4
             if found is not None and found.stable:
                 density[i] = found.spectrum(sample_rate, resolution, duration).density
                 proven[i] = True
                 nearby = found
                 continue
-            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate, most_steps=most_steps)
+            may_take = max(min(most_steps, left), 1)
+            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate, most_steps=may_take)
+            left -= motion.right_hand_side_calls // 4
             if motion.status.startswith(TOO_MANY_STEPS):
                 raise ValueError(motion.status)
         except ValueError as error:
@@ -152,16 +203,25 @@ def speed_run(
             density[i] = spectrum(late, sample_rate, resolution).density
     if len(refusals) == speeds.size:
         raise ValueError(refusals[0])
-    passing = bearing.bpfi if inner else bearing.bpfo
-    return SpeedRun(
-        scene=scene,
-        dofs=dofs,
-        shaft_speed=speeds,
-        frequency=frequency,
-        density=density,
-        ball_pass_frequency=np.array([passing(float(speed)) for speed in speeds]),
+    return told(
+        density,
         from_orbit=proven,
         bands=modes(scene).bands(),
         completed=done == speeds.size,
         refusals=refusals,
     )
+
+
+_NONE_LEFT = TOO_MANY_STEPS + ": none is left of most_steps_in_all = {}"
+
+
+def _steps_of_marching(
+    scene: Scene, speeds: NDArray[np.float64], duration: float, sample_rate: float
+) -> float:
+    """Steps that all speeds take if each is marched for so long [s]; 0 where none can be."""
+    try:
+        at = scene.replace(shaft_speed=float(speeds.max()))
+        rate = default_step_rate(at, sample_rate, highest_natural_frequency(at))
+    except ValueError:  # told where the motion is tried
+        return 0.0
+    return speeds.size * duration * rate

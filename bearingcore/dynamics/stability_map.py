@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,7 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS
+from bearingcore.dynamics.motion import (
+    MOST_STEPS,
+    MOST_STEPS_IN_ALL,
+    TOO_MANY_STEPS,
+    too_many_in_all,
+)
 from bearingcore.dynamics.orbit import (
     NO_PERIOD,
     NO_START,
@@ -20,6 +26,7 @@ from bearingcore.dynamics.orbit import (
     STABLE,
     UNSTABLE,
     Orbit,
+    least_steps,
     orbit,
 )
 from bearingcore.model.scene import Scene
@@ -55,6 +62,8 @@ class StabilityMap:
         False where it was cancelled; what was not computed says so.
     refusals
         why there is no such scene, by (row, column) of the points that are refused.
+    cost
+        what the map would have taken, where that was too much to begin; else empty.
     """
 
     scene: Scene
@@ -67,6 +76,7 @@ class StabilityMap:
     through: NDArray[np.str_]
     completed: bool
     refusals: dict[tuple[int, int], str] = field(default_factory=dict)
+    cost: str = ""
 
     def table(self) -> ResultTable:
         """A row a point: both fields, size of the largest multiplier, outcome in words."""
@@ -91,6 +101,7 @@ def stability_map(
     *,
     ball_passes: int | None = None,
     most_steps: int = MOST_STEPS,
+    most_steps_in_all: int = MOST_STEPS_IN_ALL,
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> StabilityMap:
@@ -106,6 +117,10 @@ def stability_map(
         period to look for, in ball passes; None takes the shortest.
     most_steps
         steps of integration that may be taken for one point, as in `orbit`.
+    most_steps_in_all
+        steps of all points. Two periods of each, which is the least, are counted before the first,
+        by what its corners take: where that is more nothing is begun, and `cost` says how many.
+        Where they are used up, the points that are left say so.
     progress, cancelled
         called before each row; asked before each row and point.
 
@@ -124,6 +139,15 @@ def stability_map(
     outcome = np.full(shape, OUTCOMES.index("not computed"), dtype=np.int8)
     through = np.full(shape, "", dtype="<U4")
     refusals: dict[tuple[int, int], str] = {}
+    steps = _least_of_all(scene, (x_field, x_values), (y_field, y_values), ball_passes)
+    cost = too_many_in_all(steps, f"at {multiplier.size} points", most_steps_in_all)
+    if cost:
+        outcome[:] = OUTCOMES.index(TOO_MANY_STEPS)
+        return StabilityMap(
+            scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, False,
+            cost=cost,
+        )  # fmt: skip
+    left = most_steps_in_all
     above: Orbit | None = None
     stopped = False
     rows = list(range(y_values.size))
@@ -136,13 +160,19 @@ def stability_map(
                 stopped = True
                 break
             done += 1
+            if left < 1:
+                outcome[j, i] = OUTCOMES.index(TOO_MANY_STEPS)
+                continue
             try:
                 at = scene.replace(**{x_field: float(value), y_field: float(y_values[j])})
-                found = orbit(at, start=nearby, ball_passes=ball_passes, most_steps=most_steps)
+                found = orbit(
+                    at, start=nearby, ball_passes=ball_passes, most_steps=min(most_steps, left)
+                )
             except ValueError as error:
                 outcome[j, i] = OUTCOMES.index(REFUSED)
                 refusals[j, i] = str(error)
                 continue
+            left -= found.right_hand_side_calls // 4
             multiplier[j, i] = found.largest_multiplier
             outcome[j, i] = OUTCOMES.index(found.status)
             through[j, i] = found.through
@@ -155,6 +185,23 @@ def stability_map(
         scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, completed,
         refusals,
     )  # fmt: skip
+
+
+def _least_of_all(
+    scene: Scene,
+    x: tuple[str, NDArray[np.float64]],
+    y: tuple[str, NDArray[np.float64]],
+    ball_passes: int | None,
+) -> float:
+    """Steps that all points take at least, by the mean of those corners that are scenes."""
+    found = []
+    for x_value, y_value in itertools.product(x[1][[0, -1]], y[1][[0, -1]]):
+        try:
+            at = scene.replace(**{x[0]: float(x_value), y[0]: float(y_value)})
+            found.append(least_steps(at, ball_passes))
+        except ValueError:  # told where the point is tried
+            continue
+    return float(np.mean(found)) * x[1].size * y[1].size if found else 0.0
 
 
 def _axis(scene: Scene, axis: tuple[str, ArrayLike]) -> tuple[str, NDArray[np.float64]]:

@@ -21,7 +21,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Self, cast
 
 from bearingcore.common import checks
@@ -149,6 +149,15 @@ class Bearing:
         object.__setattr__(self, "rows", tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
+        if any(row.contact_angle == self.contact_angle for row in self.rows):
+            # one way to say it, so that equal bearings are equal
+            keep_rows = (
+                dataclasses.replace(row, contact_angle=None)
+                if row.contact_angle == self.contact_angle
+                else row
+                for row in self.rows
+            )
+            object.__setattr__(self, "rows", tuple(keep_rows))
         if self.roller_length is not None:
             keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
             if self.contact_angle != 0.0 or self.rows or self.is_drawn:
@@ -305,6 +314,19 @@ class Bearing:
         """The rows, also where there is but one."""
         return self.rows or (Row(),)
 
+    def of_row(self, row: int) -> Bearing:
+        """The bearing with the contact angle of a row and what follows from it, without rows.
+
+        The bearing itself where the row has no contact angle of its own.
+        """
+        angle = self.all_rows[row].contact_angle
+        return self if angle is None else _with_contact_angle(self, angle)
+
+    @property
+    def has_one_contact_angle(self) -> bool:
+        """True where no row has a contact angle of its own: all then share one cage speed."""
+        return all(row.contact_angle is None for row in self.rows)
+
     @property
     def is_roller(self) -> bool:
         """True for cylindrical rollers instead of balls."""
@@ -318,7 +340,9 @@ class Bearing:
     @property
     def is_flat(self) -> bool:
         """True where a radial load moves nothing out of the plane of the balls."""
-        return self.contact_angle == 0.0 and all(row.place == 0.0 for row in self.all_rows)
+        return self.contact_angle == 0.0 and all(
+            row.place == 0.0 and row.contact_angle is None for row in self.all_rows
+        )
 
     @classmethod
     def from_drawing(
@@ -464,7 +488,8 @@ class Bearing:
         radius = self.groove_center_distance * math.cos(self.contact_angle)
         place = self.groove_center_distance * math.sin(self.contact_angle)
         return math.isclose(self.groove_center_radius, radius, rel_tol=1e-9) and all(
-            math.isclose(row.place, row.facing * place, rel_tol=1e-9) for row in self.rows
+            row.contact_angle is None and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
+            for row in self.rows
         )
 
     @property
@@ -663,3 +688,8 @@ class Bearing:
         shaft_frequency = shaft_speed / (2.0 * math.pi)
         lever = self.pitch_diameter / (2.0 * self.ball_diameter)
         return lever * shaft_frequency * (1.0 - self._ratio**2)
+
+
+@lru_cache(maxsize=256)
+def _with_contact_angle(bearing: Bearing, contact_angle: float) -> Bearing:
+    return dataclasses.replace(bearing, rows=()).replace(contact_angle=contact_angle)

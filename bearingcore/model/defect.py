@@ -248,6 +248,8 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     ValueError
         where defects that run into one another differ in edge model or have floors of their own.
     """
+    if not bearing.has_one_contact_angle:
+        return _paths_of_rows(defects, bearing)
     rows: list[NDArray[np.float64]] = []
     tables: list[NDArray[np.float64]] = []
     size = 0
@@ -269,6 +271,32 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     return kernels.Path(
         np.array(rows).reshape(len(rows), columns), np.concatenate([*tables, np.zeros(0)])
     )
+
+
+def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
+    """The same, row by row: each row's balls run on raceways of their own radius.
+
+    The shaft turns as it does for the cage of the bearing's contact angle.
+    """
+    found, tables, size = [], [], 0
+    for row in range(len(bearing.all_rows)):
+        there = tuple(
+            dataclasses.replace(one, row=row) for one in defects if one.row in (None, row)
+        )
+        own = path_tables(there, dataclasses.replace(bearing.of_row(row), rows=()))
+        lines = own.defects.copy()
+        lines[:, _TABLE_START] += size
+        turning = lines[:, _TURN_RATIO] != 0.0
+        lines[turning, _TURN_RATIO] = 1.0 / bearing.cage_ratio
+        found.append(lines)
+        tables.append(own.tables)
+        size += own.tables.size
+    return kernels.Path(np.concatenate(found), np.concatenate(tables))
+
+
+_TURN_RATIO, _TABLE_START = (
+    kernels.PATH_COLUMNS.index(name) for name in ("turn_ratio", "table_start")
+)
 
 
 def drop_into(

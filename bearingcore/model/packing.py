@@ -6,7 +6,7 @@ Tilts are carried times r_d and moments over r_d, r_d being the bearing's `groov
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -42,6 +42,8 @@ class BodyNumbers(NamedTuple):
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """All contacts of a bearing."""
     n, rows = bearing.n_balls, bearing.all_rows
+    owns = [bearing.of_row(k) for k in range(len(rows))]
+    lever = bearing.groove_center_radius
 
     def each(*values: float) -> Array:
         """The values of the rows, once for each of their contacts."""
@@ -52,14 +54,16 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
 
     return kernels.Contacts(
         angle=np.concatenate([row.turn + bearing.ball_spacing * np.arange(n) for row in rows]),
-        arm=each(*(row.place / bearing.groove_center_radius for row in rows)),
-        reach=alike(1.0),
-        line_r=alike(math.cos(bearing.contact_angle)),
-        line_z=each(*(row.facing * math.sin(bearing.contact_angle) for row in rows)),
+        arm=each(*(row.place / lever for row in rows)),
+        reach=each(*(own.groove_center_radius / lever for own in owns)),
+        line_r=each(*(math.cos(own.contact_angle) for own in owns)),
+        line_z=each(
+            *(row.facing * math.sin(own.contact_angle) for row, own in zip(rows, owns, strict=True))
+        ),
         distance=alike(bearing.groove_center_distance),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
-        factor=alike(bearing.load_deflection_factor),
+        factor=each(*(own.load_deflection_factor for own in owns)),
         exponent=alike(bearing.contact_exponent),
         rows=np.array([[k * n, n] for k in range(len(rows))]),
     )
@@ -79,22 +83,30 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
     bearing = scene.bearing
-    n = bearing.n_balls * len(bearing.all_rows)
-    inner, outer = bearing.race_factors
-    softer = (inner / outer) ** (1.0 / bearing.contact_exponent)
     mass = bearing.ball_mass
+    owns = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
+    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.contact_exponent)
+              for own in owns]  # fmt: skip
 
-    def each(*values: float) -> Array:
-        return np.ascontiguousarray(np.outer(values, np.ones(n)))
+    def each(values: Iterable[float]) -> Array:
+        """The values of the rows, once for each of their balls."""
+        return np.repeat(np.array(list(values), dtype=float), bearing.n_balls)
+
+    def both(values: Iterable[tuple[float, float]]) -> Array:
+        """The same of pairs of values, for the inner and the outer race."""
+        inner, outer = zip(*values, strict=True)
+        return np.stack([each(inner), each(outer)])
 
     return kernels.Races(
-        factor=each(inner, outer),
-        distance=each(*bearing.race_distances),
-        damping=each(contact_damping * (1.0 + softer), contact_damping * (1.0 + 1.0 / softer)),
-        mass=each(mass)[0],
-        inverse_mass=each(1.0 / mass)[0],
-        centrifugal=each(bearing.centrifugal_load(scene.shaft_speed))[0],
-        weight=each(mass * STANDARD_GRAVITY if weight else 0.0)[0],
+        factor=both(own.race_factors for own in owns),
+        distance=both(own.race_distances for own in owns),
+        damping=both(
+            (contact_damping * (1.0 + one), contact_damping * (1.0 + 1.0 / one)) for one in softer
+        ),
+        mass=each(mass for _ in owns),
+        inverse_mass=each(1.0 / mass for _ in owns),
+        centrifugal=each(own.centrifugal_load(scene.shaft_speed) for own in owns),
+        weight=each(mass * STANDARD_GRAVITY if weight else 0.0 for _ in owns),
     )
 
 
@@ -146,7 +158,18 @@ def rotor(
     That is variables without jumps where the contact law has them, with the shorter sums of
     contacts that stay in the plane where they do; `velocities` asks for these as they are, which
     adaptive steps and general-purpose integrators take. contact_damping: c [N·s/m] of Eq. 18.
+
+    ValueError for rows that have contact angles of their own.
     """
+    if not scene.bearing.has_one_contact_angle:
+        own = [scene.bearing.of_row(k) for k in range(len(scene.bearing.all_rows))]
+        angles = " and ".join(f"{math.degrees(one.contact_angle):.4g}°" for one in own)
+        ratios = " and ".join(f"{one.cage_ratio:.4g}" for one in own)
+        raise ValueError(
+            f"contact angles of the rows are {angles}; allowed: one for all rows, where things "
+            f"move: else each row's cage turns at a speed of its own, here {ratios} of the "
+            "shaft's, and nothing repeats"
+        )
     published = scene.contact_law == "published"
     variables = kernels.VELOCITIES
     if published and not velocities:

@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 
 from bearingcore.common import checks
+from bearingcore.model.bearings.drawing import check_contact_angle
 
 ARRANGEMENTS = ("back-to-back", "face-to-face", "tandem")
 """How the two rows of a pair stand to each other: O, X, or one behind the other."""
@@ -22,20 +23,25 @@ MOST_ROWS = 8
 class Row:
     """One row of balls. All rows of a bearing have balls alike in number and size.
 
-    They keep one cage speed, as their contact angles differ by their sign alone.
+    Rows whose contact angles differ by more than their sign have cages that turn at speeds of their
+    own. What stands still is solved all the same, with the rows turned to each other as `turn` says
+    at every cage angle; motion, which never repeats, is refused. Rows of unlike balls would have no
+    ball spacing in common either, by which curves, maps and orbits are laid out.
 
     Parameters
     ----------
     place
         z_k [m] of its centre along the shaft.
     facing
-        1 or -1: contact angle α0 of the bearing, or −α0.
+        1 or -1: the contact angle counts as it is, or turned round.
     clearance
         [m] on top of the bearing's radial clearance; below 0 it preloads the row.
     offset
         [m] how far the inner groove stands up the shaft from where it would without preload.
     turn
         [rad] from the first ball of the bearing to the first of this row.
+    contact_angle
+        unloaded contact angle [rad] of this row, 0 to 80°; None: that of the bearing.
 
     Raises
     ------
@@ -48,8 +54,14 @@ class Row:
     clearance: float = 0.0
     offset: float = 0.0
     turn: float = 0.0
+    contact_angle: float | None = None
 
     def __post_init__(self) -> None:
+        if self.contact_angle is not None:
+            angle = checks.number(
+                "contact_angle of a row", self.contact_angle, at_least=0.0, unit="rad"
+            )
+            object.__setattr__(self, "contact_angle", check_contact_angle(angle))
         if self.facing not in (-1, 1) or isinstance(self.facing, bool):
             raise checks.refuse("facing of a row", self.facing, "1 or -1")
         object.__setattr__(self, "facing", int(self.facing))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import count
 
 DIRECTIONS = ("x", "y")
 
@@ -74,7 +75,7 @@ class Recording:
         if bad.size:
             raise checks.refuse(
                 "acceleration",
-                f"not a finite number in {bad.size} samples, first in number {bad[0] + 1}",
+                f"not a finite number in {count(bad.size, 'sample')}, first in number {bad[0] + 1}",
                 "finite numbers",
             )
         swings = zip(self.directions, np.ptp(signal, axis=0), strict=True)

@@ -9,7 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
+
+MOST_SAMPLES = 100_000_000
+"""Samples of all signals that are taken at most unless told otherwise: some seconds of one core,
+and some gigabytes."""
 
 
 class Spectrum(NamedTuple):
@@ -36,7 +41,13 @@ class Spectrum(NamedTuple):
         )
 
 
-def spectrum(signal: ArrayLike, sample_rate: float, resolution: float = 32.0) -> Spectrum:
+def spectrum(
+    signal: ArrayLike,
+    sample_rate: float,
+    resolution: float = 32.0,
+    *,
+    most_samples: int = MOST_SAMPLES,
+) -> Spectrum:
     """Spectrum by Welch's method: Hann window, segments of 1/resolution seconds, half overlapping.
 
     Parameters
@@ -47,18 +58,21 @@ def spectrum(signal: ArrayLike, sample_rate: float, resolution: float = 32.0) ->
         [Hz].
     resolution
         [Hz] spacing of the frequencies, rounded so that a segment is a whole number of samples.
+    most_samples
+        of all signals that may be taken.
 
     Raises
     ------
     ValueError
-        where a sample is not finite, or the signal is shorter than one segment.
+        where a sample is not finite, the signal is shorter than one segment, or there are more
+        samples than may be taken.
     """
     from scipy.signal import welch  # imported late: it would double the time to import this package
 
     rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
     segment = round(rate / step)
-    samples = _samples(signal, segment, "one segment")
+    samples = _samples(signal, segment, "one segment", most_samples)
     # one signal after another in memory: a third faster than along the first axis
     rows = np.ascontiguousarray(samples.T)
     frequency, density = welch(rows, fs=rate, nperseg=segment)
@@ -70,6 +84,8 @@ def envelope_spectrum(
     sample_rate: float,
     band: tuple[float, float],
     resolution: float | None = None,
+    *,
+    most_samples: int = MOST_SAMPLES,
 ) -> Spectrum:
     """Spectrum of the envelope of a signal inside a band: what rings there, and how often.
 
@@ -87,11 +103,14 @@ def envelope_spectrum(
         (from, to) [Hz], inside 0 and half the sample rate.
     resolution
         [Hz]; None takes the whole signal as one segment, the finest there is.
+    most_samples
+        of all signals that may be taken.
 
     Raises
     ------
     ValueError
-        where a sample is not finite, the signal is too short, or the band does not fit.
+        where a sample is not finite, the signal is too short or longer than may be taken, or the
+        band does not fit.
     """
     from scipy.fft import next_fast_len  # imported late, as above
     from scipy.signal import butter, hilbert, sosfiltfilt
@@ -103,18 +122,27 @@ def envelope_spectrum(
         raise checks.refuse("band", band, "two frequencies [Hz]") from None
     low = checks.number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
     high = checks.number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
-    samples = _samples(signal, 64, "a filter's length")
+    samples = _samples(signal, 64, "a filter's length", most_samples)
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     inside = sosfiltfilt(sections, samples, axis=0)
     size = next_fast_len(len(inside))  # a length with a great prime factor would take for ever
     envelope = np.abs(hilbert(inside, size, axis=0))[: len(inside)]
     if resolution is None:
         resolution = rate / len(samples)
-    return spectrum(envelope - envelope.mean(axis=0), rate, resolution)
+    return spectrum(envelope - envelope.mean(axis=0), rate, resolution, most_samples=most_samples)
 
 
-def _samples(signal: ArrayLike, least: int, why: str) -> NDArray[np.float64]:
-    """The signal as floats, or ValueError for a wrong shape, too few or non-finite samples."""
+def check_samples(name: str, signal: ArrayLike, most_samples: int) -> None:
+    """ValueError where a signal has more samples than may be taken."""
+    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
+    if (count := np.size(signal)) > most:
+        allowed = f"at most most_samples = {thousands(most)}"
+        raise checks.refuse(f"number of samples of the {name}", int(count), allowed)
+
+
+def _samples(signal: ArrayLike, least: int, why: str, most: int) -> NDArray[np.float64]:
+    """The signal as floats, or ValueError for a wrong shape, number, or a sample not finite."""
+    check_samples("signal", signal, most)
     samples = np.asarray(signal, dtype=float)
     if samples.ndim not in (1, 2) or len(samples) < least:
         raise checks.refuse(

@@ -261,19 +261,20 @@ def film(
         )
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
-    contacts = {race: scene.bearing.race_contact(race) for race in RACES}
     if state is None:
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
-    load = heaviest_ball(state).load
-    u = rolling_speed(scene.bearing, scene.shaft_speed)
+    heaviest = heaviest_ball(state)
+    load, own = heaviest.load, scene.bearing.of_row(heaviest.row)
+    contacts = {race: own.race_contact(race) for race in RACES}
+    u = rolling_speed(own, scene.shaft_speed)
     films = {}
     for race, contact in contacts.items():
         h = math.nan
         if load > 0.0:
             modulus = contact.youngs_modulus / (1.0 - contact.poisson**2)
-            radius = rolling_radius(scene.bearing, race)
+            radius = rolling_radius(own, race)
             if isinstance(contact, RollerContact):
                 h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)
             else:

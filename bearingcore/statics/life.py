@@ -266,6 +266,7 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float) -> tuple[float, f
     Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
     carry its groove radii.
     """
+    _check_one_contact_angle(bearing)
     cosine = math.cos(bearing.contact_angle)
     return ratings_of_races(
         LINE_CONTACT if bearing.is_roller else POINT_CONTACT,
@@ -274,6 +275,14 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float) -> tuple[float, f
         1.0 if bearing.is_roller else _groove_ratio(*_conformities(bearing)),
         len(bearing.all_rows),
     )
+
+
+def _check_one_contact_angle(bearing: Bearing) -> None:
+    """Refuse rows whose ratings differ: that of all together does not say what each is rated."""
+    if not bearing.has_one_contact_angle:
+        raise checks.refuse(
+            "rows", "of contact angles of their own", "rows alike, where a rating is of all of them"
+        )
 
 
 def _conformities(bearing: Bearing) -> tuple[float, float]:
@@ -348,6 +357,7 @@ def dynamic_load_rating(bearing: Bearing) -> float:
         )
     if bearing.roller_length is not None:
         return _roller_rating(bearing, bearing.roller_length)
+    _check_one_contact_angle(bearing)
     D, Z, rows = bearing.ball_diameter * 1e3, bearing.n_balls, len(bearing.all_rows)
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter

@@ -35,11 +35,14 @@ class HeaviestBall:
         Q.
     cage_angle, ball_angle [rad]
         φ_c and the ball's own φ_j at that moment.
+    row
+        of the ball, counted from 0.
     """
 
     load: float
     cage_angle: float
     ball_angle: float
+    row: int = 0
 
 
 def heaviest_ball(state: Equilibrium) -> HeaviestBall:
@@ -49,7 +52,10 @@ def heaviest_ball(state: Equilibrium) -> HeaviestBall:
         return HeaviestBall(math.nan, math.nan, math.nan)
     i, j = np.unravel_index(int(np.argmax(loads)), loads.shape)
     return HeaviestBall(
-        float(loads[i, j]), float(state.cage_angles[i]), float(state.ball_angle[i, j])
+        float(loads[i, j]),
+        float(state.cage_angles[i]),
+        float(state.ball_angle[i, j]),
+        int(j) // state.scene.bearing.n_balls,
     )
 
 
@@ -135,12 +141,13 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     ValueError
         for a bearing without groove radii, or the equilibrium of another scene.
     """
-    contacts = {race: scene.bearing.race_contact(race) for race in RACES}
     if state is None:
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     ball = heaviest_ball(state)
+    own = scene.bearing.of_row(ball.row)
+    contacts = {race: own.race_contact(race) for race in RACES}
     found = {}
     for race, contact in contacts.items():
         a, b = contact.semi_axes(ball.load)

@@ -40,7 +40,7 @@ from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.model.bearing import Bearing
 from bearingcore.model.contacts.hertz import in_series
 from bearingcore.model.packing import typical_compression
-from bearingcore.model.scene import Scene
+from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.statics.film import TOUCHING, Film
@@ -136,26 +136,26 @@ def limits(
         for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
         another scene.
     """
-    if shoulder_height is None:
-        shoulder_height = usual_shoulder_height(scene.bearing.contact_angle)
-    height = checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
+    if shoulder_height is not None:
+        checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:
         state = equilibrium(scene, looked_at(scene))
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     if film is not None and film.scene != scene:
         raise checks.refuse("film", "the film of another scene", "that of this scene")
-    heaviest = heaviest_ball(state).load
+    ball = heaviest_ball(state)
+    heaviest, own = ball.load, scene.bearing.of_row(ball.row)
     in_motion = None
     if dynamic_load is not None:
         in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
     roller = scene.bearing.is_roller
     found: list[Limit | None] = [
-        _pressure(scene, "inner", heaviest),
-        _pressure(scene, "outer", heaviest),
+        _pressure(own, "inner", heaviest),
+        _pressure(own, "outer", heaviest),
         _pressure_in_motion(scene, in_motion),
         # the sphere of a self-aligning bearing has no shoulders, its inner grooves have
-        _askew() if roller else _shoulder(scene, state, height),
+        _askew() if roller else _shoulder(scene, state, shoulder_height),
         *_centrifugal(scene, state),
     ]
     if not roller:
@@ -196,24 +196,30 @@ def _element(bearing: Bearing) -> str:
     return "roller" if bearing.is_roller else "ball"
 
 
+LEFT_OUT = "the static model leaves it out"
+LEFT_OUT_WITH_MASS = (
+    "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
+    "it out"
+)
+
 NO_DRAWING = "the groove radii of this bearing are not known"
 NO_STATE = "no cage angle has a static equilibrium"
 NO_MOTION = "no motion of this scene has been simulated yet"
 NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not given"
 
 
-def _pressure(scene: Scene, race: str, load: float) -> Limit:
+def _pressure(bearing: Bearing, race: str, load: float) -> Limit:
     """Greatest pressure between the most loaded ball and a race."""
     name = f"contact pressure, {race} race"
-    allowed = static_pressure(scene.bearing)
-    if not scene.bearing.knows_contacts:
+    allowed = static_pressure(bearing)
+    if not bearing.knows_contacts:
         return unknown(name, allowed, "Pa", NO_DRAWING)
     if math.isnan(load):
         return unknown(name, allowed, "Pa", NO_STATE)
-    p = float(scene.bearing.race_contact(race).greatest_pressure(load))
+    p = float(bearing.race_contact(race).greatest_pressure(load))
     crossed = p > allowed
     sentence = (
-        f"The most loaded {_element(scene.bearing)} presses on the {race} race with "
+        f"The most loaded {_element(bearing)} presses on the {race} race with "
         f"{number(p / 1e9)} GPa (load {with_prefix(load, 'N')}), {_dents(crossed, allowed)}"
     )
     return Limit(name, p, allowed, "Pa", crossed, sentence)
@@ -248,17 +254,36 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
     return Limit(name, p, allowed, "Pa", crossed, sentence)
 
 
-def _shoulder(scene: Scene, state: Equilibrium, height: float) -> Limit:
+def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
+    """`_shoulder_of` all rows, or of the one that is nearest to its shoulder where they differ."""
+    bearing, kept = scene.bearing, _known(state)
+    loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
+    if bearing.has_one_contact_angle:
+        return _shoulder_of(bearing, loads, angles, height)
+    found = [
+        _shoulder_of(bearing.of_row(row), load, angle, height)
+        for row, (load, angle) in enumerate(
+            zip(*(np.split(one, len(bearing.rows), axis=1) for one in (loads, angles)), strict=True)
+        )
+    ]
+    return max(found, key=lambda one: np.nan_to_num(one.value - one.limit, nan=-math.inf))
+
+
+def _shoulder_of(
+    bearing: Bearing,
+    loads: NDArray[np.float64],
+    angles: NDArray[np.float64],
+    height: float | None,
+) -> Limit:
     """Contact angle of loaded balls, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
     arccos(1 − h/r_b) (Harris, truncated contact ellipse).
     """
     name = "contact angle at the shoulder"
-    bearing = scene.bearing
+    if height is None:
+        height = usual_shoulder_height(bearing.contact_angle)
     limit = math.acos(1.0 - 2.0 * height)
-    kept = _known(state)
-    loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
     carries = loads > 0.0
     if not carries.any():
         return unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
@@ -327,7 +352,7 @@ def _centrifugal_change(scene: Scene, force: float) -> Limit:
         f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
         f"{math.degrees(effect.contact_angle):.2g}°"
         + (
-            ": the static model leaves it out, and here it counts."
+            f": {LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT}, and here it counts."
             if crossed
             else f"; up to {percent(limit)} it may be left out."
         )

@@ -99,6 +99,14 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
     assert "nan" not in words.lower().split()
 
 
+def test_no_session_is_looked_at_that_may_end_meanwhile(monkeypatch: pytest.MonkeyPatch) -> None:
+    def current() -> None:
+        raise AssertionError("a report is made in a thread, where that is anybody's document")
+
+    monkeypatch.setattr("bokeh.io.curdoc", current)
+    assert report(Results(presets["fan-rig"]), [LoadDistribution], {}, about())["figures"]
+
+
 def test_what_strangers_write_stays_text() -> None:
     scene = presets["fan-rig"].replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
     results = Results(scene, 0.0, pinned=Reference(presets["fan-rig"], NASTY))

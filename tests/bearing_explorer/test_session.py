@@ -68,6 +68,15 @@ def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
 
+def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> None:
+    """A motion is megabytes: a session that has seen all tabs held a hundred of them."""
+    away = session(lambda e: e._tab_asked({"show": "two"}))
+    assert away._views["one"][0]._results is None
+    assert away._views["one"][0].csv() == ""
+    back = session(lambda e: e._tab_asked({"show": "two"}), lambda e: e._tab_asked({"show": "one"}))
+    assert back._views["one"][0].csv()
+
+
 def test_the_tab_that_was_asked_for_last_is_shown(
     news: list[dict], monkeypatch: pytest.MonkeyPatch
 ) -> None:

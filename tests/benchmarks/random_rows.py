@@ -1,8 +1,8 @@
-"""Random pairs, self-aligning and roller bearings: is each equilibrium right?
+"""Random pairs, unlike rows, self-aligning and roller bearings: is each equilibrium right?
 
     python -m tests.benchmarks.random_rows --scenes 200000
 
-Of each kind a fifth. Every answer is converged, with a residual of 1e-9, a symmetric stiffness
+Of each kind as many. Every answer is converged, with a residual of 1e-9, a symmetric stiffness
 without negative eigenvalues that is the slope of the loads, and a convex energy about it, or has a
 reason; `tests.helpers.random_rows` judges. Prints how many of each there were, and each fault.
 """
@@ -42,7 +42,7 @@ def main() -> int:
     seconds = time.perf_counter() - begin
     print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong; {pace()}")
     for (kind, outcome), count in sorted(outcomes.items()):
-        print(f"{count:8d}  {kind:14s} {outcome}")
+        print(f"{count:8d}  {kind:29s} {outcome}")
     return 1 if wrong else 0
 
 

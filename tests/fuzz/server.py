@@ -61,9 +61,9 @@ async def attack(inputs: int, first: int = 0) -> list[str]:
         await quiet.close()
         longest, unanswered = heard()
         log = server.log
-    print(f"{'':<10}longest silence {1e3 * longest:.0f} ms, {unanswered} without an answer")
+    print(f"{'':<10}longest silence {1e3 * longest:.0f} ms, {unanswered:.0f} without an answer")
     if unanswered:
-        found.append(f"server: {unanswered} times it did not say that it lives")
+        found.append(f"server: {unanswered:.0f} times it did not say that it lives")
     if "Traceback" in log:
         at = log.index("Traceback")
         found.append("server: its log has a traceback:\n" + log[max(at - 500, 0) : at + 2500])

@@ -54,7 +54,7 @@ class PageClient:
         self._replies: dict[str, asyncio.Future[Any]] = {}
         self._news = asyncio.Event()
         self._count = 0
-        self._welcome = False
+        self._welcome = self._over = False
         self._cookies: list[str] = []  # as a browser gives them back: balancers know people by them
 
     # Coming and going
@@ -79,7 +79,8 @@ class PageClient:
         await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready})
 
     async def open_socket(self, origin: str | None = None) -> None:
-        """The websocket alone."""
+        """The websocket alone; also once more."""
+        self._welcome = self._over = False
         address = re.sub("^http", "ws", self.url) + "ws"
         headers = {"Origin": origin} if origin else {}
         if self._cookies:
@@ -107,6 +108,12 @@ class PageClient:
     def closed(self) -> bool:
         """Whether the connection is over."""
         return self._task is None or self._task.done()
+
+    @property
+    def failed(self) -> BaseException | None:
+        """What went wrong in here with what the server sent."""
+        over = self._task is not None and self._task.done() and not self._task.cancelled()
+        return self._task.exception() if over else None  # type: ignore[union-attr]
 
     # Speaking
 
@@ -185,19 +192,30 @@ class PageClient:
     # Listening
 
     async def _read(self) -> None:
-        assert self._socket is not None
-        while (text := await self._socket.read_message()) is not None:
-            header = json.loads(text)
-            await self._socket.read_message()
-            content = json.loads(await self._socket.read_message() or "{}")
-            buffers: dict[str, bytes] = {}
-            for _ in range(header.get("num_buffers", 0)):
-                name = json.loads(await self._socket.read_message() or "{}")["id"]
-                buffers[name] = await self._socket.read_message()  # type: ignore[assignment]
-                self.bytes_received += len(buffers[name])
-            self._take(header, content, buffers)
+        """Take messages until the connection is over, in the middle of one too."""
+        try:
+            while (text := await self._frame()) is not None:
+                header = json.loads(text)
+                frames = [await self._frame() for _ in range(2 + 2 * header.get("num_buffers", 0))]
+                if None in frames:
+                    break
+                _, content, *rest = frames
+                names, blocks = rest[::2], rest[1::2]
+                buffers = {json.loads(n)["id"]: b for n, b in zip(names, blocks, strict=True)}
+                self.bytes_received += sum(len(block) for block in blocks)
+                self._take(header, json.loads(content or "{}"), buffers)
+                self._news.set()
+        finally:
             self._news.set()
-        self._news.set()
+
+    async def _frame(self) -> Any:
+        """The next frame; None once the connection is over, however often it is asked for."""
+        if self._over:
+            return None
+        assert self._socket is not None
+        frame = await self._socket.read_message()
+        self._over = frame is None
+        return frame
 
     def _take(self, header: dict[str, Any], content: Any, buffers: dict[str, bytes]) -> None:
         kind = header["msgtype"]

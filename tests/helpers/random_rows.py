@@ -1,4 +1,4 @@
-"""Random pairs, self-aligning and roller bearings, and a judge of their equilibria.
+"""Random pairs, self-aligning and roller bearings, unlike rows, and a judge of their equilibria.
 
 The judge writes the contact out again in extended precision, from its own gradients: energy,
 loads and nothing else. It shares the drop of a ball's centre with the program, which has tests of
@@ -38,7 +38,8 @@ from bearingcore.model.rows import ARRANGEMENTS
 from bearingcore.statics.passes import drops_now
 
 Long = np.longdouble
-KINDS = (*ARRANGEMENTS, "self-aligning", "rollers")
+OWN_ANGLES = "rows with angles of their own"
+KINDS = (*ARRANGEMENTS, "self-aligning", "rollers", OWN_ANGLES)
 
 RESIDUAL = 1e-9
 STEP = 1e-10
@@ -96,11 +97,39 @@ def _bearing(rng: np.random.Generator, kind: str, decades: Any) -> Bearing:
         radial_clearance=clearance,
         load_deflection_factor=one.load_deflection_factor * decades(0.1, 10.0),
     )
-    preload = 0.0 if kind == "tandem" else float(rng.choice([0.0, decades(1e-7, 3e-5)]))
-    pair = one.paired(pitch * float(rng.uniform(0.0, 2.0)), kind, preload)
+    arrangement = str(rng.choice(ARRANGEMENTS)) if kind == OWN_ANGLES else kind
+    preload = 0.0 if arrangement == "tandem" else float(rng.choice([0.0, decades(1e-7, 3e-5)]))
+    pair = one.paired(pitch * float(rng.uniform(0.0, 2.0)), arrangement, preload)
     low, high = pair.rows
+    if kind == OWN_ANGLES:
+        own = [math.radians(float(rng.uniform(0.0, 60.0))) for _ in "12"]
+        low = dataclasses.replace(low, contact_angle=own[0] if rng.random() < 0.5 else None)
+        high = dataclasses.replace(high, contact_angle=own[1])
     high = dataclasses.replace(high, turn=float(rng.choice([0.0, 0.5 * pair.ball_spacing])))
     return dataclasses.replace(pair, rows=(low, high))
+
+
+def _of_rows(b: Bearing) -> list[tuple[float, float, float]]:
+    """Contact angle, load-deflection factor and radius of the inner groove's centres, by row."""
+    found = []
+    for row in b.all_rows:
+        if row.contact_angle is None:
+            found.append((b.contact_angle, b.load_deflection_factor, b.groove_center_radius))
+            continue
+        assert b.inner_groove_radius is not None
+        assert b.outer_groove_radius is not None
+
+        def drawn(angle: float) -> float:
+            return Bearing.from_drawing(
+                b.n_balls, b.ball_diameter, b.pitch_diameter, b.inner_groove_radius,
+                b.outer_groove_radius, contact_angle=angle,
+            ).load_deflection_factor  # fmt: skip
+
+        angle = row.contact_angle
+        K = b.load_deflection_factor * drawn(angle) / drawn(b.contact_angle)
+        reach = b.inner_groove_radius - 0.5 * b.ball_diameter
+        found.append((angle, K, 0.5 * b.pitch_diameter + reach * math.cos(angle)))
+    return found
 
 
 class Contacts:
@@ -115,14 +144,16 @@ class Contacts:
         facing = np.repeat([row.facing for row in rows], n).astype(Long)
         c, s = np.cos(angle), np.sin(angle)
         zero, one = np.zeros_like(c), np.ones_like(c)
+        alpha, factor, radius = (np.repeat(each, n) for each in np.array(_of_rows(b)).T)
+        reach = radius.astype(Long) / b.groove_center_radius
         self.radial = np.stack([c, s, zero, -place * s, place * c], 1)
-        self.axial = np.stack([zero, zero, one, s, -c], 1)
-        self.ca = Long(math.cos(b.contact_angle)) * one
-        self.sa = facing * Long(math.sin(b.contact_angle))
+        self.axial = np.stack([zero, zero, one, reach * s, -reach * c], 1)
+        self.ca = np.cos(alpha).astype(Long)
+        self.sa = facing * np.sin(alpha).astype(Long)
         drop = drops_now(scene, cage_angle).astype(Long)
         slack = np.repeat([b.radial_clearance + row.clearance for row in rows], n).astype(Long)
         offset = np.repeat([row.offset for row in rows], n).astype(Long)
-        self.A0, self.K = Long(b.groove_center_distance), Long(b.load_deflection_factor)
+        self.A0, self.K = Long(b.groove_center_distance), factor.astype(Long)
         self.exponent = Long(10) / Long(9) if b.is_roller else Long(1.5)
         self.r0 = self.A0 * self.ca - slack - drop * self.ca
         self.z0 = self.A0 * self.sa + offset - drop * self.sa
@@ -141,7 +172,7 @@ class Contacts:
         """V(q) [N·m]."""
         _, _, _, delta = self.state(q)
         n = self.exponent
-        stored = self.K / (n + 1) * np.sum(np.maximum(delta, 0.0) ** (n + 1))
+        stored = np.sum(self.K / (n + 1) * np.maximum(delta, 0.0) ** (n + 1))
         return stored - self.load @ q
 
     def push(self, q: Any) -> Any:

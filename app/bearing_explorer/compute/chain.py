@@ -49,6 +49,8 @@ class Chain:
     off_line : [rad]
         how far from the line of the radial load its loads stand: mean angle between them, each
         ball counting by what it carries. NaN without a radial load.
+    direction : [rad]
+        of the radial load; NaN without one.
     greatest_load : [N]
         of a ball.
     loaded_balls
@@ -66,6 +68,7 @@ class Chain:
     answered: float
     reason: str
     off_line: float
+    direction: float
     greatest_load: float
     loaded_balls: float
     stiffness: dict[str, float]
@@ -130,6 +133,7 @@ def chain(results: Results) -> Chain:
         answered=1.0 - bad.size / found.converged.size,
         reason=found.reason(int(bad[0])) if bad.size else "",
         off_line=off_line(found, results.scene),
+        direction=direction(results.scene),
         greatest_load=float(loads.max(initial=0.0)) if loads.size else math.nan,
         loaded_balls=over_turn(found.cage_angles, _known(found, found.loaded_balls)),
         stiffness={term: over_turn(found.cage_angles, found.term(term)) for term in terms},
@@ -162,6 +166,12 @@ def off_line(found: Equilibrium, scene: Scene) -> float:
     apart = found.ball_angle - math.atan2(load.fy, load.fx)
     apart = np.abs((apart + math.pi) % (2.0 * math.pi) - math.pi)
     return float((carried * apart).sum() / total)
+
+
+def direction(scene: Scene) -> float:
+    """Where the radial load points [rad]; NaN without one."""
+    load = scene.load
+    return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
 
 
 def loudest(spectrum: Spectrum) -> Peak:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import asyncio
 import os
+import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
@@ -32,6 +34,28 @@ DIAGNOSES = ThreadPoolExecutor(_HALF, "diagnose")
 """Which part is damaged, of all sessions: half of the machine, drawing has the other half."""
 READERS = ThreadPoolExecutor(2, "read")
 """Files that are read: two at a time, whoever brings them, as reading takes memory."""
+
+_POOLS = (PICTURES, SLOW_PICTURES, BESIDE, PLANS, JOBS, DIAGNOSES, READERS)
+_GRACE = 0.2  # [s] for threads that do nothing to end
+
+
+def still_at_work() -> bool:
+    """Begin nothing more; whether a thread still computes what nobody will see.
+
+    Python itself would wait for all of them before a process ends, for minutes with long jobs.
+    """
+    for pool in _POOLS:
+        pool.shutdown(wait=False, cancel_futures=True)
+    end = time.monotonic() + _GRACE
+    ours = [thread for pool in _POOLS for thread in _threads_of(pool)]
+    for thread in ours:
+        thread.join(max(end - time.monotonic(), 0.0))
+    return any(thread.is_alive() for thread in ours)
+
+
+def _threads_of(pool: ThreadPoolExecutor) -> list[threading.Thread]:
+    prefix = f"{pool._thread_name_prefix}_"
+    return [thread for thread in threading.enumerate() if thread.name.startswith(prefix)]
 
 
 async def in_thread(function: Callable[..., Result], *args: object, slow: bool = False) -> Result:

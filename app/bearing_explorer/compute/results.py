@@ -615,8 +615,8 @@ class Results:
     def band_modes(self) -> Modes:
         """`modes` for their bands alone: while a hand moves, at every third cage angle.
 
-        When it rests, at thrice as many where no plan says which: a band is then the same to a
-        hertz on every tab.
+        When it rests, at thrice as many where no plan says which: a band is then what a plan
+        finds, within its error, and says the same on every tab.
         """
         first, last, n = self.stretch
         if self.moving:

@@ -66,6 +66,7 @@ BUTTONS = f"""
   --default-active-border: var(--accent); --color: var(--ink); color: var(--ink);
   font-family: {FONT}; font-size: 13px;
 }}
+:host .bk-input-group, :host label {{ font-family: {FONT}; }}
 :host .bk-btn {{ font-family: {FONT}; font-size: 13px; }}
 :host .bk-btn.bk-active {{ color: var(--accent); }}
 """
@@ -272,14 +273,15 @@ def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
     axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
 
 
-def words_of(source: ColumnDataSource, code: str) -> CustomJSExpr:
+def words_of(source: ColumnDataSource, code: str, **known: Any) -> CustomJSExpr:
     """Text made in the browser from the numbers of `source`, as the packed source carries no words.
 
     `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
     ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.
+    `known`: models that it knows besides.
     """
     return CustomJSExpr(
-        args={"source": source},
+        args={"source": source, **known},
         code=JS_PREFIX
         + """
 const data = source.data

@@ -200,7 +200,9 @@ def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) 
             shaft_speed=speed if speed_known else None,
         )
     except ValueError as error:
-        raise FormError({next(iter(chosen)): f"These columns are no signal: {error}."}) from None
+        raise FormError(
+            {next(iter(chosen)): f"These columns are no signal: {_said_by(error)}."}
+        ) from None
     origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
     return Asked(recording, speed, origin)
 
@@ -229,6 +231,11 @@ def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]
                 f"“{_short(column.name)}” says {column.unit}, which is no {kind_of(unit)}."
             )
     return refused
+
+
+def _said_by(error: ValueError) -> str:
+    """What the core says of a signal, without the quotes around what is no number there."""
+    return re.sub(r"^acceleration is '([^']*)'", r"the acceleration is \1", str(error))
 
 
 def _read(name: str, texts: Mapping[str, str]) -> float:

@@ -64,6 +64,7 @@ FIRST_WORDS = (
     "scene beside."
 )
 
+_UNIT_GUESSED = "The file does not say its unit: {} is a guess, choose another if it is wrong."
 _SPEED_OF_SCENE = (
     "The shaft speed is that of the scene: type in the measured one if it was another."
 )
@@ -213,8 +214,10 @@ class Measurement:
         self.measured = self.sized = None
         if found.asked is not None:
             self.measured = _measured(found.asked)
-            told = "" if table.contents.shaft_speed is not None else _SPEED_OF_SCENE
-            words, bad = self._summary(told), False
+            contents = table.contents
+            speed = "" if contents.shaft_speed is not None else _SPEED_OF_SCENE
+            unit = "" if contents.unit.told else _UNIT_GUESSED.format(contents.unit.value)
+            words, bad = self._summary(unit, speed), False
         else:
             words = f"{table.name} is read. {_WAITS} " + " ".join(
                 {**found.asks, **found.refused}.values()

@@ -99,6 +99,7 @@ _OF_FLOOR = [q for q in QUANTITY_LIST if q.of == "floor"]
 _OF_SCENE = [q for q in QUANTITY_LIST if q.of == "scene" and q.field not in DEFECT_FIELDS]
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, "roller_length")
 _OF_ROW = tuple(Row.__dataclass_fields__)
+"""Numbers of a row; the last, its contact angle, only where it has one of its own."""
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(SI)?", re.IGNORECASE | re.ASCII)
 
 
@@ -288,7 +289,10 @@ def rows_text(rows: tuple[Row, ...]) -> str:
     """Rows of balls as a word; `_rows` makes the very same of it."""
     if not rows:
         return "one"
-    return "~".join("_".join(_short(getattr(row, name)) for name in _OF_ROW) for row in rows)
+    numbers = ([getattr(row, name) for name in _OF_ROW] for row in rows)
+    return "~".join(
+        "_".join(_short(one) for one in of_row if one is not None) for of_row in numbers
+    )
 
 
 def _short(value: float) -> str:
@@ -382,9 +386,9 @@ def _rows(text: str) -> tuple[Row, ...]:
     rows: list[Row] = []
     for word in text.split("~"):
         numbers = [_parsed(number, "rows")[0] for number in word.split("_")]
-        if len(numbers) != len(_OF_ROW) or len(rows) == MOST_SHOWN_ROWS:
+        if len(numbers) not in (len(_OF_ROW) - 1, len(_OF_ROW)) or len(rows) == MOST_SHOWN_ROWS:
             raise ValueError(f"“{_shown(text)}” are not the rows of a bearing.")
-        given = dict(zip(_OF_ROW, numbers, strict=True))
+        given = dict(zip(_OF_ROW, numbers, strict=False))
         rows.append(Row(**{**given, "facing": int(given["facing"])}))  # type: ignore[arg-type]
     return tuple(rows)
 

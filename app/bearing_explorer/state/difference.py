@@ -68,4 +68,4 @@ def _from_to(quantity: Quantity, before: float, now: float, scene: Scene) -> str
 
 
 def _number(value: float, digits: int) -> str:
-    return "not known" if math.isnan(value) else f"{value:.{digits}g}".replace("-", "−")
+    return "left empty" if math.isnan(value) else f"{value:.{digits}g}".replace("-", "−")

@@ -29,7 +29,9 @@ def plane_fields(headings: bool = False) -> list[dict[str, Any]]:
 
 def plane_fills(limits: Mapping[str, Limits]) -> dict[str, dict[str, dict[str, str]]]:
     """What a side's fields show once a quantity is chosen there: side -> quantity -> fields."""
-    usual = {name: [f"{v:g}" for v in usual_range(name, limits)] for name in SWEEPABLE}
+    usual = {
+        name: [f"{v:g}".replace("-", "−") for v in usual_range(name, limits)] for name in SWEEPABLE
+    }
     return {
         side: {
             name: {f"{side}_from": low, f"{side}_to": high} for name, (low, high) in usual.items()

@@ -16,11 +16,11 @@ from bearingcore import Scene
 def twins_of(scene: Scene, selected: int, draft: Values) -> dict[str, dict[str, Any]]:
     """The second unit of quantities that have one, by name: its unit, words and factor.
 
-    `draft`: dimensions that wait; a groove's ratio is to the ball among them.
+    `draft`: dimensions that wait; the ratio of a groove among them is to the ball among them.
     """
     defect = defects_of(scene)[selected]
     on_race = 1e3 * defect.raceway_radius(scene.bearing) * math.pi / 180.0
-    ball = draft.get("ball_diameter_mm", 1e3 * scene.bearing.ball_diameter)
+    ball = 1e3 * scene.bearing.ball_diameter
 
     def twin(unit: str, words: str, factor: float) -> dict[str, Any]:
         return {"unit": unit, "words": words, "factor": factor}
@@ -30,8 +30,9 @@ def twins_of(scene: Scene, selected: int, draft: Values) -> dict[str, dict[str, 
         "shaft_speed_hz": twin("rpm", "turns a minute", 60.0),
         "radial_clearance_um": twin("µm dia.", "diametral clearance", 2.0),
     }
-    if ball > 0.0:
-        for race in ("inner", "outer"):
-            words = "groove radius over ball diameter"
-            twins[f"{race}_groove_radius_mm"] = twin("× ball", words, 1.0 / ball)
+    for race in ("inner", "outer"):
+        name = f"{race}_groove_radius_mm"
+        own = draft.get("ball_diameter_mm", ball) if name in draft else ball
+        if own > 0.0:
+            twins[name] = twin("× ball", "groove radius over ball diameter", 1.0 / own)
     return twins

@@ -220,6 +220,10 @@ class View:
         """What the figure shows; `grey` is what is drawn in grey."""
         return self.about.replace("{grey}", grey)
 
+    def put_away(self) -> None:
+        """It is off screen: let go of the results, of which a motion alone is megabytes."""
+        self._results = None
+
     @property
     def compares(self) -> bool:
         """Whether it draws something in grey beside the scene."""

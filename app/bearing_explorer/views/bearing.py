@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
 HALF_WIDTH = 1.56
+HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.32  # of a ball that carries the greatest load of the colour bar
 TOP_LINE, LINE_HEIGHT = 1.47, 0.1
@@ -63,6 +64,12 @@ if (!(w > 0 && h > 0)) return
 const unit = Math.min(w/shown.end, h/half), x = w/unit, y = h/unit
 plot.x_range.setv({start: -x, end: x, reset_start: -x, reset_end: x})
 plot.y_range.setv({start: -y, end: y, reset_start: -y, reset_end: y})
+"""
+
+
+_NO_HIGHER = """
+const high = Math.round(Math.min(most, Math.max(least, cb_obj.inner_width + scale)))
+if (cb_obj.height !== high) cb_obj.setv({height: high}, {sync: false})
 """
 
 
@@ -124,7 +131,11 @@ class BearingDrawing(View):
         return plot
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
-        return style.bare_figure(x, y, height=520)
+        plot = style.bare_figure(x, y, height=HEIGHT)
+        # on a phone no higher than it is wide, or half of it is empty
+        sizes = {"least": 320, "most": HEIGHT, "scale": SCALE_HEIGHT}
+        plot.js_on_change("inner_width", CustomJS(args=sizes, code=_NO_HIGHER))
+        return plot
 
     def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
         bar = color_bar(

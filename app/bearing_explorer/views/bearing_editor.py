@@ -60,14 +60,15 @@ class BearingEditor(ControlView):
     def sentence(self, results: Results) -> str:
         bearing = results.scene.bearing
         ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
-        angle = math.degrees(bearing.contact_angle)
+        angles = [bearing.of_row(k).contact_angle for k in range(len(bearing.all_rows))]
+        angle = "° and ".join(f"{math.degrees(one):.4g}" for one in dict.fromkeys(angles))
         rows = "two rows of " if bearing.rows else ""
         names = elements(bearing, bearing.n_balls)
         told = f"{rows}{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
         if bearing.roller_length is not None:
             told += f"{1e3 * bearing.roller_length:.4g} mm long."
         else:
-            told += f"{'no contact angle' if angle == 0.0 else f'{angle:.4g}° contact angle'}"
+            told += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
             kind = kind_of(bearing)
             told += "." if kind == "single" else f", {kind.replace('-', ' ')}."
         return told[0].upper() + told[1:]
@@ -106,7 +107,14 @@ def shape_of(bearing: Bearing) -> dict[str, Any]:
         shape["inner_groove_radius"] = bearing.sphere_groove
     return shape | {
         "kind": kind_of(bearing),
-        "rows": [{"place": row.place, "facing": row.facing} for row in bearing.all_rows],
+        "rows": [
+            {
+                "place": row.place,
+                "facing": row.facing,
+                "contact_angle": bearing.of_row(k).contact_angle,
+            }
+            for k, row in enumerate(bearing.all_rows)
+        ],
     }
 
 
@@ -114,27 +122,30 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
     """Numbers that follow from the dimensions and the speed of the shaft, with their words."""
     bearing, speed = scene.bearing, scene.shaft_speed
 
-    def hertz(value: float) -> str:
-        return f"{style.number(value, 4)} Hz"
+    def hertz(name: str) -> str:
+        """A frequency; of rows with contact angles of their own one after the other."""
+        rows = range(len(bearing.all_rows))
+        of_rows = [float(getattr(bearing.of_row(k), name)(speed)) for k in rows]
+        return " and ".join(f"{style.number(one, 4)} Hz" for one in dict.fromkeys(of_rows))
 
     facts = [
         (
             "Balls pass the outer race",
             "BPFO",
-            hertz(bearing.bpfo(speed)),
+            hertz("bpfo"),
             "How often a point of the outer race is passed.",
         ),
         (
             "Balls pass the inner race",
             "BPFI",
-            hertz(bearing.bpfi(speed)),
+            hertz("bpfi"),
             "How often a point of the inner race meets a ball.",
         ),
-        ("The cage turns", "FTF", hertz(bearing.ftf(speed)), "Turns of the cage a second."),
+        ("The cage turns", "FTF", hertz("ftf"), "Turns of the cage a second."),
         (
             "A ball spins",
             "BSF",
-            hertz(bearing.bsf(speed)),
+            hertz("bsf"),
             "Turns of a ball about itself a second.",
         ),
     ]
@@ -226,7 +237,8 @@ def _of_rows(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         return [("Rows apart", "a", style.with_prefix(distance, "m", 4), about)]
     if distance is None or bearing.arrangement == "tandem" or not bearing.arrangement:
         return []
-    reach = bearing.pitch_diameter * math.tan(bearing.contact_angle)
+    tangents = [math.tan(bearing.of_row(row).contact_angle) for row in range(2)]
+    reach = 0.5 * bearing.pitch_diameter * sum(tangents)
     back = bearing.arrangement == "back-to-back"
     apart = distance + reach if back else abs(distance - reach)
     return [

@@ -145,7 +145,7 @@ class ExplorePlane(JobView[Plane]):
         fills = plane_fills(editor.limits)
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]], **_FIRST_BAND}
         # loads that point down, as weights do: without a load there is nothing to map
-        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}"
+        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
         if self._asking is None:
             self._asking = self.asked(values, editor)
         return values, fills

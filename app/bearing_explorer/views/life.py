@@ -17,6 +17,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
+from bearingcore.common.numbers import thousands
 from bearingcore.statics.film import TOUCHING
 from bearingcore.statics.life import LEFT_OUT
 from bearingcore.statics.validity import static_pressure
@@ -147,6 +148,8 @@ class LifeOfBearing(ControlView):
 
     def sentence(self, results: Results) -> str:
         found = results.endurance
+        if len(groups_of(results)) == 1:
+            return "Nothing of this can be computed for this bearing yet."
         return found.no_life if found.life is None else found.life.sentence
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -191,9 +194,13 @@ def read(field: Field, given: object) -> float | None:
 
 
 def groups_of(results: Results) -> list[dict[str, Any]]:
-    """What is shown: titles, words, and facts with their numbers."""
+    """What is shown: titles, words, and facts with their numbers; what is not known said once."""
     found = results.endurance
-    return [_life(results, found), _pressures(results, found), _film(results, found)]
+    groups = [_life(results, found), _pressures(results, found), _film(results, found)]
+    words = groups[0]["words"]
+    if all(not group["facts"] and group["words"] == words for group in groups):
+        return [_group("Life, greatest contact pressure and oil film", words, [])]
+    return groups
 
 
 def _group(title: str, words: str, facts: list[tuple[str, str, str]]) -> dict[str, Any]:
@@ -223,7 +230,7 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
         ),
         (
             "at the speed of the scene",
-            f"{style.number(lasts.hours, 4)} h"
+            f"{_long(lasts.hours)} h"
             if math.isfinite(lasts.hours)
             else "no hours: "
             + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "without an end"),
@@ -247,7 +254,12 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
 
 
 def _million(value: float) -> str:
-    return "without an end" if math.isinf(value) else f"{style.number(value, 4)} million turns"
+    return "without an end" if math.isinf(value) else f"{_long(value)} million turns"
+
+
+def _long(value: float) -> str:
+    """A number of three digits: of lives no more is known."""
+    return thousands(float(f"{value:.3g}")) if value >= 1e4 else style.number(value, 3)
 
 
 def _pressures(results: Results, found: Endurance) -> dict[str, Any]:

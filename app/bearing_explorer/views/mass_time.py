@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
+from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
 from bearing_explorer.compute.ball_mass import BallMass
@@ -35,9 +35,12 @@ WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the
 """Of events, by the numbers that the packed source carries."""
 EVENT_ROWS = 3
 
-_EVENT_WORDS = (
-    f"return `ball ${{row.ball}} ${{{json.dumps(WORDS)}[row.kind]}}, ${{si(row.time, 's')}}`"
-)
+_EVENT_WORDS = f"""
+const does = {json.dumps(WORDS)}[row.kind]
+let width = 0  // on a phone there is room for less
+try {{ width = plot.inner_width }} catch {{ /* not laid out yet */ }}
+return width && width < 420 ? does : `ball ${{row.ball}} ${{does}}, ${{si(row.time, 's')}}`
+"""
 
 
 MASSLESS_LINE = {"line_color": style.INK, "line_alpha": 0.35, "line_width": 3.0}
@@ -75,6 +78,9 @@ class MassInTime(View):
             plot.line("time", dof, source=motion, line_color=color, line_width=1.4)
             plots.append(plot)
         self._label_events(plots[0], events)
+        # labels are shorter where there is little room, which is known later than they are
+        write = CustomJS(args={"events": events}, code="events.change.emit()")
+        plots[0].js_on_change("inner_width", write)
         below = style.house_figure(
             TIME,
             style.BALL_LOAD,
@@ -94,7 +100,7 @@ class MassInTime(View):
         plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
             "label_from", "label_at", y_range_name="shares",
-            text=style.words_of(events, _EVENT_WORDS), source=events, x_offset=4,
+            text=style.words_of(events, _EVENT_WORDS, plot=plot), source=events, x_offset=4,
             text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
             text_color=style.INK, text_baseline="middle", background_fill_color="white",
             background_fill_alpha=0.85,

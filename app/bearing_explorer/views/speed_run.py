@@ -360,8 +360,12 @@ def compute(job: Work, scene: Any, speeds: Sweep) -> str:
                 progress=job.within(done / total, (done + size) / total),
                 cancelled=job.cancelled,
             )
+            if run.cost and not done:
+                raise ValueError(run.cost)
         except ValueError as error:
             raise ValueError(refusal(error)) from error
+        if run.cost:
+            return f"{shown} Finer was not begun, {run.cost}."
         if run.completed or not done:
             job.show(Found(run, level))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."

@@ -245,8 +245,12 @@ def compute(job: Work, scene: Any, x: Sweep, y: Sweep, n: int) -> str:
                 progress=job.within(done / sum(sizes), (done + size) / sum(sizes)),
                 cancelled=job.cancelled,
             )
+            if found.cost and not done:
+                raise ValueError(found.cost)
         except ValueError as error:
             raise ValueError(refusal(error)) from error
+        if found.cost:
+            return f"{shown} Finer was not begun, {found.cost}."
         if found.completed or not done:
             job.show(Found(found, x_level, y_level))
             spent = time.perf_counter() - started

@@ -186,7 +186,7 @@ class Stiffness(View):
             least, most = np.nanmin(values), np.nanmax(values)
             line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
-            if healthy.converged.any():
+            if results.beside_words and healthy.converged.any():
                 mean = over_turn(healthy.cage_angles, healthy_values)
                 line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
@@ -203,7 +203,7 @@ class Stiffness(View):
         """Also in the legend what is drawn in grey."""
         super().say(results, sentence)
         if results is not None:
-            words = _legend_words(results.pinned.words if results.pinned else "healthy bearing")
+            words = _legend_words(results)
             if words != self._legend.data["text"]:
                 self._legend.data = {**self._legend.data, "text": words}
 
@@ -262,14 +262,16 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     y = [-2.36, -2.52, -2.68]
     colors, widths = [DEFECTIVE, HEALTHY, INK], [2.4, 2.0, 1.2]
     plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
-    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": _legend_words("healthy bearing")})
+    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": ["", "", "now"]})
     _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
     return legend
 
 
-def _legend_words(beside: str) -> list[str]:
-    """Words of the legend; `beside` is what is drawn in grey."""
-    return ["with the defect", beside if len(beside) <= 40 else beside[:39] + "…", "now"]
+def _legend_words(results: Results) -> list[str]:
+    """Words of the legend: blue, grey, and the upright line."""
+    own = "with the defect" if results.scene.defects else "this bearing, without a defect"
+    beside = results.pinned.words if results.pinned else "healthy bearing"
+    return [own, beside if len(beside) <= 40 else beside[:39] + "…", "now"]
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:

@@ -101,7 +101,7 @@ class VibrationSpectra(View):
             active=[],
             syncable=False,
             margin=(4, 5, 8, 5),
-            stylesheets=[f":host {{ font-family: {style.FONT}; font-size: 13px }}"],
+            stylesheets=[style.BUTTONS],
         )
         toggle.js_on_change(
             "active",

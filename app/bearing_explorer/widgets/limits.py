@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import param
 
-from bearing_explorer.assets import asset_path, asset_text
+from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.server.live_component import LiveComponent
 from bearingcore.common import numbers
 from bearingcore.statics.validity import NO_OIL
@@ -24,7 +24,7 @@ class LimitsStrip(LiveComponent):
     #: how it stands in a line
     summary = param.String()
 
-    _esm = asset_path("limits.js")
+    _esm = scripts("element.js", "limits.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("footer.css"),

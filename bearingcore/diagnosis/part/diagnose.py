@@ -36,12 +36,18 @@ SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 """[rad/s] between which an unknown shaft is looked for."""
 
 
+MOST_SAMPLES = 20_000_000
+"""Samples of all directions that are listened to at most unless told otherwise: about a minute of
+one core, and some gigabytes."""
+
+
 def diagnose(
     recording: Recording,
     bearing: Bearing,
     shaft_speed: float | tuple[float, float] | None,
     *,
     slip: float = 0.02,
+    most_samples: int = MOST_SAMPLES,
 ) -> Diagnosis:
     """Which part of a bearing is damaged, if that can be told from a signal.
 
@@ -57,6 +63,9 @@ def diagnose(
         turns a minute.
     slip
         by how much balls may pass faster or slower than the shaft speed says, as a fraction.
+    most_samples
+        of all directions that may be listened to. Where there are more nothing is begun, and the
+        status says how many there are.
 
     Raises
     ------
@@ -65,6 +74,9 @@ def diagnose(
     """
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = _speeds(recording, shaft_speed)
+    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
+    if recording.acceleration.size > most:
+        return silent(say.too_many(recording.acceleration.size, most), source)
     signal = ListenedSignal(recording)
     if signal.nothing_to_hear is not None:
         return silent(signal.nothing_to_hear, source)

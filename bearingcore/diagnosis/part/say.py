@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence
 
 
@@ -20,6 +21,14 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
     return (
         f"Cannot tell: {duration:.3g} s hold {passes:.0f} ball passes, and no fewer than {fewest} "
         "tell anything."
+    )
+
+
+def too_many(samples: int, most: int) -> str:
+    """More to listen to than may be."""
+    return (
+        f"Cannot tell: too many samples: {thousands(samples)}, allowed are most_samples = "
+        f"{thousands(most)}."
     )
 
 

@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import probability, thousands, with_deviation
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.size.chance import PassQuality, pass_quality
 from bearingcore.diagnosis.size.events import Events, find_events
@@ -56,6 +56,7 @@ from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.model.support import Support
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.recording import Recording
+from bearingcore.signals.spectrum import check_samples
 from bearingcore.statics.passes import crossings
 
 MOST_STEPS = 100_000_000
@@ -311,6 +312,7 @@ def size_defect(
     support_known: bool = True,
     slip: float = 0.02,
     most_steps: int = MOST_STEPS,
+    most_samples: int = MOST_SAMPLES,
     progress: Callable[[float], None] | None = None,
 ) -> Sizing:
     """Candidates for the extent of a defect on the outer race, and their probabilities.
@@ -342,14 +344,17 @@ def size_defect(
     most_steps
         steps of integration that may be taken in all. They are counted before the first: where
         there would be more there are no candidates, and the status says how many.
+    most_samples
+        of all directions that may be looked at.
     progress
         is called with the share of the work done, and may raise an exception to end it.
 
     Raises
     ------
     ValueError
-        for a scene that is not fit for it, or a signal too short or sampled too slowly.
+        for a scene that is not fit for it, or a signal too short, too long or sampled too slowly.
     """
+    check_samples("acceleration", recording.acceleration, most_samples)
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
@@ -385,7 +390,9 @@ def size_defect(
         path=path,
     )
     if fault is None:
-        found_fault = diagnose(recording, scene.bearing, scene.shaft_speed, slip=slip)
+        found_fault = diagnose(
+            recording, scene.bearing, scene.shaft_speed, slip=slip, most_samples=most_samples
+        )
         nothing = dataclasses.replace(nothing, diagnosis=found_fault, status=_no_size(found_fault))
         if found_fault.fault != OUTER:
             return nothing

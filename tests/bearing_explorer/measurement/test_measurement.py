@@ -373,7 +373,7 @@ BAD = {
     "ragged": ("r.csv", csv_of(NOISE) + b"\n1,2", "3 columns as in the first"),
     "short": ("s.csv", csv_of(NOISE[:100]), "at least 256 samples"),
     "wide": ("v.csv", csv_of(np.ones((300, 80))), "at most 64"),
-    "not finite": ("n.csv", with_nan(), "not a finite number in 1 samples"),
+    "not finite": ("n.csv", with_nan(), "the acceleration is not a finite number in 1 sample"),
     "still": ("k.csv", csv_of(np.ones((2000, 2)), "time,x,y"), "same number throughout"),
     "broken wav": ("b.wav", wav_of(NOISE)[:20], "a whole WAV file"),
     "false wav": ("f.wav", b"RIFF" + bytes(3000), "a whole WAV file"),

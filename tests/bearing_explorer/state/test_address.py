@@ -292,3 +292,16 @@ def test_a_floor_too_long_for_a_link_is_left_out_and_said() -> None:
     shown = opened(link, SceneEditor("fan-rig"))
     assert shown.scene == place.scene.replace(floor=None)
     assert "too long" in shown.note
+
+
+def test_a_row_with_a_contact_angle_of_its_own_comes_back() -> None:
+    scene = presets["7208-back-to-back"]
+    low, high = scene.bearing.rows
+    rows = (low, dataclasses.replace(high, contact_angle=0.7))
+    scene = scene.replace(bearing=dataclasses.replace(scene.bearing, rows=rows))
+    text = write(Place(scene, "7208-back-to-back"))
+    found = read(text)
+    assert found is not None
+    assert found.scene == scene
+    with pytest.raises(ValueError, match="rows of a bearing"):
+        read(text.replace("_0.7", "_0.7_1"))

@@ -98,7 +98,7 @@ def test_before_the_first_change_it_is_against_grey() -> None:
 
 
 CHAIN = Chain(
-    1.0, "", 0.5, 40.0, 4.0, {"k_xx": 2e7, "k_yy": 4e7},
+    1.0, "", 0.5, -1.57, 40.0, 4.0, {"k_xx": 2e7, "k_yy": 4e7},
     {"x1": (365.0, 480.0), "y1": (615.0, 678.0), "y2": (1790.0, 1840.0)},
     {"x": Peak(448.0, -44.0, 32.0), "y": Peak(672.0, -22.0, 32.0)}, "",
 )  # fmt: skip
@@ -114,7 +114,8 @@ def changed(**news: object) -> str:
         ({}, "So: nothing changes along the chain."),
         ({"off_line": 0.51}, "So: hardly anything changes along the chain."),
         ({"off_line": 0.53}, "So: the load moves outwards."),
-        ({"greatest_load": 90.0}, "So: the most that a ball carries rises to 2.2 times."),
+        ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
+        ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
         ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
         ({"stiffness": {"k_xx": 3e7, "k_yy": 4e7}}, "So: k_xx rises by 50 %."),
         ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
@@ -133,7 +134,7 @@ def changed(**news: object) -> str:
         ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz is 3 dB higher."),
         ({"peaks": {}, "silent": "nothing turns"},
-         "So: nothing changes along the chain; there is no spectrum: nothing turns."),
+         "So: at rest hardly anything changes; there is no spectrum: nothing turns."),
         # what is said is not only what happens where the housing is loudest
         ({"peaks": {**CHAIN.peaks, "x": Peak(448.0, -34.0, 32.0)}},
          "So: the spectrum's peak along x at 448 Hz is 10 dB higher."),

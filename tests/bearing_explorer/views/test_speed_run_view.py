@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from functools import partial
 
 import numpy as np
 import pytest
@@ -104,3 +105,18 @@ def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
     with pytest.raises(ValueError, match=f"at most {COUNTS[-1]}"):
         view.prepare({"from": "1", "to": "60", "count": "100000"}, editor)
     assert callable(view.prepare(view.form(editor)[0], editor))
+
+
+def test_a_run_that_would_take_too_many_steps_is_said_not_begun(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    speeds = sweep(SPEED, "30", "60", 49, limits_of(RIG))
+    few = partial(speed_run, most_steps_in_all=1000)
+    monkeypatch.setattr("bearing_explorer.views.speed_run.speed_run", few)
+    with pytest.raises(ValueError, match="too many steps"):
+        compute(Work(), RIG, speeds)
+    enough = partial(speed_run, most_steps_in_all=4_000_000)
+    monkeypatch.setattr("bearing_explorer.views.speed_run.speed_run", enough)
+    words = compute(Work(), RIG, speeds)
+    assert "speeds after" in words
+    assert "Finer was not begun, too many steps: about" in words

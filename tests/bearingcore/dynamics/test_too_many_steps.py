@@ -14,7 +14,7 @@ from bearingcore import Scene, equilibrium, modes, presets, simulate, stiffness_
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
-from bearingcore.dynamics.orbit import orbit
+from bearingcore.dynamics.orbit import STABLE, orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import regions, stability_map
 from bearingcore.plan import SETTLED, VIBRATION, plan
@@ -77,6 +77,71 @@ def test_speeds_and_points_of_too_many_steps_are_told_one_by_one() -> None:
     found = stability_map(STIFF, ("fz", [100.0, 110.0]), ("extent", [0.2, 0.3]))
     assert found.count(TOO_MANY_STEPS) == 4
     assert "At 4 the search would take more steps than allowed." in regions(found)
+
+
+@pytest.mark.usefixtures("_no_marching")
+def test_a_run_of_too_many_steps_in_all_is_not_begun_and_says_what_it_would_cost() -> None:
+    rig = presets["fan-rig"]
+    speeds = np.linspace(200.0, 400.0, 1000)
+    run = speed_run(rig, speeds, resolution=1.0, duration=60.0, most_steps=10**8)
+    assert run.cost.startswith("too many steps: about ")
+    assert f"at 1000 speeds, allowed are most_steps_in_all = {thousands(1e9)}" in run.cost
+    assert not run.completed
+    assert run.density.shape == (1000, 32769, len(run.dofs))
+    assert run.density.base is not None, "and takes no memory"
+    assert np.isnan(run.density[17, 5]).all()
+    axis = np.linspace(100.0, 110.0, 1000)
+    found = stability_map(STIFF, ("fz", axis), ("fy", axis), most_steps=10**8)
+    assert found.cost == (
+        f"too many steps: about {thousands(2 * 725688 * 1e6)} at 1000000 points, allowed are "
+        f"most_steps_in_all = {thousands(1e9)}"
+    )
+    assert found.count(TOO_MANY_STEPS) == 1_000_000
+    assert not found.completed
+
+
+def test_the_bound_in_all_is_an_argument_and_holds_while_steps_are_taken() -> None:
+    rig = presets["fan-rig"]
+    x, y = ("fy", [-100.0, -101.0]), ("extent", [0.2, 0.21])
+    whole = stability_map(rig, x, y)
+    assert whole.count(STABLE) == 4
+    assert not whole.cost
+    part = stability_map(rig, x, y, most_steps_in_all=7000)
+    assert not part.cost, "that more are needed is not known before"
+    assert 0 < part.count(STABLE) < 4
+    assert part.count(STABLE) + part.count(TOO_MANY_STEPS) == 4
+    speeds = [260.0, 262.0, 264.0]
+    short = {"sample_rate": 16384.0, "duration": 0.004, "resolution": 256.0}
+    run = speed_run(rig, speeds, **short)
+    assert run.from_orbit.all()
+    assert not run.refusals
+    run = speed_run(rig, speeds, **short, most_steps_in_all=1300)
+    assert not run.cost
+    assert run.from_orbit.tolist() == [True, True, False]
+    assert "too many steps" in run.refusals[2]
+    for ask in (lambda n: stability_map(rig, x, y, most_steps_in_all=n),
+                lambda n: speed_run(rig, speeds, most_steps_in_all=n)):  # fmt: skip
+        with pytest.raises(ValueError, match="most_steps_in_all"):
+            ask(0)
+
+
+@pytest.mark.parametrize(
+    ("what", "asked"),
+    [
+        ("duration", {"duration": 1e9}),
+        ("sample_rate", {"sample_rate": -1.0}),
+        ("resolution", {"resolution": 1e-6}),
+        ("resolution", {"resolution": math.nan}),
+    ],
+)
+def test_spectra_of_orbits_and_runs_hold_no_more_than_memory(
+    what: str, asked: dict[str, float]
+) -> None:
+    rig = presets["fan-rig"]
+    with pytest.raises(ValueError, match=f"^{what} is"):
+        orbit(rig).spectrum(**asked)
+    with pytest.raises(ValueError, match=f"^{what} is"):
+        speed_run(rig, [260.0], **asked)
 
 
 @pytest.mark.usefixtures("_no_marching")

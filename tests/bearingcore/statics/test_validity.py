@@ -321,3 +321,14 @@ def test_a_state_at_hand_gives_the_same() -> None:
 def test_impossible_choices_are_refused(choices: dict[str, float], said: str) -> None:
     with pytest.raises(ValueError, match=said):
         limits(HEALTHY_6205, **choices)  # type: ignore[arg-type]
+
+
+def test_what_still_leaves_centrifugal_load_out_is_said_of_balls_with_mass() -> None:
+    fast = presets["7208-25deg"].replace(shaft_speed=1500.0)
+    massless = found(fast, "change by centrifugal force")
+    heavy = found(fast.replace(balls="with mass"), "change by centrifugal force")
+    assert massless.crossed
+    assert heavy.crossed
+    assert heavy.value == massless.value
+    assert "static model leaves it out" in massless.sentence
+    assert "natural frequencies and life leave it out" in heavy.sentence

@@ -29,9 +29,10 @@ class LastChange(View):
     title = "What the last change did"
     about = (
         "Computed for each change, against the scene before it. Means are over all cage angles. "
-        "Not named is what changes little: stiffness and natural frequencies by less than 1 %, the "
-        "greatest load of a ball by less than 5 %, the loudest line by less than 2 dB. Before the "
-        "first change the scene is compared with what is drawn in grey."
+        "Outwards: to balls further from the line of the radial load. Not named is what changes "
+        "little: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
+        "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
+        "is compared with what is drawn in grey."
     )
     needs = frozenset({"chain", "chain_before", "late_spectra", "healthy_late_spectra"})
     compact = True

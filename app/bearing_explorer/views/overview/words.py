@@ -19,7 +19,7 @@ LEAST_LOAD = 0.05
 """Of the greatest load of a ball."""
 LEAST_LEVEL = 2.0
 """[dB] of the loudest line."""
-_SAME = 1e-9  # of a number: rounding
+_SAME = 1e-7  # of a number: rounding
 _BESIDE = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 
@@ -73,20 +73,23 @@ def direction(now: Chain, before: Chain) -> str:
 
 def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
     """That nothing changes, or nothing by as much as is named."""
-    if not np.allclose(loads_of(now), loads_of(before), rtol=_SAME, atol=0.0, equal_nan=True):
+    numbers = [np.concatenate(list(of.table().in_units().named().values())) for of in (now, before)]
+    alike = numbers[0].size == numbers[1].size and np.allclose(
+        numbers[0], numbers[1], rtol=_SAME, atol=_SAME, equal_nan=True
+    )
+    if now.silent:
+        return "at rest hardly anything changes"
+    if not alike:
         return "hardly anything changes along the chain"
-    if why_not:
-        return f"nothing changes along the chain, as {why_not}"
-    return "nothing changes along the chain"
-
-
-def loads_of(chain: Chain) -> tuple[float, ...]:
-    """All that depends on the loads of the balls at rest."""
-    return (chain.off_line, chain.greatest_load, chain.loaded_balls, *chain.stiffness.values())
+    return "nothing changes along the chain" + (f", as {why_not}" if why_not else "")
 
 
 def load_words(now: Chain, before: Chain) -> str:
     """Where the load goes, or how much the most loaded ball carries."""
+    around = math.degrees(now.direction - before.direction)
+    around = abs((around + 180.0) % 360.0 - 180.0)
+    if around >= math.degrees(LEAST_TURN):
+        return f"the load turns by {style.number(around, 2)}°"
     turned = now.off_line - before.off_line
     if turned >= LEAST_TURN:
         return "the load moves outwards"
@@ -94,7 +97,7 @@ def load_words(now: Chain, before: Chain) -> str:
         return "the load moves inwards"
     grown = _ratio(now.greatest_load, before.greatest_load)
     if abs(grown) >= LEAST_LOAD:
-        return f"the most that a ball carries {_by(grown)}"
+        return f"the greatest load of a ball {_by(grown)}"
     return ""
 
 

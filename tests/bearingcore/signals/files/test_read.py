@@ -111,7 +111,7 @@ def test_gaps_matter_only_in_the_columns_taken():
     lines[700] = lines[700].rsplit(",", 1)[0] + ","
     table = read_table("rig.csv", "\n".join(lines).encode())
     assert table.recording([1], ["x"], "g").duration > 0.0
-    with pytest.raises(ValueError, match="not a finite number in 1 samples, first in number 701"):
+    with pytest.raises(ValueError, match="not a finite number in 1 sample, first in number 701"):
         table.recording([2], ["y"], "g")
 
 

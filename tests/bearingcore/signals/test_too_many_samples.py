@@ -1,0 +1,63 @@
+"""Samples are counted before anything is done with them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from bearingcore import diagnose, envelope_spectrum, presets, size_defect, spectrum
+from bearingcore.common.numbers import thousands
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL
+from bearingcore.signals.recording import Recording
+
+RIG = presets["fan-rig"]
+#: of a length that would be gigabytes, and takes none
+ENDLESS = np.broadcast_to(np.float64(0.0), (200_000_000,))
+
+
+@pytest.fixture
+def signal() -> Recording:
+    return Recording(np.random.default_rng(1).normal(size=(20_000, 2)), 20_000.0)
+
+
+def test_spectra_of_too_many_samples_are_refused_before_they_are_begun() -> None:
+    words = f"samples of the signal is 200000000; allowed: at most most_samples = {thousands(1e8)}"
+    for ask in (lambda: spectrum(ENDLESS, 65536.0),
+                lambda: envelope_spectrum(ENDLESS, 65536.0, (2000.0, 4000.0))):  # fmt: skip
+        with pytest.raises(ValueError, match=words):
+            ask()
+
+
+def test_the_bound_of_spectra_is_an_argument() -> None:
+    noise = np.random.default_rng(1).normal(size=(4096, 2))
+    assert spectrum(noise, 4096.0, most_samples=8192).density.shape[1] == 2
+    assert len(envelope_spectrum(noise, 4096.0, (100.0, 900.0), most_samples=8192).frequency)
+    for most in (8191, 0, 2.5):
+        with pytest.raises(ValueError, match="most_samples"):
+            spectrum(noise, 4096.0, most_samples=most)  # type: ignore[arg-type]
+        with pytest.raises(ValueError, match="most_samples"):
+            envelope_spectrum(noise, 4096.0, (100.0, 900.0), most_samples=most)  # type: ignore[arg-type]
+
+
+def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(
+    signal: Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def begun(*_: object) -> None:
+        raise AssertionError("it was begun")
+
+    monkeypatch.setattr("bearingcore.diagnosis.part.diagnose.ListenedSignal", begun)
+    found = diagnose(signal, RIG.bearing, 260.0, most_samples=39_999)
+    assert found.fault == CANNOT_TELL
+    assert found.status == (
+        f"Cannot tell: too many samples: {thousands(40_000)}, allowed are most_samples = "
+        f"{thousands(39_999)}."
+    )
+    with pytest.raises(AssertionError, match="it was begun"):
+        diagnose(signal, RIG.bearing, 260.0, most_samples=40_000)
+    with pytest.raises(ValueError, match="most_samples"):
+        diagnose(signal, RIG.bearing, 260.0, most_samples=0)
+
+
+def test_nor_is_a_size_looked_for(signal: Recording) -> None:
+    with pytest.raises(ValueError, match="number of samples of the acceleration is 40000;"):
+        size_defect(signal, RIG.replace(shaft_speed=260.0), most_samples=39_999)

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from unittest import mock
 
-from bearingcore import Diagnosis, Load, Scene, Support, diagnose, presets, size_defect
+from bearingcore import Diagnosis, Load, Scene, Sizing, Support, diagnose, presets, size_defect
 from bearingcore.diagnosis.part import listened_signal
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.part.parts import OUTER, PARTS
@@ -31,6 +31,7 @@ from tests.benchmarks.machine import pace
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
 
 RIGHT, CANNOT, WRONG = "right", "cannot tell", "wrong"
+UNCHECKED = "size not published"
 
 SUPPORTS = tuple(
     (inner, outer, stiffness, damping)
@@ -68,7 +69,8 @@ def sizes(record: Record, by_hand: bool = False) -> Iterator[Sized]:
     """The extent of the defect by several supports and loads, held against the truth.
 
     Whatever is conclusive, or a bound, where no outer-race defect is, or away from its known
-    extent, is wrong. `by_hand` says that the outer race is damaged, whatever the diagnosis says.
+    extent, is wrong (see `size_verdict`). `by_hand` says that the outer race is damaged, whatever
+    the diagnosis says.
     """
     for inner, outer, stiffness, damping in SUPPORTS:
         for load in LOADS:
@@ -92,19 +94,25 @@ def sizes(record: Record, by_hand: bool = False) -> Iterator[Sized]:
                 continue
             extent = math.degrees(found.best.extent)
             spread = math.degrees(found.extent_uncertainty)
-            truth = record.outer_extent_deg
-            if not found.conclusive:
-                result = CANNOT
-            elif record.truth != OUTER or truth is None:
-                result = WRONG
-            else:
-                result = RIGHT if abs(extent - truth) <= max(1.0, 2.0 * spread) else WRONG
-            if found.bound == AT_MOST and truth is not None and record.truth == OUTER:
-                most = extent + 2.0 * spread
-                result = RIGHT if most >= truth else WRONG
-            elif found.bound:
-                result = WRONG
-            yield Sized(told, extent, spread, found.conclusive, result, found.status)
+            yield Sized(
+                told, extent, spread, found.conclusive, size_verdict(record, found), found.status
+            )
+
+
+def size_verdict(record: Record, found: Sizing) -> str:
+    """Whether what is said of a size is right; nobody may know where it is not published."""
+    if not (found.conclusive or found.bound):
+        return CANNOT
+    if record.truth != OUTER:
+        return WRONG
+    truth = record.outer_extent_deg
+    if truth is None:
+        return UNCHECKED
+    if found.bound == AT_MOST:
+        return RIGHT if math.degrees(found.bound_extent) >= truth else WRONG
+    away = abs(math.degrees(found.best.extent) - truth)
+    near = away <= max(1.0, 2.0 * math.degrees(found.extent_uncertainty))
+    return RIGHT if near and not found.bound else WRONG
 
 
 def _diagnosed(found: list[Record]) -> Counter[tuple[str, str]]:

@@ -50,6 +50,8 @@ class Answer(NamedTuple):
     uncertainty: float
     conclusive: bool
     bound: str
+    limit: float
+    """Where the bound lies; NaN without one."""
     scene: str
     status: str
 
@@ -67,8 +69,8 @@ class Answer(NamedTuple):
         if not self.bound:
             return False
         if self.bound == AT_MOST:
-            return float(self.status.split("over ")[1].split("°")[0]) < self.truth - 0.05
-        return self.extent - 2.0 * self.uncertainty > self.truth
+            return self.limit < self.truth
+        return self.limit > self.truth
 
 
 def draw(family: int, number: int) -> tuple[str, Scene, float, float]:
@@ -120,6 +122,7 @@ def size(family: int, number: int) -> Answer:
         math.degrees(sized.extent_uncertainty),
         sized.conclusive,
         sized.bound,
+        math.degrees(sized.bound_extent),
         f"{scene.shaft_speed / 2.0 / math.pi:.1f} Hz {-scene.load.fy:.0f} N {decibels:.0f} dB",
         sized.status,
     )

@@ -89,7 +89,7 @@ MUCH_UNEXPLAINED = 0.25
 """Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
 
 PIT = math.radians(2.0)
-"""[rad] Extents up to which a defect is a pit. """
+"""[rad] Extents up to which a defect counts as a pit."""
 
 PIT_UNEXPLAINED = 0.45
 """The same for pits, of which only a bound or a small extent is told."""
@@ -258,6 +258,20 @@ class Sizing:
         best = self.best
         spacing = best.scene.bearing.ball_spacing
         return (best.extent - best.turns * spacing) / (spacing * self.passes.frequency)
+
+    @property
+    def resolved(self) -> float:
+        """The extent [rad] that a ball passes in a cycle of the highest compared frequency."""
+        spacing = self.best.scene.bearing.ball_spacing
+        return spacing * self.passes.frequency / self.band.highest
+
+    @property
+    def bound_extent(self) -> float:
+        """[rad] where the bound lies; NaN where there is none."""
+        room = 2.0 * self.extent_uncertainty
+        if self.bound == AT_MOST:
+            return max(self.best.extent + room, self.resolved)
+        return self.best.extent - room if self.bound else math.nan
 
     @property
     def best(self) -> Candidate:
@@ -628,13 +642,12 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
             f"enters another leaves then, and a pit shorter than {math.degrees(pit):.1f}° gives "
             "nearly the same."
         )  # fmt: skip
-    resolved = _resolved(sized)
-    if best.extent < max(resolved, LEAST_EXTENT + 2.0 * spread):
-        most = math.degrees(max(best.extent + 2.0 * spread, resolved))
+    if best.extent < max(sized.resolved, LEAST_EXTENT + 2.0 * spread):
+        most = math.degrees(dataclasses.replace(sized, bound=AT_MOST).bound_extent)
         words = f"The defect extends over {most:.1f}° at most: shorter ones are not told apart."
         return False, AT_MOST, words
     if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
-        least = math.degrees(best.extent - 2.0 * spread)
+        least = math.degrees(dataclasses.replace(sized, bound=AT_LEAST).bound_extent)
         return False, AT_LEAST, f"The defect extends over {least:.1f}° at least."
     return (
         True,
@@ -644,12 +657,6 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
             f"probability {probability(best.probability)}."
         ),
     )
-
-
-def _resolved(sized: Sizing) -> float:
-    """The least extent [rad] that a ball passes in a cycle of the highest compared frequency."""
-    spacing = sized.best.scene.bearing.ball_spacing
-    return spacing * sized.passes.frequency / sized.band.highest
 
 
 def _like_a_pit(sized: Sizing) -> float:
@@ -662,5 +669,5 @@ def _like_a_pit(sized: Sizing) -> float:
     best = sized.best
     spacing = best.scene.bearing.ball_spacing
     whole = round(best.extent / spacing)
-    reach = PIT + 2.0 * sized.extent_uncertainty + 0.5 * _resolved(sized)
+    reach = PIT + 2.0 * sized.extent_uncertainty + 0.5 * sized.resolved
     return reach if whole >= 1 and abs(best.extent - whole * spacing) < reach else 0.0

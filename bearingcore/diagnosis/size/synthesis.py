@@ -40,6 +40,9 @@ STEPS_A_PIT = 10.0
 STIFFER = 1.1
 """By how much the highest natural frequency may rise while a scene's numbers are varied."""
 
+MOST_ROWS = 4096
+"""Edges and depths that are kept."""
+
 Array = NDArray[np.float64]
 
 
@@ -202,7 +205,9 @@ class Simulator:
             (defect,) = self.scene.defects
             depth = min(defect.depth * math.exp(deeper), self.scene.bearing.ball_radius)
             changed = dataclasses.replace(defect, edge=edge, depth=depth)
-            row = self._rows[key] = changed.edge_row(self.scene.bearing)
+            row = changed.edge_row(self.scene.bearing)
+            if len(self._rows) < MOST_ROWS:
+                self._rows[key] = row
         row = row.copy()
         row[kernels.PATH_COLUMNS.index("half_extent")] = 0.5 * extent
         return row

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from bearingcore import Defect, Scene, simulate
+from bearingcore.diagnosis.simulated import pit, simulated_recording
 from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
 from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
-from bearingcore.diagnosis.size.synthesis import comparison_band, synthesise
+from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band, synthesise
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.signals.averaging import average_passes
 from bearingcore.signals.files.read import read_table
@@ -325,6 +326,76 @@ def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     sure = [a for a in answers if a.conclusive]
     assert sum(a.right_turns() for a in sure) >= 0.9 * len(sure)
     assert len(sure) >= 0.7 * len(answers)
+
+
+def apart(one, other) -> float:
+    """Power of the difference of two passes, as a share of the first one's."""
+    return float((np.abs(one - other) ** 2).sum() / (np.abs(one) ** 2).sum())
+
+
+def test_a_simulator_varies_structs_as_scenes_are_varied():
+    """Numbers and edge changed in the kernels' structs: the pass of the scene changed so."""
+    offsets = np.array([0.05, -0.06, 0.1, 0.3, 0.2])
+    frequency = RIG.bearing.bpfo(RIG.shaft_speed)
+    simulator = Simulator(RIG, frequency, 40, (0, 1))
+    for edge in ("published", "exact"):
+        extent = math.radians(31.0)
+        passes, _ = simulator.passes(extent, edge, offsets)
+        scene = variant(RIG, extent, edge, offsets)
+        assert apart(synthesise(scene, frequency, 40, (0, 1)).harmonics, passes.harmonics) < 2e-3
+
+
+def test_a_motion_that_goes_on_from_its_neighbour_s_ends_in_the_same_pass():
+    frequency = RIG.bearing.bpfo(RIG.shaft_speed)
+    simulator = Simulator(RIG, frequency, 60, (0, 1))
+    nothing = np.zeros(5)
+    _, begin = simulator.passes(math.radians(20.0), "published", nothing)
+    settled, _ = simulator.passes(math.radians(20.5), "published", nothing)
+    soon, _ = simulator.passes(math.radians(20.5), "published", nothing, 0.005, begin)
+    assert soon.n_passes < settled.n_passes
+    assert apart(settled.harmonics, soon.harmonics) < 1e-3
+    other, _ = simulator.passes(math.radians(20.0), "published", nothing)
+    assert apart(settled.harmonics, other.harmonics) > 0.01
+
+
+def test_short_pits_are_stepped_finely_enough():
+    """A pit of half a step of the usual ones against steps twelve times as many."""
+    frequency = RIG.bearing.bpfo(RIG.shaft_speed)
+    passes = [
+        Simulator(RIG, frequency, 60, (0, 1), steps).passes(
+            math.radians(0.3), "exact", np.zeros(5)
+        )[0]
+        for steps in (9.0, 400.0)
+    ]
+    assert apart(passes[1].harmonics, passes[0].harmonics) < 0.02
+
+
+def test_a_spall_of_whole_ball_spacings_is_not_told_from_a_pit(paper):
+    """As a ball enters another leaves: both knock as one."""
+    sized = paper[38.6]
+    spacing = sized.best.scene.bearing.ball_spacing
+    others = [c for c in sized.candidates if c is not sized.best]
+    for rest, told in ((0.8, False), (-0.8, False), (6.0, True)):
+        alike = dataclasses.replace(sized.best, extent=spacing + math.radians(rest))
+        conclusive, bound, words = judged(dataclasses.replace(sized, candidates=(alike, *others)))
+        assert conclusive is told
+        assert not bound
+        assert told or "a pit shorter than" in words
+
+
+@pytest.mark.parametrize(("speed", "bounded"), [(3.0, False), (30.0, True)])
+def test_a_pit_is_sized_where_its_edges_are_resolved_and_bounded_elsewhere(speed, bounded):
+    """0.4 mm, 0.86°, of balls with mass, whose edges are others than those that are told."""
+    rig = RIG.replace(shaft_speed=2.0 * math.pi * speed)
+    truth = pit(rig, 0.4e-3)
+    recording = simulated_recording(rig.replace(defect=truth), 1.0, 40_960.0, with_mass=True)
+    sized = size_defect(recording, rig, fault="outer race")
+    if bounded:
+        assert (sized.bound, sized.conclusive) == ("at most", False)
+        assert truth.extent < sized.bound_extent < math.radians(3.0)
+    else:
+        assert sized.conclusive
+        assert sized.best.extent == pytest.approx(truth.extent, abs=math.radians(0.08))
 
 
 def test_extents_nearly_as_good_and_far_apart_are_no_answer(paper):

@@ -13,7 +13,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.results import Results
+from bearing_explorer.state.settings import Settings
 from bearingcore import Defect, Scene
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6

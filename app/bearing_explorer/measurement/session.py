@@ -18,7 +18,7 @@ import numpy as np
 
 from bearing_explorer.compute.executors import READERS
 from bearing_explorer.compute.jobs import Change
-from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.background import noise_level, true_part
 from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
@@ -37,6 +37,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.common.numbers import thousands

@@ -107,6 +107,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
     from bearing_explorer.compute.executors import still_at_work
+    from bearing_explorer.compute.first_start import FirstStart
     from bearing_explorer.page import TABS, page
     from bearing_explorer.server import idle_collection
     from bearing_explorer.server.limits import MEGABYTE, Limits
@@ -119,7 +120,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
     import bearingcore
 
-    bearingcore.warm(report=_say)
+    first_start = FirstStart(_say)
+    if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
+        bearingcore.warm(report=_say)
     if not bearingcore.kernels.kept_on_disk():
         _say(NOT_KEPT)
 
@@ -134,6 +137,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             root_path=chosen.root_path,
             num_procs=chosen.num_procs,
             longest_header=LONGEST_HEADER,
+            not_yet=first_start.words,
             frame_ancestors=chosen.frame_ancestor or (),
             bounds=Limits(
                 sessions=chosen.max_sessions,
@@ -156,19 +160,32 @@ def main(arguments: Sequence[str] | None = None) -> int:
         signal.signal(number, stop)
     if chosen.num_procs > 1:
         _end_with_parent(loop)
-    idle_collection.begin(quiet_for)
-    server.start()
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
     url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
-    _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
+
+    def ready() -> None:
+        if first_start.failed is not None:
+            loop.stop()
+            return
+        idle_collection.begin(quiet_for)
+        _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
+
+    server.start()
+    if chosen.num_procs > 1:
+        loop.add_callback(ready)
+    else:
+        first_start.begin(done=lambda: loop.add_callback(ready))
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:
         loop.start()
     finally:
         server.stop()
+    if first_start.failed is not None:
+        raise first_start.failed
     _say("Stopped.")
-    if still_at_work():
+    if still_at_work() or first_start.at_work:
+        first_start.give_up()
         sys.stderr.flush()
         os._exit(0)  # at once: what threads still compute has nobody to be shown to
     return 0

@@ -50,8 +50,7 @@ export function render({ model }) {
     panel.take(state)
     if (state.bearing) {
       const { name, own, note: origin } = state.bearing
-      note.textContent = origin + (state.changed
-        ? " Some numbers of the bearing have been changed since; Reset brings them back." : "")
+      note.textContent = origin
       called.placeholder = name
       if (called.getRootNode().activeElement !== called) called.value = own
     }

@@ -98,7 +98,7 @@ export function render({ model }) {
       element("p", {}, question))
     const settled = (given, is_right, said) => {
       form.dataset.said = is_right ? "right" : "other"
-      verdict.textContent = `You said ${said}: ${is_right ? "right." : "it comes out otherwise."} `
+      verdict.textContent = `You said ${said}: ${is_right ? "right." : "it turns out differently."} `
       reveal.textContent = reveal.dataset.after
       remember({ [key()]: { ...remembered()[key()], given } })
     }

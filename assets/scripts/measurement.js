@@ -63,7 +63,7 @@ export function render({ model }) {
   const made = element("section", { class: "way", "aria-label": "No file at hand" },
     element("h3", {}, "No file at hand?"),
     element("div", { class: "line" }, simulate,
-      labelled("measurement-noise", "Noise below it", noise),
+      labelled("measurement-noise", "Noise below the signal", noise),
       labelled("measurement-machine", "Machine", machine),
       labelled("measurement-pit", "Defect", pit)),
     element("p", { class: "note" }, "Of the scene beside: its true extent is known and shown."))

@@ -15,8 +15,8 @@ export function render({ model }) {
     return element("div", { class: "field" }, element("label", { for: select.id }, label), select)
   })
   const about = element("p", { class: "about" },
-    "While a slider moves, all is drawn at once with what usually does. When it rests, the program " +
-    "plans what is on screen, with no more than its error allows, and draws it anew.")
+    "While a slider moves, all is drawn at once with the usual settings. When it rests, the " +
+    "program plans how to compute what is on screen, no finer than the allowed error asks for, and draws it anew.")
   const wait = element("p", { class: "about" },
     "On this first start the program is still being compiled for motions; until then they are " +
     "drawn as usual.")

@@ -63,7 +63,7 @@ export function render({ model }) {
   const name = element("input", { type: "text", id: "share-name", maxlength: String(LONGEST_NAME),
                                autocomplete: "off", placeholder: "A name for this scene" })
   const keep = element("button", { type: "submit", class: "main" }, "Keep")
-  const pin_here = button("Pin as grey", "Let grey show this scene, so that others can be held against it",
+  const pin_here = button("Pin as grey", "Let grey show this scene, so that others can be compared with it",
                           () => ask(model, { pin_here: name.value || "this scene" }))
   const form = element("form", {}, element("label", { for: "share-name" }, "Keep this scene in this browser"),
                     name, element("div", { class: "row" }, keep, pin_here))

@@ -34,8 +34,9 @@ def warm(report: Report = print) -> None:
         (("path of the ball", lambda: fan_rig.defects[0].path([0.0], fan_rig.bearing)),),
         report,
     )
+    global _helper
     kept = kernels.kept_on_disk()
-    helper = _start_helper() if kept and _compiled_afresh() and processors() > 1 else None
+    _helper = helper = _start_helper() if kept and _compiled_afresh() and processors() > 1 else None
     try:
         _run(
             (
@@ -61,6 +62,15 @@ def warm(report: Report = print) -> None:
     )
 
 
+_helper: subprocess.Popen[str] | None = None
+
+
+def give_up() -> None:
+    """End the process that compiles beside this one: this one is about to end."""
+    if _helper is not None:
+        _helper.kill()
+
+
 def _run(tasks: Tasks, report: Report) -> None:
     for name, task in tasks:
         start = time.perf_counter()
@@ -79,7 +89,10 @@ def _compiled_afresh() -> bool:
 
 def _start_helper() -> subprocess.Popen[str] | None:
     """A process that compiles the kernels of motions; None where none can be started."""
-    return start_python("from bearingcore import warm_up; warm_up.compile_motions()")
+    return start_python(f"{_IMPORT}; compile_motions()")
+
+
+_IMPORT = f"from {__name__} import compile_motions"
 
 
 def start_python(lines: str, new_session: bool = False) -> subprocess.Popen[str] | None:

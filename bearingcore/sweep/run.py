@@ -307,7 +307,7 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
         except RuntimeError as error:
             raise RuntimeError(
                 f"a worker ended while it was starting ({count} of them were to start): is there "
-                "enough memory, and may this program start others? What the worker itself said "
+                "enough memory, and may this program start others? If the worker said why, that "
                 f"stands above. ({error})"
             ) from error
         yield open_.enter_context(Client(cluster, set_as_default=False))

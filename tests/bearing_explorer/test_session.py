@@ -246,9 +246,9 @@ def test_limits_are_looked_at_when_the_hand_rests(
     monkeypatch.setattr(Results.limits, "func", looking)
     monkeypatch.setattr("bearing_explorer.session._LIMITS_EVERY", math.inf)
     calm = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}}), rest=True)
-    # no motion has been simulated on this tab: what depends on one is not known, and says so
+    # no motion has been simulated on this tab and no oil given: what depends on them says so
     unknown = {row["name"] for row in calm.limits.rows if row["state"] == "unknown"}
-    assert unknown <= {"contact pressure in motion", "compression in motion"}
+    assert unknown <= {"contact pressure in motion", "compression in motion", "film parameter"}
     assert {row["state"] for row in calm.limits.rows} - {"unknown"} == {"kept"}
     assert calm.limits.summary.endswith("not known" if unknown else "kept")
     looked.clear()

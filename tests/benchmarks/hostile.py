@@ -81,7 +81,7 @@ def attack(
     report = Path(tempfile.mkstemp(suffix=".json")[1])
     port = free_port()
     command = [sys.executable, "-m", "tests.fuzz.watched_server", str(report)]
-    server = Server([*command, "--port", str(port), "--no-browser"], port, path="/liveness")
+    server = Server([*command, "--port", str(port), "--no-browser"], port)
     tally = Tally()
     url = f"http://localhost:{port}/"
 

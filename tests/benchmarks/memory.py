@@ -1,8 +1,8 @@
 """Memory of a process over random scenes: ``python -m tests.benchmarks.memory [--scenes 100000]``.
 
-Each scene is another one, drawn from the whole box of `tests.helpers.box`, and everything that is
-quick is asked of it: static states, a map, modes, bands, life, plans' highest frequency, and of
-every twentieth a short motion. Printed is what the process holds after each tenth of them. What is
+Each scene is another one, drawn from the whole box of `tests.helpers.box`, and everything is asked
+of it that the program can answer: of each what is quick, of some what takes longer, and of a few
+what the page draws of them. Printed is what the process holds after each tenth of them. What is
 kept for later is bounded in number and bytes, so it must be flat once the caches are full; the last
 line says how much was added over the second half.
 """
@@ -11,23 +11,51 @@ from __future__ import annotations
 
 import argparse
 import gc
+import logging
+import math
 import os
 import sys
 import time
+import warnings
+from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 import numpy as np
+from bearing_explorer.compute.results import Results
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.session import _picture
+from bearing_explorer.views.base import View
 
-from bearingcore import Scene, Support, contact_damping, equilibrium, modes, simulate
+from bearingcore import (
+    Recording,
+    Scene,
+    Support,
+    contact_damping,
+    contact_pressures,
+    diagnose,
+    envelope_spectrum,
+    equilibrium,
+    film,
+    impulsive_band,
+    life,
+    limits,
+    modes,
+    orbit,
+    presets,
+    simulate,
+    spectrum,
+    stiffness_maps,
+)
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.statics.maps import stiffness_maps
+from bearingcore.plan import plan
+from bearingcore.statics.ball_positions import ball_positions
 from tests.benchmarks.machine import pace
 from tests.helpers.box import cage_angles_at, draw, scene_at
 
 CHUNK = 1000
-MOVED = 20
-"""Of every so many scenes one is moved."""
 MAY_GROW = 20.0
 """[MB] over the second half: what an allocator keeps in pieces."""
 
@@ -39,18 +67,75 @@ def resident() -> float:
     return int(Path("/proc/self/statm").read_text().split()[1]) * _PAGE / 1e6
 
 
-def ask(scene: Scene, angles: np.ndarray, moved: bool) -> None:
-    """Everything that is quick; a refusal is an answer."""
-    with suppress(ValueError):
-        equilibrium(scene, angles)
-        stiffness_maps(scene, [0.1, 0.2], angles)
+def ask(scene: Scene, angles: np.ndarray, number: int) -> None:
+    """Everything, what takes longer the more seldom; a refusal is an answer."""
     supported = scene.replace(support=_SUPPORT, shaft_speed=44.0)
-    with suppress(ValueError):
-        modes(supported, angles)
-        highest_natural_frequency(supported)
-        contact_damping(supported)
-        if moved:
-            _ = simulate(supported, 0.01, 65536.0, most_steps=20_000).outer_acceleration
+    for every, questions in _QUESTIONS.items():
+        if number % every == 0:
+            for question in questions:
+                with suppress(ValueError):
+                    question(supported, angles)
+
+
+def _signals(scene: Scene, angles: np.ndarray) -> None:
+    del angles
+    motion = simulate(scene, 0.02, 65536.0, most_steps=20_000).outer_acceleration
+    spectrum(motion, 65536.0, 100.0)
+    envelope_spectrum(motion, 65536.0, (2000.0, 4000.0))
+    impulsive_band(motion[:, 0], 65536.0, 500.0, 20_000.0)
+
+
+def _drawn(scene: Scene, angles: np.ndarray) -> None:
+    """A bearing of which the grooves are known, under other loads."""
+    del angles
+    known = presets["6205"].replace(fy=-1.0 - 1e4 * abs(math.sin(scene.load.fy)))
+    contact_pressures(known)
+    life(known, 1e4, positions="load line")
+    film(known, viscosity=0.01 + 0.1 * abs(math.cos(scene.load.fy)))
+
+
+def _diagnosis(scene: Scene, angles: np.ndarray) -> None:
+    del angles
+    seed = round(1e6 * abs(math.sin(scene.load.fy)))
+    noise = np.random.default_rng(seed).normal(size=4096)
+    diagnose(Recording(noise, 4096.0, ("y",)), presets["fan-rig"].bearing, 90.0)
+
+
+def _file(scene: Scene, angles: np.ndarray) -> None:
+    del angles
+    Scene.from_toml(scene.to_toml())
+
+
+@cache
+def _views() -> list[View]:
+    packed = PackedSource()
+    shown = ("load", "life", "stiffness", "maps", "modes", "vibration")
+    return [view(packed) for section in SECTIONS if section.name in shown for view in section.views]
+
+
+def _page(scene: Scene, angles: np.ndarray) -> None:
+    del angles
+    _picture(Results(scene, 0.1), _views(), limits=True)
+
+
+_QUESTIONS: dict[int, tuple[Callable[[Scene, np.ndarray], object], ...]] = {
+    1: (
+        equilibrium,
+        lambda scene, angles: stiffness_maps(scene, [0.1, 0.2], angles),
+        modes,
+        lambda scene, angles: highest_natural_frequency(scene),
+        lambda scene, angles: contact_damping(scene),
+    ),
+    5: (_drawn, _file),
+    20: (_signals, lambda scene, angles: limits(scene)),
+    100: (
+        lambda scene, angles: orbit(scene, most_steps=20_000),
+        lambda scene, angles: ball_positions(scene.replace(balls="with mass", density=7850.0)),
+        _diagnosis,
+    ),
+    500: (lambda scene, angles: plan(scene, "load"), _page),
+}
+"""What is asked of every so many scenes."""
 
 
 _SUPPORT = Support(
@@ -68,6 +153,8 @@ def main() -> int:
     parser.add_argument("--scenes", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=1)
     chosen = parser.parse_args()
+    warnings.simplefilter("ignore")
+    logging.disable(logging.CRITICAL)  # Bokeh finds scenes that no plot was made for
     rng = np.random.default_rng(chosen.seed)
     begun, done, held = time.perf_counter(), 0, []
     print(f"{'scenes':>10}{'MB':>9}{'after a collection':>20}")
@@ -75,7 +162,7 @@ def main() -> int:
         points = draw(rng, min(CHUNK, chosen.scenes - done))
         for k in range(min(CHUNK, chosen.scenes - done)):
             point = points.point(k)
-            ask(scene_at(point), cage_angles_at(point), (done + k) % MOVED == 0)
+            ask(scene_at(point), cage_angles_at(point), done + k)
         done += CHUNK
         if done % max(chosen.scenes // 10, CHUNK) < CHUNK:
             before = resident()

@@ -14,7 +14,7 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.theme import DARK_COLORS
 from playwright.sync_api import Page, ViewportSize, expect
 
-from tests.browser.explorer_page import export, rest, settle, slider, status, value
+from tests.browser.explorer_page import export, painted, rest, settle, slider, status, value
 from tests.browser.helpers import Server, Watch, choose_tab
 
 NAMES = [section.name for section in SECTIONS]
@@ -303,6 +303,22 @@ def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer:
 # --- light and dark -------------------------------------------------------------------------------
 
 
+#: the darkest pixel in the corners of all figures; nothing is drawn there but paper
+DARKEST_CORNER = """() => {
+  let least = 255
+  const look = (where) => {
+    for (const element of where.querySelectorAll("*")) {
+      if (element.shadowRoot) look(element.shadowRoot)
+      if (element.localName !== "canvas" || !element.width) continue
+      const [r, g, b, alpha] = element.getContext("2d").getImageData(0, 0, 1, 1).data
+      if (alpha) least = Math.min(least, r, g, b)
+    }
+  }
+  look(document.querySelector("main"))
+  return least
+}"""
+
+
 def test_dark_follows_the_system_until_somebody_chooses(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -322,6 +338,8 @@ def test_dark_follows_the_system_until_somebody_chooses(
     page.emulate_media(color_scheme="light")
     expect(root).to_have_attribute("data-theme", "light")
     assert colors(page) <= PAPERS["light"]
+    painted(page)
+    assert page.evaluate(DARKEST_CORNER) > 200, "nothing of the old paper stays along the edges"
     button.click()
     expect(root).to_have_attribute("data-theme", "dark")
     page.emulate_media(color_scheme="dark")

@@ -19,6 +19,7 @@ from bearingcore.plan import SETTLED, plan
 from bearingcore.plan.warm_up import motions_with_mass, start_python
 
 _NICE = 10
+_IMPORT = f"from {__name__} import compile_all"
 _lock = threading.Lock()
 _helper: subprocess.Popen[str] | None = None
 _begun = False
@@ -34,9 +35,7 @@ def begin() -> None:
         if all(map(kernels.on_disk, _slowest())):
             return
         # in a session of its own: Ctrl+C is for the server, which ends it
-        _helper = start_python(
-            "from bearing_explorer.compute import compiling; compiling.compile_all()", True
-        )
+        _helper = start_python(f"{_IMPORT}; compile_all()", new_session=True)
         if _helper is not None:  # or all is compiled where it is needed
             atexit.register(_end)
 

@@ -1,6 +1,6 @@
 """Heat maps: numbers on a grid as a picture, read under the pointer, clicked to go there.
 
-Every heat map of the page is read and clicked by the same scripts, `reading` and `going`; what
+Every heat map of the page is read and clicked by the same scripts, `reading` and `goes_there`; what
 draws it may be HoloViews, a canvas of sixteen maps, or a `GridImage`, which comes in the packed
 source.
 
@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from bokeh.events import Tap
+from bokeh.events import DoubleTap, Tap
 from bokeh.models import (
     ColorBar,
     ColorMapper,
@@ -26,6 +26,7 @@ from bokeh.models import (
     CustomJSHover,
     GlyphRenderer,
     HoverTool,
+    Plot,
 )
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -121,9 +122,14 @@ class Places:
         }
 
 
-def going(places: Places) -> CustomJS:
-    """What a click does: the quantities of both sides become those of the place clicked at."""
-    return CustomJS(args=places.args, code=_PLACE + asset_text("heat_map_click.js"))
+def goes_there(plot: Plot, places: Places) -> None:
+    """Have a click set the quantities of both sides to those of the place clicked at.
+
+    Two clicks do not: they bring a figure that is zoomed back, see heat_map_click.js.
+    """
+    click = CustomJS(args=places.args, code=_PLACE + asset_text("heat_map_click.js"))
+    plot.js_on_event(Tap, click)
+    plot.js_on_event(DoubleTap, click)
 
 
 def sections(image: Any, **args: Any) -> CustomJS:
@@ -249,7 +255,7 @@ class GridImage:
         cells.js_on_change(
             "data", CustomJS(args={**known, "labels": labels}, code=asset_text("heat_map.js"))
         )
-        plot.js_on_event(Tap, going(places))
+        goes_there(plot, places)
         plot.add_tools(reading(places, self.renderers[:1], say, layers))
 
     def columns(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from typing import Any
 
 from panel.io import server as panel_server
@@ -12,12 +13,16 @@ from bearing_explorer.server.small_pages import tell, tell_error
 from bearing_explorer.server.turns import Turns
 
 _turns = Turns()
+_not_yet: Callable[[], str] = str
 
 
-def begin() -> None:
-    """A server begins: nobody waits."""
-    global _turns
-    _turns = Turns()
+def begin(not_yet: Callable[[], str] = str) -> None:
+    """A server begins: nobody waits. `not_yet` says why there is no page yet; empty once there is.
+
+    (`str` without an argument is the empty text.)
+    """
+    global _turns, _not_yet
+    _turns, _not_yet = Turns(), not_yet
 
 
 class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
@@ -25,6 +30,12 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
 
     async def get(self, *arguments: Any, **named: Any) -> None:
         """A session, and the page that connects to it."""
+        if words := _not_yet():
+            self.set_status(503)
+            self.set_header("Retry-After", "1")
+            self.set_header("Refresh", "1")  # browsers ask again by themselves
+            tell(self, "The explorer is getting ready", words)
+            return
         if places.all_taken():
             self.set_status(503)
             self.set_header("Retry-After", "60")

@@ -49,12 +49,16 @@ def make_server(
     bounds: Limits | None = None,
     page: Callable[[], Any],
     longest_header: int = 65536,
+    not_yet: Callable[[], str] = str,
 ) -> Any:
-    """The server, listening but not running yet. OSError where the port is taken."""
+    """The server, listening but not running yet. OSError where the port is taken.
+
+    As long as `not_yet` has words to say, they stand in place of the page.
+    """
     limits.use(bounds or limits.current())
     most = limits.current()
     places.reset()
-    page_handler.begin()
+    page_handler.begin(not_yet)
     sockets.clear()
     Headers.frame_ancestors = ("'self'", *frame_ancestors)
     per_app_patterns[:] = [(r"/ws", LiveSocket), (r"/?", PageHandler)]

@@ -84,6 +84,15 @@ class FloorChoice:
 
 
 @dataclass(frozen=True)
+class FromList:
+    """The bearing of a list that was taken into the scene: its name, and where it comes from."""
+
+    name: str
+    words: str
+    bearing: Bearing
+
+
+@dataclass(frozen=True)
 class Snapshot:
     """All that a `SceneEditor` holds at one time. Two are equal where a person sees no change."""
 
@@ -92,7 +101,7 @@ class Snapshot:
     cage_angle: float
     kinds: tuple[str, ...]
     own_name: str
-    origin: str
+    origin: FromList | None
     selected: int = field(compare=False)
     values: Values = field(compare=False)
     limits: dict[str, Limits] = field(compare=False)
@@ -114,8 +123,8 @@ class SceneEditor:
     floors: list[FloorChoice] = field(init=False)
     own_name: str = field(init=False, default="")
     """What a person calls the bearing; empty where nobody has named it."""
-    origin: str = field(init=False, default="")
-    """Where its numbers come from, of a bearing out of a list."""
+    origin: FromList | None = field(init=False, default=None)
+    """What it was taken from, of a bearing out of a list."""
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
@@ -129,7 +138,7 @@ class SceneEditor:
         """Back to the numbers of a preset."""
         self.preset = name
         self.scene = presets[name]
-        self.own_name = self.origin = ""
+        self.own_name, self.origin = "", None
         self.drop_draft()
         self.selected = 0
         self.floors = [_choice_of(defect) for defect in self.defects]
@@ -166,7 +175,7 @@ class SceneEditor:
         for number in range(len(defects)):
             check_values({**values_of(scene, number), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
-        self.own_name, self.origin = clean_name(name), ""
+        self.own_name, self.origin = clean_name(name), None
         self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
         self._begin_limits(limits)
@@ -210,8 +219,10 @@ class SceneEditor:
 
     @property
     def name(self) -> str:
-        """What the bearing is called: by whoever named it, else by the preset it began from."""
+        """What the bearing is called: by whoever named it, else by what it began from."""
         label = next((o.label for o in PRESET.options if o.name == self.preset), self.preset)
+        if self.own_name and self.own_name == self._begun_from:
+            return f"{self.own_name}, changed"
         return self.own_name or (f"{label}, changed" if self.changed else label)
 
     @property
@@ -219,8 +230,19 @@ class SceneEditor:
         """Where the numbers of the bearing come from."""
         if not self.changed:
             return preset_notes.get(self.preset, "")
-        begun = f"Begun from “{self.preset}”; its numbers have been changed since, so that the "
-        return self.origin or begun + "sources of that bearing do not stand for this one."
+        if self.origin is not None and not self._begun_from:
+            return self.origin.words
+        return (
+            f"Begun from “{self._begun_from or self.preset}”; its numbers have been changed since, "
+            "so that the sources of that bearing do not stand for this one."
+        )
+
+    @property
+    def _begun_from(self) -> str:
+        """The bearing of a list whose numbers have been changed since; empty where none was."""
+        if self.origin is None or self.origin.bearing == self.scene.bearing:
+            return ""
+        return self.origin.name
 
     def drop_draft(self) -> None:
         """Forget the dimensions that wait."""
@@ -234,7 +256,8 @@ class SceneEditor:
         self._take(scene_with(self.scene, bearing))
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        self.own_name, self.origin = clean_name(name), origin
+        self.own_name = clean_name(name)
+        self.origin = FromList(self.own_name, origin, self.scene.bearing)
         self.drop_draft()
 
     @property

@@ -81,8 +81,8 @@ class Accuracy(JobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "What each method costs and how wrong it is: low is exact, left is cheap. Each is held "
-        "against a reference on this scene that two families of methods agree on. Crosses on the "
+        "What each method costs and how wrong it is: low is exact, left is cheap. Each is compared "
+        "with a reference on this scene that two families of methods agree on. Crosses on the "
         "upper edge failed. Click a point of “RK4” to march the scene's motion with its steps."
     )
     needs = frozenset()

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.events import Tap
 from bokeh.models import Plot, Spacer
 
 from bearing_explorer.compute.explore import (
@@ -31,7 +30,7 @@ from bearing_explorer.compute.explore import (
 )
 from bearing_explorer.compute.jobs import JobState, Work
 from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import Places, Side, going, ring_this_scene
+from bearing_explorer.figures.heat_map import Places, Side, goes_there, ring_this_scene
 from bearing_explorer.figures.style import AxisQuantity
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.server.packed_source import PackedSource
@@ -346,7 +345,7 @@ class _Marks:
             fill_alpha="alpha", line_color=None, level="overlay",
         )  # fmt: skip
         ring_this_scene(figure, self._mark, "overlay")
-        figure.js_on_event(Tap, going(Places(plot.handles["source"], self._sides)))
+        goes_there(figure, Places(plot.handles["source"], self._sides))
 
 
 def field_of(plane: Plane, at: tuple[float, float]) -> Field:

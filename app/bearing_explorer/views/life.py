@@ -187,7 +187,7 @@ def read(field: Field, given: object) -> float | None:
         value = math.nan
     if not field.least <= value <= field.most:
         raise ValueError(
-            f"“{text}” does not do: {field.label.lower()} goes from {field.least:g} to "
+            f"“{text}” is not possible: {field.label.lower()} goes from {field.least:g} to "
             f"{field.most:g} {field.unit}."
         )
     return value * field.unit_si

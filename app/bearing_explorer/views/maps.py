@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.events import Tap
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -28,7 +27,7 @@ from bearing_explorer.figures.color_scales import (
     packed_colors,
 )
 from bearing_explorer.figures.element_words import elements
-from bearing_explorer.figures.heat_map import Places, Side, going, reading
+from bearing_explorer.figures.heat_map import Places, Side, goes_there, reading
 from bearing_explorer.figures.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
@@ -136,7 +135,7 @@ class StiffnessMaps(View):
         _ticks(plot, ticks)
         _crosshair(plot, now)
         _hover(plot, frames, cells, places, points)
-        plot.js_on_event(Tap, going(places))
+        goes_there(plot, places)
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
         return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
 

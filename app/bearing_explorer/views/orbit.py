@@ -68,8 +68,9 @@ class SteadyOrbit(View):
     about = (
         "The motion that repeats itself with every ball pass. It is found by Newton's method "
         "rather than by waiting. Its multipliers say what a pass does to a small disturbance: "
-        "inside the unit circle it dies out. Then the path of the inner ring, and the spectrum of"
-        " the housing, blue along x, orange along y. Grey, beneath: the marched motion."
+        "inside the unit circle it dies out. Then the path of the inner ring, and the spectrum of "
+        "the housing, blue along x, orange along y. Grey, beneath: the motion marched from rest, "
+        "step by step."
     )
     needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
 

@@ -330,7 +330,10 @@ def ring_energy(q, force, balls, places, g, H):
 
 @borrowing
 def settle_ring(q, load, balls, places, work):
-    """Move q to the minimum of V. Returns (which, status, residual, iterations)."""
+    """Move q to the minimum of V. Returns (which, status, residual, iterations).
+
+    The balls are left where they settled at q.
+    """
     F = load.force
     active = load.active
     now = 0
@@ -447,14 +450,17 @@ def ball_positions(cage_angles, start, balls, load):
         turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, places.c, places.s)
         lay_out_drops(cage, balls.contacts, balls.inner_path, places.drop[INNER], slope)
         lay_out_drops(cage, balls.contacts, balls.outer_path, places.drop[OUTER], slope)
-        places.known[:] = 0.0
+        if k > 0 and status[k - 1] == CONVERGED:
+            # what the balls' loads moved the ring by, and the balls, at the angle before
+            for a in range(5):
+                q[k, a] += q[k - 1, a] - start[k - 1, a]
+        else:
+            places.known[:] = 0.0
         now, status[k], residuals[k], iterations[k] = settle_ring(q[k], load, balls, places, work)
         for a in range(5):
             for b in range(a + 1):
                 stiffness[k, a, b] = work.H[now, a, b]
                 stiffness[k, b, a] = work.H[now, a, b]
-        # a line search may have left the balls where the ring was tried
-        ring_energy(q[k], load.force, balls, places, work.g[now], work.H[now])
         for j in range(n_balls):
             where[k, 0, j] = places.place[0, j]
             where[k, 1, j] = places.place[1, j]

@@ -59,6 +59,22 @@ def test_another_site_may_show_the_page_where_the_operator_says_so() -> None:
     )
 
 
+def test_until_there_is_a_page_words_stand_in_its_place() -> None:
+    words = ["It is being compiled & made."]
+
+    async def wait(url: str, server: Any) -> None:
+        answer = await get(url + "?v=1")
+        assert answer.code == 503
+        assert answer.headers["Refresh"] == "1", "browsers ask again by themselves, the same"
+        assert b"being compiled &amp; made" in answer.body
+        assert (await get(url + "liveness")).code == 200
+        assert not session_of(server)
+        words[0] = ""
+        assert (await get(url)).code == 200
+
+    served(wait, not_yet=lambda: words[0])
+
+
 def test_whoever_comes_too_late_is_asked_to_come_back() -> None:
     async def fill(url: str, server: Any) -> None:
         there = [PageClient(url) for _ in range(SMALL.sessions)]

@@ -36,6 +36,21 @@ def test_a_table_of_ones_own_stands_first_and_can_be_used() -> None:
     assert "From a table of your own." in editor.note
 
 
+def test_a_bearing_of_a_list_that_was_changed_says_so() -> None:
+    editor = SceneEditor("6205")
+    editor.choose({"bearing": "209, Harris"})
+    kept = editor.snapshot()
+    editor.set({"n_balls": 8})
+    assert editor.name == "209, Harris, changed"
+    assert editor.note.startswith("Begun from “209, Harris”; its numbers have been changed since")
+    editor.choose({"name": "My own"})
+    assert editor.name == "My own"
+    assert "Harris" not in editor.note.split("Begun from “209, Harris”")[1]
+    editor.restore(kept)
+    assert editor.name == "209, Harris"
+    assert "Harris, Rolling Bearing Analysis" in editor.note
+
+
 def test_a_bearing_of_the_same_name_replaces_the_published_one() -> None:
     table = BearingTable()
     table.take("a.csv", read_table(TABLE.replace("Pump 3", "209, Harris")))

@@ -299,3 +299,19 @@ def test_the_focus_passes_over_defects_that_are_none(editor: SceneEditor) -> Non
     editor.choose({"defect": "1"})
     assert editor.focus == 0, "it is the only one that the scene has"
     assert editor.scene.defects[editor.focus].center == pytest.approx(math.pi / 2)
+
+
+def test_a_slider_that_a_number_widened_is_as_long_as_before_once_it_is_back() -> None:
+    editor = SceneEditor("fan-rig")
+    usual = editor.limits["fy_n"]
+    editor.set({"fy_n": "-100000"})
+    assert editor.limits["fy_n"].least <= -100000
+    assert editor.narrow() == [], "the number is still outside"
+    kept = editor.snapshot()
+    editor.set({"fy_n": -200})
+    assert editor.limits["fy_n"] != usual, "a hand may still be on the slider"
+    assert editor.narrow() == ["fy_n"]
+    assert editor.limits["fy_n"] == usual
+    editor.restore(kept)
+    assert editor.limits["fy_n"].least <= -100000
+    assert editor.narrow() == []

@@ -58,7 +58,7 @@ class OverviewBands(View):
             fill_color=style.HEALTHY, fill_alpha=0.5, line_color=None,
         )  # fmt: skip
         bands = packed.source(
-            "overview_bands", "low", "high", "direction", "number", "row", "now", "label_at"
+            "overview_bands", "low", "high", "direction", "number", "row", "now", "right", "left"
         )
         color = {"field": "direction", "transform": colors}
         plot.hbar(
@@ -69,11 +69,12 @@ class OverviewBands(View):
             "now", "row", source=bands, marker="dash", angle=np.pi / 2.0, size=15,
             line_color=style.INK, line_width=2.2,
         )  # fmt: skip
-        plot.text(
-            "label_at", "row", text=style.words_of(bands, BAND_WORDS), source=bands, x_offset=7,
-            text_baseline="middle", text_color=color, text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-        )  # fmt: skip
+        for place, side, offset in (("right", "left", 7), ("left", "right", -7)):
+            plot.text(
+                place, "row", text=style.words_of(bands, BAND_WORDS), source=bands,
+                x_offset=offset, text_align=side, text_baseline="middle", text_color=color,
+                text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
+            )  # fmt: skip
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -89,12 +90,15 @@ class OverviewBands(View):
         row = [
             rows.get(key, np.nan) for key in zip(usual["direction"], usual["number"], strict=True)
         ]
+        near_edge = bands["high"] > _LABEL_FROM * top
         return {
             "overview_bands": {
                 **bands,
                 "row": -np.arange(float(order.size)),
                 "now": _now(modes, results)[order],
-                "label_at": np.minimum(bands["high"], _LABEL_FROM * top),
+                # beside the band where there is room: right of it, else left
+                "right": np.where(near_edge, np.nan, bands["high"]),
+                "left": np.where(near_edge, bands["low"], np.nan),
             },
             "overview_healthy_bands": {
                 "low": usual["low"],

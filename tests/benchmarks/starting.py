@@ -1,0 +1,95 @@
+"""Servers that start at once with nothing compiled: ``python -m tests.benchmarks.starting``.
+
+All of them share one empty folder for kernels, compile what they need, and leave it there; then
+each draws the loads of the balls, which must be the same, bit for bit. Afterwards one more starts
+with the folder as they left it. Printed are seconds until each is ready and has drawn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.browser.helpers import Server, explorer_server
+from tests.helpers.page_client import PageClient
+
+PATIENCE = 1800.0  # [s]
+SHOWN = "load_distribution_balls"
+
+
+@dataclass(frozen=True)
+class Start:
+    """How one server began."""
+
+    ready: float  # [s] after all were started
+    drawn: float
+    picture: dict[str, bytes]
+    log: str
+
+
+async def picture_of(server: Server, begun: float) -> Start:
+    """Wait for a server, and for its first picture of the Load tab."""
+    await asyncio.to_thread(server.wait, PATIENCE)
+    ready = time.perf_counter() - begun
+    client = PageClient(server.url)
+    await client.open_page()
+    await client.connect()
+    await client.show("load")
+    await client.ask(set={"extent_deg": 21.0})
+    while SHOWN not in client.sources and await client.until_drawn(seconds=PATIENCE):
+        await client.news(1.0)
+    drawn = time.perf_counter() - begun
+    await client.close()
+    picture = {name: values.tobytes() for name, values in client.sources[SHOWN].items()}
+    return Start(ready, drawn, picture, server.log)
+
+
+def start(count: int, folder: Path) -> list[Start]:
+    """Start so many at once, all with one folder for kernels."""
+    begun = time.perf_counter()
+    servers = [explorer_server(environment={"NUMBA_CACHE_DIR": str(folder)}) for _ in range(count)]
+
+    async def all_of_them() -> Sequence[Start]:
+        return await asyncio.gather(*(picture_of(server, begun) for server in servers))
+
+    try:
+        return list(asyncio.run(all_of_them()))
+    finally:
+        for server in servers:
+            server.stop()
+
+
+def main() -> int:
+    """Start, print, and say with the exit code whether all drew the same."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--servers", type=int, default=4)
+    chosen = parser.parse_args()
+    from tests.benchmarks.machine import pace
+
+    print(pace())
+    with tempfile.TemporaryDirectory(prefix="kernels-") as name:
+        folder = Path(name)
+        first = start(chosen.servers, folder)
+        print(f"{'':<24}{'ready after':>14}{'drawn after':>14}")
+        for number, one in enumerate(first, 1):
+            print(
+                f"{f'server {number} of {len(first)}':<24}{one.ready:>12.1f} s{one.drawn:>12.1f} s"
+            )
+        size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+        again = start(1, folder)[0]
+        print(f"{'another, afterwards':<24}{again.ready:>12.1f} s{again.drawn:>12.1f} s")
+    same = all(one.picture == again.picture for one in first) and bool(again.picture)
+    print(f"kernels: {size / 1e6:.1f} MB; pictures {'all the same' if same else 'DIFFER'}")
+    troubled = [one.log for one in [*first, again] if "Traceback" in one.log]
+    print(*troubled, pace(), sep="\n")
+    return int(not same or bool(troubled))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -85,7 +85,7 @@ standard deviation at `TEMPERATURE`), none is told."""
 CLEAR = 0.9
 """Probability from which a candidate counts as told."""
 
-MUCH_UNEXPLAINED = 0.25
+MUCH_UNEXPLAINED = 0.2
 """Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
 
 PIT = math.radians(2.0)

@@ -120,9 +120,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
     import bearingcore
 
-    first_start = FirstStart(_say)
+    first_start = FirstStart(_say, _load_figures)
     if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
         bearingcore.warm(report=_say)
+        _load_figures()
     if not bearingcore.kernels.kept_on_disk():
         _say(NOT_KEPT)
 
@@ -189,6 +190,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stderr.flush()
         os._exit(0)  # at once: what threads still compute has nobody to be shown to
     return 0
+
+
+def _load_figures() -> None:
+    """HoloViews, which Explore draws with: Panel looks for it from any thread once it is there.
+
+    Where one thread still imports it then, both fail.
+    """
+    import bearing_explorer.plotting  # noqa: F401
 
 
 def _end_with_parent(loop: Any) -> None:

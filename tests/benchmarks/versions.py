@@ -118,6 +118,7 @@ def tried(version: str, program: str, which: str, tests: list[str], home: Path, 
         [*install, "-e", ".[test]"],
         [*install, "-U", *LIBRARIES],
         [python, "-c", _VERSIONS],
+        [python, "-c", "import bearingcore; bearingcore.warm()"],  # no test waits for the compiler
         [python, "-m", "pytest", "-q", "-n", "0", *tests],
     ]
     if not Path(python).exists():

@@ -118,7 +118,8 @@ def excerpt(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -
         time=time[cut] - zero,
         motion_time=zero,
         acceleration={
-            dof: motion.outer_acceleration[cut, index] for index, dof in enumerate(motion.dofs)
+            dof: motion.outer_acceleration[cut, index].copy()  # a view would keep it all alive
+            for index, dof in enumerate(motion.dofs)
         },
         events=events,
         balls=balls,

@@ -35,7 +35,15 @@ DIAGNOSES = ThreadPoolExecutor(_HALF, "diagnose")
 READERS = ThreadPoolExecutor(2, "read")
 """Files that are read: two at a time, whoever brings them, as reading takes memory."""
 
-_POOLS = (PICTURES, SLOW_PICTURES, BESIDE, PLANS, JOBS, DIAGNOSES, READERS)
+_POOLS = {
+    "compute": PICTURES,
+    "compute-slow": SLOW_PICTURES,
+    "beside": BESIDE,
+    "plan": PLANS,
+    "job": JOBS,
+    "diagnose": DIAGNOSES,
+    "read": READERS,
+}
 _GRACE = 0.2  # [s] for threads that do nothing to end
 
 
@@ -44,18 +52,14 @@ def still_at_work() -> bool:
 
     Python itself would wait for all of them before a process ends, for minutes with long jobs.
     """
-    for pool in _POOLS:
+    for pool in _POOLS.values():
         pool.shutdown(wait=False, cancel_futures=True)
     end = time.monotonic() + _GRACE
-    ours = [thread for pool in _POOLS for thread in _threads_of(pool)]
+    begins = tuple(f"{name}_" for name in _POOLS)
+    ours = [thread for thread in threading.enumerate() if thread.name.startswith(begins)]
     for thread in ours:
         thread.join(max(end - time.monotonic(), 0.0))
     return any(thread.is_alive() for thread in ours)
-
-
-def _threads_of(pool: ThreadPoolExecutor) -> list[threading.Thread]:
-    prefix = f"{pool._thread_name_prefix}_"
-    return [thread for thread in threading.enumerate() if thread.name.startswith(prefix)]
 
 
 async def in_thread(function: Callable[..., Result], *args: object, slow: bool = False) -> Result:

@@ -15,10 +15,17 @@ WORDS = (
 
 
 class FirstStart:
-    """Compiles what is not compiled yet; `say` is told of each part."""
+    """Compiles what is not compiled yet; `say` is told of each part.
 
-    def __init__(self, say: Callable[[str], object]) -> None:
+    `load` is called too, before there is a page: what takes long to import, and must not be
+    imported by two threads at once.
+    """
+
+    def __init__(
+        self, say: Callable[[str], object], load: Callable[[], object] = lambda: None
+    ) -> None:
         self._say = say
+        self._load = load
         self._begun = time.monotonic()
         #: whether it has begun and not ended
         self.at_work = False
@@ -41,6 +48,7 @@ class FirstStart:
     def _work(self, done: Callable[[], object]) -> None:
         try:
             warm_up.warm(self._say)
+            self._load()
         except Exception as error:
             self.failed = error
         finally:

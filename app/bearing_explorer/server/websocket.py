@@ -32,6 +32,9 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     _frames = 0  # of it that have come
     _weight = 0.0  # as how many messages it counts
     _cut = False  # whether the browser is listened to no longer
+    _document: Any = None  # of the session that it is connected to
+    session_name = ""
+    """Of the session that this is connected to; empty before."""
 
     async def prepare(self) -> None:
         """Answer with a sentence where no connection can come of it."""
@@ -63,20 +66,14 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             write.trouble("refused", why=type(error).__name__)
             self.end_with(1008, "The session is not known.")
             return
+        if self._cut:  # it is gone meanwhile, and nobody would take it out again
+            return
         for other in [one for one in sockets if one.session_name == name]:
             other.end_with(1008, "The session was connected to again.")
+        self.session_name, self._document = name, self.connection.session.document
         sockets.add(self)
         places.came(name)
         write.happened("came", self._document, sessions=len(sockets))
-
-    @property
-    def session_name(self) -> str:
-        """Of the session that this is connected to; empty before."""
-        return str(self.connection.session.id) if self.connection is not None else ""
-
-    @property
-    def _document(self) -> Any:
-        return self.connection.session.document if self.connection is not None else None
 
     async def open(self, *arguments: Any, **named: Any) -> None:
         """Let in who knows the name of a session."""
@@ -198,6 +195,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             sockets.discard(self)
             places.left(self.session_name)
             write.happened("left", self._document, sessions=len(sockets))
+        self._document = None
         super().on_close()
 
 

@@ -19,14 +19,14 @@ def test_it_has_words_until_all_is_compiled(monkeypatch: pytest.MonkeyPatch) -> 
         report("compiled: something")
 
     monkeypatch.setattr(warm_up, "warm", warm)
-    start = FirstStart(said.append)
+    start = FirstStart(said.append, lambda: said.append("loaded"))
     assert start.words() == "", "nothing is compiled yet that would be waited for"
     start.begin(over.set)
     assert "being compiled for this processor" in start.words()
     go_on.set()
     assert over.wait(60.0)
     assert start.words() == ""
-    assert said == ["compiled: something"]
+    assert said == ["compiled: something", "loaded"]
     assert start.failed is None
 
 

@@ -3,7 +3,9 @@
 import threading
 import time
 
+import numpy as np
 import pytest
+from bearing_explorer.compute.budget import Budget, held_bytes
 from bearing_explorer.compute.single_flight import SingleFlightCache
 
 
@@ -58,3 +60,39 @@ def test_a_failure_reaches_everyone_and_is_not_kept() -> None:
     with pytest.raises(ValueError, match="no"):
         once()
     assert once() == 5
+
+
+def test_all_caches_together_hold_no_more_bytes_than_agreed() -> None:
+    budget = Budget(3_500_000)
+    first = SingleFlightCache(lambda key: {"an array": np.zeros(125_000)}, 100, budget)
+    second = SingleFlightCache(lambda key: [np.zeros(125_000)[:3]], 100, budget)
+    for key in (1, 2):
+        first(key)
+        second(key)
+    assert budget.total == 3_000_000, "of what is seen of an array, all of it counts"
+    assert [first.knows(1), second.knows(1), first.knows(2), second.knows(2)] == [False] + [
+        True
+    ] * 3
+    second(1)  # used again: now that of key 2 is the next to go
+    first(3)
+    assert [second.knows(1), first.knows(2), second.knows(2)] == [True, False, True]
+    for key in range(50):
+        first(key)
+    assert budget.total <= 3_500_000
+    huge = SingleFlightCache(lambda: np.zeros(10**6), 4, budget)
+    assert huge().size == 10**6
+    assert not huge.knows(), "what is too large alone is not kept"
+
+
+def test_what_leaves_by_count_leaves_the_budget() -> None:
+    budget = Budget(10**9)
+    once = SingleFlightCache(lambda key: np.zeros(1000), 2, budget)
+    for key in range(9):
+        once(key)
+    assert budget.total == 2 * 8000
+
+
+def test_long_lists_count_and_nothing_counts_twice() -> None:
+    numbers, array = (1.0,) * 10_000, np.zeros((10, 10))
+    assert held_bytes(numbers) == 320_000
+    assert held_bytes([array, array.T, array[2:4], {"again": array}]) == 800

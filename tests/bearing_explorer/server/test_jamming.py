@@ -18,6 +18,7 @@ from bearing_explorer.server.log import OneLine, Seldom
 from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
 from bearing_explorer.server.message_cost import too_much, weight
 from bearing_explorer.server.turns import Turns
+from panel.io import server as panel_server
 
 from tests.browser.helpers import Server, free_port
 from tests.browser.helpers import serving as server_up
@@ -279,6 +280,42 @@ def test_a_session_that_is_connected_to_again_has_one_place() -> None:
         assert places.connected() == 1
 
     served(twice)
+
+
+def test_who_leaves_while_being_let_in_takes_no_place(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """It was counted for ever, and whoever came next was not let in."""
+    begun, go_on = asyncio.Event(), asyncio.Event()
+    let_in = panel_server.WSHandler._async_open
+
+    async def slowly(self: Any, token: str) -> None:
+        await let_in(self, token)
+        begun.set()
+        await go_on.wait()
+
+    async def leave(url: str, server: Any) -> None:
+        monkeypatch.setattr(panel_server.WSHandler, "_async_open", slowly)
+        client, other = PageClient(url), PageClient(url)
+        await client.open_page()
+        opening = asyncio.create_task(client.open_socket(origin(url)))
+        await begun.wait()
+        opening.cancel()
+        await client.close()
+        monkeypatch.undo()
+        await asyncio.sleep(0.1)
+        go_on.set()
+        await asyncio.sleep(0.1)
+        assert places.connected() == 0
+        assert not serving.sockets
+        await other.open_page()
+        await other.open_socket(origin(url))
+        assert not other.closed
+        assert places.connected() == 1
+
+    with caplog.at_level(logging.WARNING):
+        served(leave)
+    assert not any(record.exc_info for record in caplog.records)
 
 
 def test_a_session_cannot_be_named_in_a_header() -> None:

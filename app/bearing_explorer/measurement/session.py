@@ -151,7 +151,7 @@ class Measurement:
         self.diagnoses.stop()
 
     def redraw(self) -> None:
-        """Draw again with what the views have been told."""
+        """Draw again with what the views know now."""
         self._draw()
 
     def asked(self, message: Any) -> None:
@@ -217,7 +217,7 @@ class Measurement:
             self.measured = _measured(found.asked)
             contents = table.contents
             speed = "" if contents.shaft_speed is not None else _SPEED_OF_SCENE
-            unit = "" if contents.unit.told else _UNIT_GUESSED.format(contents.unit.value)
+            unit = "" if contents.unit.stated else _UNIT_GUESSED.format(contents.unit.value)
             words, bad = self._summary(unit, speed), False
         else:
             words = f"{table.name} is read. {_WAITS} " + " ".join(
@@ -394,7 +394,7 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
 def _speed_is_told(table: Table) -> bool:
     """Whether the file itself says how fast the shaft turned."""
     speed = table.contents.shaft_speed
-    return speed is not None and speed.told
+    return speed is not None and speed.stated
 
 
 def _measured(asked: Asked) -> Measured:

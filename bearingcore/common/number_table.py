@@ -173,17 +173,17 @@ class _Clock:
         self._first: int | None = None
         self._last = 0
         self._midnights = 0
-        self._told = ("", 0)
+        self._stamp = ("", 0)
 
     def __call__(self, stamp: re.Match[str]) -> str:
         second, _, part = stamp.groups()
-        known, whole = self._told
+        known, whole = self._stamp
         if second != known:
             try:
                 whole = self._whole(second)
             except ValueError:
                 return stamp[0]  # a day that is in no calendar is no number either
-            self._told = second, whole
+            self._stamp = second, whole
         if part and whole < 0:
             return repr(whole + float(f"0.{part[1:]}"))
         return f"{whole}.{part[1:]}" if part else str(whole)
@@ -325,9 +325,9 @@ _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
 def _looks_decimal(lines: Sequence[str]) -> bool:
     """Whether "0,051" is one number with a comma rather than two: no one writes 051 or −0."""
     pairs = [_TWO_WHOLE.fullmatch(line) for line in lines]
-    told = [pair.groups() for pair in pairs if pair is not None]
-    return len(told) == len(lines) and any(
-        whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in told
+    parts = [pair.groups() for pair in pairs if pair is not None]
+    return len(parts) == len(lines) and any(
+        whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in parts
     )
 
 
@@ -402,19 +402,19 @@ def _headings(remarks: Sequence[str], style: _Style, width: int) -> tuple[str, .
     lines = list(remarks[-3:])
     if not lines:
         return None
-    told = _names(lines[-1], style, width)
-    if told is None:
+    names = _names(lines[-1], style, width)
+    if names is None:
         return None
-    if len(lines) > 1 and all(_UNIT.fullmatch(cell) for cell in told):
+    if len(lines) > 1 and all(_UNIT.fullmatch(cell) for cell in names):
         above = _names(lines[-2], style, width)
         if above is not None:
-            told = [
+            names = [
                 f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
-                for name, unit in zip(above, told, strict=True)
+                for name, unit in zip(above, names, strict=True)
             ]
-    if not all(told) or len(set(told)) < width or all(_row(cell, None) for cell in told):
+    if not all(names) or len(set(names)) < width or all(_row(cell, None) for cell in names):
         return None
-    return tuple(told)
+    return tuple(names)
 
 
 _UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
@@ -430,13 +430,13 @@ def _names(line: str, style: _Style, width: int) -> list[str] | None:
         re.split(r"\s{2,}", line),
         re.split(r"\s+(?![\[(])", line),
     ):
-        told = [cell.strip().strip('"').strip() for cell in cells]
-        if len(told) == width + 1 and not told[-1]:
-            told.pop()
-        if len(told) == width + 1 and style.stamps and re.search("date|dat", told[0].lower()):
-            told[:2] = [f"{told[0]} {told[1]}"]  # date and time in a column each
-        if len(told) == width:
-            return told
+        names = [cell.strip().strip('"').strip() for cell in cells]
+        if len(names) == width + 1 and not names[-1]:
+            names.pop()
+        if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
+            names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+        if len(names) == width:
+            return names
     return None
 
 

@@ -34,11 +34,11 @@ directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB
 that asks for them, as steps stay stable down to 2.2."""
 
 MOST_STEPS = 1_000_000
-"""Steps that a motion, or the periods of one orbit, take at most unless told otherwise: up to
+"""Steps that a motion, or the periods of one orbit, take at most unless asked otherwise: up to
 15 s of marching in five directions, 40 s with the tangent."""
 
 MOST_STEPS_IN_ALL = 1_000_000_000
-"""Steps that all points of a map or speeds of a run take at most unless told otherwise: some
+"""Steps that all points of a map or speeds of a run take at most unless asked otherwise: some
 minutes of marching in two directions, hours in five."""
 
 MOST_SAMPLES = 10_000_000

@@ -269,14 +269,14 @@ def orbit(
     if start is not None:
         found = _newton(nothing, shooting, y, period, most_iterations)
         if found.status != NOT_CONVERGED or shooting.given_up:
-            return shooting.told(found)
+            return shooting.reported(found)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.marched(y, periods)
         found = _newton(nothing, shooting, y, period, most_iterations)
         if found.status != NOT_CONVERGED or shooting.given_up:
             break
-    return shooting.told(found)
+    return shooting.reported(found)
 
 
 def _steps_in(scene: Scene, period: float, step_rate: float | None) -> int:
@@ -367,7 +367,7 @@ class _Shooting:
         if self.calls // 4 + self.steps > self._most_steps:
             self.given_up = self._too_many = True
 
-    def told(self, found: Orbit) -> Orbit:
+    def reported(self, found: Orbit) -> Orbit:
         """What was found; that it was given up for its cost, where it was."""
         if found.status != NOT_CONVERGED or not self._too_many:
             return found

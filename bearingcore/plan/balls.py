@@ -65,12 +65,12 @@ class BallComparison:
     def sentence(self) -> str:
         """In a line: up to where massless balls will do, and what mass costs."""
         if math.isnan(self.massless_up_to):
-            told = f"more than {number(self.budget)} dB off from {with_prefix(LOWEST, 'Hz')} on"
+            holds = f"more than {number(self.budget)} dB off from {with_prefix(LOWEST, 'Hz')} on"
         else:
             up_to = with_prefix(self.massless_up_to, "Hz", 2)
-            told = f"within {number(self.budget)} dB up to {up_to}"
+            holds = f"within {number(self.budget)} dB up to {up_to}"
         times = self.seconds / max(self.massless_seconds, 1e-9)
-        return f"massless: {told}; with mass {number(times, 2)} times the time"
+        return f"massless: {holds}; with mass {number(times, 2)} times the time"
 
     def enough_up_to(self, frequency: float) -> bool:
         """Whether massless balls are within the budget up to a frequency [Hz], or all compared."""

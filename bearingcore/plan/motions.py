@@ -178,8 +178,8 @@ def arrival_time(orbit: Orbit, way: Way, sample_rate: float, most_steps: int = M
         if (since + orbit.period) * max(sample_rate, np.nan_to_num(way.step_rate)) > most_steps:
             break
         with np.errstate(all="ignore"):
-            told = simulate_as(kind, orbit.scene, since + orbit.period, sample_rate, setting)
-            marched = told.outer_acceleration
+            motion = simulate_as(kind, orbit.scene, since + orbit.period, sample_rate, setting)
+            marched = motion.outer_acceleration
             first = round(since * sample_rate)
             steady = orbit.outer_acceleration(np.arange(first, len(marched)) / sample_rate)
             away = np.sqrt(np.mean((marched[first:] - steady) ** 2, axis=0))

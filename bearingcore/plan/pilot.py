@@ -85,8 +85,8 @@ class Pilot:
         """
         if (kind, setting) not in self._known:
             with np.errstate(all="ignore"):
-                told = simulate_as(kind, self.scene, PILOT, self.sample_rate, setting)
-                self._known[kind, setting] = told.outer_acceleration, told.right_hand_side_calls
+                motion = simulate_as(kind, self.scene, PILOT, self.sample_rate, setting)
+                self._known[kind, setting] = motion.outer_acceleration, motion.right_hand_side_calls
         return self._known[kind, setting]
 
     def a_call(self, kind: str) -> float:
@@ -208,12 +208,12 @@ def seconds_a_call(kind: str, n_balls: int, n_dofs: int, law: str) -> float:
     least = math.inf
     for _ in range(4):
         start = time.perf_counter()
-        told = simulate_as(
+        motion = simulate_as(
             kind, example, 0.03, FULL_RATE, FULL_RATE if kind != "adaptive" else 1e-6
         )
-        _ = told.outer_acceleration
+        _ = motion.outer_acceleration
         taken = time.perf_counter() - start
-        least = min(least, taken / max(told.right_hand_side_calls, 1))
+        least = min(least, taken / max(motion.right_hand_side_calls, 1))
     return least
 
 

@@ -136,7 +136,7 @@ def run(
     progress: Progress | None,
     say: Callable[[str], object] | None = None,
 ) -> xarray.Dataset:
-    """`sweep` of a grid. `say` is told once where Dask's page shows what its workers do."""
+    """`sweep` of a grid. `say` is called once where Dask's page shows what its workers do."""
     if scenes_per_task is not None:
         scenes_per_task = checks.whole_number(
             "scenes_per_task", scenes_per_task, at_least=1, at_most=10_000_000
@@ -170,7 +170,7 @@ def _in_store(
         stores.region(path, grid, region_shape, index)
         for index in np.ndindex(*grid.region_counts(region_shape))
     )
-    told = _Told(grid.size, progress)
+    done = _Progress(grid.size, progress)
     with _cluster(client, workers, processes) as cluster:
         _say_where(cluster, say)
         seen = False
@@ -181,7 +181,7 @@ def _in_store(
                     "the store must be a folder that this and all workers share"
                 )
             seen = True
-            told.add(region.part.size, kept=not computed)
+            done.add(region.part.size, kept=not computed)
     return open_results(path)
 
 
@@ -217,14 +217,14 @@ def _in_memory(
         grid.region(region_shape, index) for index in np.ndindex(*grid.region_counts(region_shape))
     )
     parts = ((place, grid.part(place)) for place in places)
-    told = _Told(grid.size, progress)
+    done = _Progress(grid.size, progress)
     with _cluster(client, workers, processes) as cluster:
         _say_where(cluster, say)
         for (place, part), (codes, found) in _finished(cluster, _compute, parts):
             status[place] = codes
             for name, values in found.items():
                 numbers[name][place] = values
-            told.add(part.size)
+            done.add(part.size)
     units = stores.coordinate_attributes(grid)
     variables = {
         name: (grid.dims_of(name), values, stores.variable_attributes(name))
@@ -245,8 +245,8 @@ def _compute(task: tuple[Any, Grid]) -> Any:
     return task[1].compute()
 
 
-class _Told:
-    """How far a sweep is, told to whoever wants to know."""
+class _Progress:
+    """How far a sweep is, for whoever wants to know."""
 
     def __init__(self, size: int, progress: Progress | None) -> None:
         self._size = size

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.compute.excerpt import why_ended
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.equilibrium import TERM_UNITS
 
@@ -124,7 +125,7 @@ def chain(results: Results) -> Chain:
         spectra = results.late_spectra if turns else {}
         peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
         if not spectra:
-            silent = "the simulated motion does not stay finite" if turns else "nothing turns"
+            silent = why_ended(results.motion.status) if turns else "nothing turns"
     except ValueError as error:
         silent = str(error)
     terms = [f"k_{dof}{dof}" for dof in found.dofs]

@@ -90,6 +90,11 @@ def acceleration_columns(
         yield f"{who}acceleration_{dof}", "rad/s²" if dof.startswith("r") else "m/s²", signal
 
 
+def why_ended(status: str) -> str:
+    """Why a motion that is not whole is not, as a clause; `status` is that of the motion."""
+    return f"there is {status}" if status.startswith("no ") else f"the simulated motion {status}"
+
+
 def excerpt(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
     """A stretch of `n_passes` ball passes, beginning a quarter pass before an entry.
 

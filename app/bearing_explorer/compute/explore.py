@@ -21,7 +21,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.results import LONGEST_ORBIT, MOST_STEPS, step_rates
+from bearing_explorer.compute.motion_cost import MOST_STEPS, step_rates
+from bearing_explorer.compute.results import LONGEST_ORBIT
 from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.quantity_list import DEGREE

@@ -1,26 +1,24 @@
 """Results: what is known about one scene, computed when first asked for.
 
-Everything that is drawn passes through here. The core's answers are shared by all sessions and
-kept by scene, so that thirty people looking at one scene cost as much as one; what waits for an
-answer somebody else is computing waits for that one instead of computing it again.
+Everything that is drawn passes through here. The core's answers come from `compute.answers`, where
+all sessions share them.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
 import time
 from collections.abc import Callable, Hashable
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import bearingcore as core
-from bearing_explorer.compute import compiling
-from bearing_explorer.compute.ball_mass import BallMass, ball_mass
+from bearing_explorer.compute import answers
+from bearing_explorer.compute.ball_mass import BallMass
 from bearing_explorer.compute.chain import Chain, chain
 from bearing_explorer.compute.dof_comparison import (
     DofComparison,
@@ -28,31 +26,23 @@ from bearing_explorer.compute.dof_comparison import (
     spectrum_differences,
     static_differences,
 )
-from bearing_explorer.compute.endurance import Asked, Endurance, endurance, film_of
-from bearing_explorer.compute.excerpt import Excerpt, excerpt
+from bearing_explorer.compute.endurance import Asked, Endurance, endurance
+from bearing_explorer.compute.excerpt import Excerpt
 from bearing_explorer.compute.executors import BESIDE
 from bearing_explorer.compute.load_curve import Curve, load_curve
-from bearing_explorer.compute.planning import plan_for
+from bearing_explorer.compute.motion_cost import is_costly, quick_duration, step_rates
 from bearing_explorer.compute.profile import Profile, profile
-from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
-from bearingcore.common.numbers import thousands
-from bearingcore.dynamics.adaptive import simulate_adaptive
-from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
-from bearingcore.dynamics.repeated import repeated
 from bearingcore.model.defect import RACES
-from bearingcore.model.packing import is_planar
 from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.plan import CURVES, SETTLED
-from bearingcore.plan.balls import BallComparison, compare_balls
+from bearingcore.plan.balls import BallComparison
 from bearingcore.statics.ball_positions import EquilibriumWithMass
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.passes import drops_now
-from bearingcore.statics.validity import looked_at
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
@@ -61,280 +51,8 @@ Answer = TypeVar("Answer")
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
-
-
 LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
-HASTY_PERIODS = 30
-"""Periods that are integrated at most to find it meanwhile; most orbits take 5 to 12."""
-
-
-def _over_period(scene: Scene, first: float, last: float, n_cage_angles: int) -> Equilibrium:
-    return core.static_state(scene, np.linspace(first, last, n_cage_angles))
-
-
-def _over_nodes(scene: Scene, nodes: bytes) -> Equilibrium:
-    return core.static_state(scene, np.frombuffer(nodes))
-
-
-def _at(scene: Scene, cage_angle: float) -> Equilibrium:
-    return core.static_state(scene, np.array([cage_angle]))
-
-
-def _modes(scene: Scene, first: float, last: float, n_cage_angles: int) -> Modes:
-    return core.modes(scene, np.linspace(first, last, n_cage_angles))
-
-
-def _modes_over_nodes(scene: Scene, nodes: bytes) -> Modes:
-    return core.modes(scene, np.frombuffer(nodes))
-
-
-def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int) -> Maps:
-    return core.stiffness_maps(scene, np.linspace(0.0, reach, m), np.linspace(first, last, n))
-
-
-MOST_STEPS = 400_000
-"""Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
-shorter, or somebody's drag would fill the memory of everybody's server."""
-MOST_STEPS_WITH_MASS = 1_600_000
-"""The same of balls with mass, of which samples are kept and not steps: about a second."""
-COARSE_STEPS = 0.45
-"""Part of the usual steps that is taken while a slider moves, where all of them take too long."""
-SHORTEST = 0.1
-"""[s] Shorter motions say nothing at the resolution of the spectra."""
-
-
-GLANCE, PASSES_OF_GLANCE, DROP_OF_GLANCE = 0.05, 2.36, 0.3
-"""[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
-of it that counts as its start and is not shown. What is shown is as long as one stretch of a
-spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
-ends within six tenths of the next."""
-
-
-class Moved(NamedTuple):
-    """A motion, and since when [s] it counts as settled."""
-
-    motion: Motion
-    since: float
-
-
-How = Marching | MotionPlanning
-"""How a motion comes about: marched from rest, or as a plan has it."""
-
-
-STILL_COMPILING = (
-    "balls with mass are still being compiled, once, which takes half a minute: then they are drawn"
-)
-
-
-def _motion(scene: Scene, how: How) -> Moved:
-    if scene.balls == WITH_MASS and not compiling.ready():
-        raise ValueError(STILL_COMPILING)  # here it would hold up every page
-    return _marched(scene, how) if isinstance(how, Marching) else _planned(scene, how)
-
-
-def _marched(scene: Scene, how: Marching) -> Moved:
-    by_hand = how.step_rate
-    rate = step_rates(scene, how.sample_rate) if by_hand is None else by_hand
-    if by_hand is None and how.coarse:
-        rate = _coarse_step_rate(scene, how.sample_rate)
-    duration = quick_duration(scene, how)
-    if rate is not None:
-        duration = _affordable(scene, duration, rate, by_hand is not None)
-    motion = core.simulate(
-        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
-    )
-    glance = how.coarse and duration < SHORTEST
-    return Moved(motion, (DROP_OF_GLANCE if glance else 0.5) * duration)
-
-
-def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
-    return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
-
-
-def _orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None) -> Orbit:
-    rate = _coarse_step_rate(scene, how.sample_rate) if how.coarse else None
-    return core.orbit(scene, step_rate=rate, give_up=give_up)
-
-
-def _hasty_orbit(scene: Scene, how: Marching) -> Orbit:
-    """What a search of HASTY_PERIODS finds."""
-    periods = itertools.count(1)
-    return _orbit(scene, how, lambda: next(periods) >= HASTY_PERIODS)
-
-
-def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> float:
-    """`duration` [s], or as much of it as the steps that are allowed make."""
-    with_mass = scene.balls == WITH_MASS
-    most = MOST_STEPS_WITH_MASS if with_mass else MOST_STEPS
-    if duration * rate <= most:
-        return duration
-    if SHORTEST * rate > most:
-        why = "the defect is passed so fast that"
-        if with_mass:
-            why = "balls swing so fast between their races that"
-        raise ValueError(
-            f"{'set by hand,' if by_hand else why} a motion takes {thousands(rate)} steps a "
-            f"second; allowed here: {thousands(most / SHORTEST)}"
-        )
-    return most / rate
-
-
-def _planned(scene: Scene, how: MotionPlanning) -> Moved:
-    """The motion that a plan chose, settled for as long as the second half of a marched one.
-
-    What is looked at begins a whole number of ball passes before or after where it begins in the
-    motion that was marched while the hand moved: lines of a spectrum beat with each other, and
-    seen at another beat the drawing would change though the motion is the same.
-    """
-    plan = motion_plans(scene, SETTLED, how)
-    scene = scene.replace(balls=plan.scene.balls)  # which may have been the plan's to choose
-    record = 0.5 * how.duration
-    drop = 0.0 if plan.orbit is not None else plan.drop
-    a_pass = scene.bearing.ball_spacing / scene.cage_speed
-    if a_pass <= record:
-        since = record + math.ceil((drop - record) / a_pass - 1e-9) * a_pass
-    else:
-        since = max(drop, record)
-    rate = how.sample_rate if math.isnan(plan.step_rate) else plan.step_rate
-    duration = _affordable(scene, since + record, rate, how.step_rate is not None)
-    since = min(since, 0.5 * duration) if duration < since + record else since
-    if plan.orbit is not None:
-        return Moved(repeated(plan.orbit, duration, how.sample_rate), since)
-    if plan.method == "adaptive steps":
-        motion = simulate_adaptive(scene, duration, how.sample_rate, tolerance=plan.tolerance)
-        return Moved(motion, since)
-    motion = core.simulate(
-        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
-    )
-    return Moved(motion, since)
-
-
-def is_dear(scene: Scene, sample_rate: float, duration: float) -> bool:
-    """Whether a motion takes too long to be marched in full while a slider moves."""
-    try:
-        rate = step_rates(scene, sample_rate) or 0.0
-    except ValueError:
-        return False  # there is no motion
-    return duration * rate * _step_cost(scene) > MOST_TOUCHED
-
-
-def _step_cost(scene: Scene) -> float:
-    """What a step costs in steps of a contact of a flat bearing whose balls have no mass."""
-    cost = scene.bearing.total_balls * (1.0 if is_planar(scene) else GENERAL_COST)
-    return cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
-
-
-GENERAL_COST = 4.0
-"""What a contact costs where it is not that of a flat bearing, over what it costs there."""
-MASS_COST = 2.5
-"""What a ball costs that has mass, and so two contacts and a motion of its own."""
-MOST_TOUCHED = 2.0e6
-"""Contacts, a step each, of a flat bearing that are marched while a slider moves: about 40 ms."""
-
-
-MOST_COMPARED = 6.0e7
-"""The same of balls with mass when the hand rests, to be compared with massless ones: a second."""
-
-
-def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> float:
-    """Duration [s] of a coarse motion: balls with mass cannot take fewer steps, but less time.
-
-    `at_rest`: what may be touched of one that is not coarse.
-    """
-    most = MOST_TOUCHED if how.coarse else at_rest
-    if scene.balls == MASSLESS or math.isinf(most):
-        return how.duration
-    try:
-        rate = how.step_rate or step_rates(scene, how.sample_rate) or 0.0
-    except ValueError:
-        return how.duration  # there is no motion
-    if rate == 0.0:
-        return how.duration
-    shortest = SHORTEST
-    if how.coarse and scene.cage_speed > 0.0:
-        glance = PASSES_OF_GLANCE * scene.bearing.ball_spacing / scene.cage_speed
-        shortest = min(max(glance, GLANCE), SHORTEST)
-    return min(how.duration, max(most / (rate * _step_cost(scene)), shortest))
-
-
-def _excerpt(scene: Scene, how: How) -> Excerpt:
-    return excerpt(scene, *motions(scene, how))
-
-
-def _step_rate(scene: Scene, sample_rate: float) -> float | None:
-    highest = highest_natural_frequency(scene)
-    if scene.shaft_speed == 0.0 or not math.isfinite(highest):
-        return None
-    return default_step_rate(scene, sample_rate, highest)
-
-
-def _spectra(scene: Scene, how: How) -> dict[str, Spectrum]:
-    return _spectra_of(motions(scene, how).motion, 0)
-
-
-def _late_spectra(scene: Scene, how: How) -> dict[str, Spectrum]:
-    motion, since = motions(scene, how)
-    first = math.ceil(since * motion.sample_rate - 1e-6)
-    return _spectra_of(motion, first) if np.isfinite(motion.outer_acceleration).all() else {}
-
-
-def _spectra_of(motion: Motion, first: int) -> dict[str, Spectrum]:
-    frequency, density = core.spectrum(motion.outer_acceleration[first:], motion.sample_rate)
-    return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(motion.dofs)}
-
-
-def _ball_mass(scene: Scene, how: Marching) -> BallMass:
-    heavy = scene.replace(balls=WITH_MASS)
-    # both over the same time, or their spectra would differ by that
-    alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
-    moved = motions(heavy, alike)
-    massless = motions(scene.replace(balls=MASSLESS), alike)
-    return ball_mass(massless.motion, moved.motion, moved.since)
-
-
-def _dynamic_load(scene: Scene, how: How) -> float:
-    """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
-    motion, since = motions(scene, how)
-    if not motion.completed:
-        return math.nan
-    loads = motion.ball_loads(math.ceil(since * motion.sample_rate - 1e-6))
-    return float(loads.max(initial=0.0))
-
-
-def _limits(
-    scene: Scene, step_rate: float | None, dynamic_load: float | None, asked: Asked
-) -> tuple[Limit, ...]:
-    state = core.equilibrium(scene, looked_at(scene))
-    oil = None
-    if asked.viscosity is not None and scene.bearing.knows_contacts:
-        oil = film_of(scene, asked, state)
-    return core.limits(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
-
-
-def _plan(scene: Scene, view: str, how: float | MotionPlanning) -> Plan:
-    return plan_for(scene, view, how)
-
-
-equilibria = SingleFlightCache(_over_period, 512)
-planned_equilibria = SingleFlightCache(_over_nodes, 128)
-single_equilibria = SingleFlightCache(_at, 2048)
-modes = SingleFlightCache(_modes, 256)
-planned_modes = SingleFlightCache(_modes_over_nodes, 64)
-maps = SingleFlightCache(_maps, 16)  # about 2 MB each
-motions = SingleFlightCache(_motion, 8)  # about 20 MB each
-step_rates = SingleFlightCache(_step_rate, 512)
-dynamic_loads = SingleFlightCache(_dynamic_load, 512)
-limits_of = SingleFlightCache(_limits, 512)
-excerpts = SingleFlightCache(_excerpt, 64)
-spectra = SingleFlightCache(_spectra, 64)
-late_spectra = SingleFlightCache(_late_spectra, 64)
-ball_masses = SingleFlightCache(_ball_mass, 32)
-ball_comparisons = SingleFlightCache(compare_balls, 128)
-orbits = SingleFlightCache(_orbit, 256)
-hasty_orbits = SingleFlightCache(_hasty_orbit, 256)
-plans = SingleFlightCache(_plan, 256)
-motion_plans = SingleFlightCache(_plan, 24)  # with their orbits, some MB where those are long
 
 
 def _load_curves(found: Equilibrium) -> list[Curve]:
@@ -500,10 +218,10 @@ class Results:
         """The plan for a view; what is drawn beside it is planned too. ValueError without one."""
         how = self.settings.planning(view)
         if view not in CURVES:
-            return motion_plans(self.scene, view, how)
+            return answers.motion_plans(self.scene, view, how)
         if self.scene.defects:
-            plans(self.scene.healthy(), view, how)
-        return plans(self.scene, view, how)
+            answers.plans(self.scene.healthy(), view, how)
+        return answers.plans(self.scene, view, how)
 
     @cached_property
     def plan(self) -> Plan | None:
@@ -527,7 +245,7 @@ class Results:
         plan = self.plan
         if healthy and self.scene.defects:
             view = plan.view
-            plan = plans(self.scene.healthy(), view, self.settings.planning(view))
+            plan = answers.plans(self.scene.healthy(), view, self.settings.planning(view))
         angles = plan.cage_angles
         assert angles is not None
         # without a defect of the inner race curves are shorter
@@ -539,8 +257,8 @@ class Results:
     def _static(self, scene: Scene, healthy: bool = False) -> Equilibrium:
         nodes = self._nodes(healthy)
         if nodes is None:
-            return equilibria(scene, *self.stretch)
-        return planned_equilibria(scene, nodes)
+            return answers.equilibria(scene, *self.stretch)
+        return answers.planned_equilibria(scene, nodes)
 
     @cached_property
     def equilibrium(self) -> Equilibrium:
@@ -551,7 +269,7 @@ class Results:
     def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
         if self.pinned is not None:
-            return equilibria(self.pinned.scene, *self.stretch)
+            return answers.equilibria(self.pinned.scene, *self.stretch)
         return self._static(self.scene.healthy(), healthy=True)
 
     @cached_property
@@ -560,7 +278,7 @@ class Results:
         if self.pinned is None:
             return self.healthy_equilibrium
         own = Results(self.pinned.scene, self.cage_angle, self.settings)
-        return equilibria(self.pinned.scene, *own.stretch)
+        return answers.equilibria(self.pinned.scene, *own.stretch)
 
     @cached_property
     def load_curves(self) -> list[Curve]:
@@ -594,17 +312,17 @@ class Results:
     @cached_property
     def now(self) -> Equilibrium:
         """Static answer at the cage angle shown; arrays of length 1."""
-        return single_equilibria(self.scene, self.cage_angle)
+        return answers.single_equilibria(self.scene, self.cage_angle)
 
     @property
     def massless_now(self) -> Equilibrium:
         """The same as maps have it: without the mass of the balls."""
-        return single_equilibria(self.scene.replace(balls=MASSLESS), self.cage_angle)
+        return answers.single_equilibria(self.scene.replace(balls=MASSLESS), self.cage_angle)
 
     @cached_property
     def healthy_now(self) -> Equilibrium:
         """The same without the defect."""
-        return single_equilibria(self.beside, self.cage_angle)
+        return answers.single_equilibria(self.beside, self.cage_angle)
 
     @cached_property
     def modes(self) -> Modes:
@@ -620,23 +338,23 @@ class Results:
         """
         first, last, n = self.stretch
         if self.moving:
-            return modes(self.scene, first, last, n // 3 + 1)
+            return answers.modes(self.scene, first, last, n // 3 + 1)
         if self.settings.cage_angles is not None or self._nodes(healthy=False) is not None:
             return self.modes
-        return modes(self.scene, first, last, 3 * n - 2)
+        return answers.modes(self.scene, first, last, 3 * n - 2)
 
     @cached_property
     def healthy_modes(self) -> Modes:
         """The same without the defect."""
         if self.pinned is not None:
-            return self._of_pinned(modes, self.pinned.scene, *self.stretch)
+            return self._of_pinned(answers.modes, self.pinned.scene, *self.stretch)
         return self._modes(self.scene.healthy(), healthy=True)
 
     def _modes(self, scene: Scene, healthy: bool = False) -> Modes:
         nodes = self._nodes(healthy)
         if nodes is None:
-            return modes(scene, *self.stretch)
-        return planned_modes(scene, nodes)
+            return answers.modes(scene, *self.stretch)
+        return answers.planned_modes(scene, nodes)
 
     @property
     def extent(self) -> float:
@@ -657,7 +375,7 @@ class Results:
         # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
         n = self.settings.n_cage_angles
         columns = 2 * n - 1 if self.over_shaft else n
-        return maps(scene, reach, self.settings.n_extents, first, last, columns)
+        return answers.maps(scene, reach, self.settings.n_extents, first, last, columns)
 
     @cached_property
     def drop(self) -> dict[str, np.ndarray]:
@@ -683,8 +401,8 @@ class Results:
         """Begin what of these attributes can be computed beside the others, in another thread."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
-            if not late_spectra.knows(*asked):  # whoever asks for it waits for this one
-                BESIDE.submit(lambda: self._costing(late_spectra, *asked))
+            if not answers.late_spectra.knows(*asked):  # whoever asks for it waits for this one
+                BESIDE.submit(lambda: self._costing(answers.late_spectra, *asked))
 
     def _costing(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
         """Compute something in another thread than that of the picture, at its cost."""
@@ -715,7 +433,7 @@ class Results:
         return (
             self.moving
             and settings.step_rate is None
-            and is_dear(scene, settings.sample_rate, settings.duration)
+            and is_costly(scene, settings.sample_rate, settings.duration)
         )
 
     @cached_property
@@ -723,7 +441,7 @@ class Results:
         return self.settings.coarse_marching if self.coarse else self.settings.marching
 
     @cached_property
-    def _how(self) -> How:
+    def _how(self) -> answers.How:
         """How the scene's motion comes about."""
         if self.plan is None or self.plan.cage_angles is not None:
             return self._marching
@@ -734,42 +452,42 @@ class Results:
     @cached_property
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
-        return motions(self.scene, self._how).motion
+        return answers.motions(self.scene, self._how).motion
 
     @property
     def settled_since(self) -> float:
         """When [s] of the motion its start is forgotten."""
-        return motions(self.scene, self._how).since
+        return answers.motions(self.scene, self._how).since
 
     @cached_property
     def healthy_motion(self) -> Motion:
         """The same without the defect, always marched."""
-        return self._of_pinned(motions, self.beside, self._marching).motion
+        return self._of_pinned(answers.motions, self.beside, self._marching).motion
 
     @cached_property
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads beside the moving ones."""
-        return excerpts(self.scene, self._how)
+        return answers.excerpts(self.scene, self._how)
 
     @cached_property
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
-        return spectra(self.scene, self._marching)
+        return answers.spectra(self.scene, self._marching)
 
     @cached_property
     def late_spectra(self) -> dict[str, Spectrum]:
         """The same of the settled motion; empty where it did not stay finite."""
-        return late_spectra(self.scene, self._how)
+        return answers.late_spectra(self.scene, self._how)
 
     @property
     def healthy_settled_since(self) -> float:
         """When [s] of that motion its start is forgotten."""
-        return motions(self.beside, self._marching).since
+        return answers.motions(self.beside, self._marching).since
 
     @cached_property
     def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect, always marched."""
-        return self._of_pinned(late_spectra, self.beside, self._marching)
+        return self._of_pinned(answers.late_spectra, self.beside, self._marching)
 
     def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
         """Compute something of what is drawn in grey; refused, it says that it is not the scene."""
@@ -790,13 +508,13 @@ class Results:
     @cached_property
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
-        return ball_masses(self.scene.replace(balls=MASSLESS), self._ball_marching)
+        return answers.ball_masses(self.scene.replace(balls=MASSLESS), self._ball_marching)
 
     @property
     def ball_comparison(self) -> BallComparison | None:
         """Up to which frequency massless balls will do, where `compare_balls` has found it."""
         key = self._compared_balls
-        return ball_comparisons(*key) if ball_comparisons.knows(*key) else None
+        return answers.ball_comparisons(*key) if answers.ball_comparisons.knows(*key) else None
 
     @property
     def _compared_balls(self) -> tuple[Scene, float]:
@@ -806,7 +524,7 @@ class Results:
 
     def compare_balls(self) -> BallComparison:
         """Find `ball_comparison`; ValueError where there is no motion to compare."""
-        return ball_comparisons(*self._compared_balls)
+        return answers.ball_comparisons(*self._compared_balls)
 
     @property
     def ball_passes(self) -> int | None:
@@ -819,16 +537,16 @@ class Results:
 
         The search is short while a hand moves.
         """
-        found = self._hasty_orbit
+        found = self._quick_orbit
         if found is None or self.moving or found.status != NOT_CONVERGED:
             return found
-        return orbits(*self._orbital)
+        return answers.orbits(*self._orbital)
 
     @cached_property
-    def _hasty_orbit(self) -> Orbit | None:
+    def _quick_orbit(self) -> Orbit | None:
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
-        return hasty_orbits(*self._orbital)
+        return answers.quick_orbits(*self._orbital)
 
     @property
     def _orbital(self) -> tuple[Scene, Marching]:
@@ -838,12 +556,12 @@ class Results:
     def seek_orbit(self, give_up: Callable[[], bool]) -> None:
         """Look for the orbit so that it is known afterwards, unless `give_up` says so before."""
         key = self._orbital
-        found = self._hasty_orbit
-        if found is None or found.status != NOT_CONVERGED or orbits.knows(*key):
+        found = self._quick_orbit
+        if found is None or found.status != NOT_CONVERGED or answers.orbits.knows(*key):
             return
-        longer = _orbit(*key, give_up)
+        longer = answers.find_orbit(*key, give_up)
         if not give_up():
-            orbits.keep(longer, *key)
+            answers.orbits.keep(longer, *key)
 
     @cached_property
     def orbit_spectra(self) -> dict[str, Spectrum]:
@@ -874,7 +592,7 @@ class Results:
                 step_rate = step_rates(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return limits_of(self.scene, step_rate, self._dynamic_load, self.asked)
+        return answers.limits_of(self.scene, step_rate, self._dynamic_load, self.asked)
 
     @property
     def endurance(self) -> Endurance:
@@ -888,8 +606,9 @@ class Results:
         assert isinstance(planning, MotionPlanning)
         for how in (planning, self.settings.marching):
             key = self.scene, how
-            if dynamic_loads.knows(*key) or (not self.moving and motions.knows(*key)):
-                load = dynamic_loads(*key)
+            moved = not self.moving and answers.motions.knows(*key)
+            if moved or answers.dynamic_loads.knows(*key):
+                load = answers.dynamic_loads(*key)
                 return load if math.isfinite(load) else None
         return None
 
@@ -917,7 +636,8 @@ class Results:
         settings = self.settings
         how = settings.coarse_marching if self.coarse_comparison else settings.marching
         try:
-            moving = spectrum_differences(spectra(self.scene, how), spectra(against.scene, how))
+            pair = [answers.spectra(one, how) for one in (self.scene, against.scene)]
+            moving = spectrum_differences(*pair)
         except ValueError as error:
             return DofComparison(chosen, other, static, {}, str(error))
         return DofComparison(chosen, other, static, moving)

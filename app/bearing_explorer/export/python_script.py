@@ -58,10 +58,10 @@ class Script:
         needed = [
             how for name, how in NEEDED.items() if any(name in m for m in [*others, *self._from])
         ]
-        told = [f"# beside the explorer this takes: {how}" for how in needed]
+        notes = [f"# beside the explorer this takes: {how}" for how in needed]
         core = [f"from bearingcore import {', '.join(sorted(self._core))}"] if self._core else []
         core += [f"from {m} import {', '.join(sorted(n))}" for m, n in sorted(self._from.items())]
-        blocks = [block for block in (told, standard, others, core) if block]
+        blocks = [block for block in (notes, standard, others, core) if block]
         return "\n\n".join("\n".join(block) for block in [*blocks, self._body]) + "\n"
 
     # The scene

@@ -1,7 +1,7 @@
 """How loud the noise of a simulated measurement is.
 
 A machine hums as loud with a healthy bearing as with a damaged one. So where the scene has no
-defect, noise is told against what a short one would give: against the bearing's own faint
+defect, noise is measured against what a short one would give: against the bearing's own faint
 vibration it would leave a quiet that no sensor on a machine has ever met, in which even the balls
 of a healthy bearing show as they pass under the load.
 """
@@ -13,7 +13,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.results import Results
+from bearing_explorer.state.settings import Settings
 from bearingcore import Defect, Scene
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6

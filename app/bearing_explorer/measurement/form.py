@@ -73,7 +73,7 @@ def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
 
 
 def _written(speed: Finding[float], table: Table) -> str:
-    """A speed in the unit in which machines of its kind are told: rpm where the file does."""
+    """A speed in the unit in which machines of its kind are given: rpm where the file does."""
     hertz = speed.value / (2.0 * math.pi)
     return f"{60.0 * hertz:.6g} rpm" if "rpm" in speed.reason.lower() else f"{hertz:.6g} Hz"
 
@@ -82,20 +82,20 @@ def reasons(table: Table) -> dict[str, str]:
     """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
-    told = dict.fromkeys(choice.columns, choice.reason)
-    told["unit"] = _because(contents.unit)
+    reasons = dict.fromkeys(choice.columns, choice.reason)
+    reasons["unit"] = _because(contents.unit)
     if not table.full_scale_known:
-        told["full_scale"] = "Full scale of the recorder, in the unit."
-    told["sensitivity"] = "A guess: the usual sensor. It stands on its label."
-    told["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
-    told["shaft_speed"] = (
+        reasons["full_scale"] = "Full scale of the recorder, in the unit."
+    reasons["sensitivity"] = "A guess: the usual sensor. It stands on its label."
+    reasons["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
+    reasons["shaft_speed"] = (
         "The file does not say it; this is the scene's." if speed is None else _because(speed)
     )
-    return {name: words[:1].upper() + words[1:] for name, words in told.items()}
+    return {name: words[:1].upper() + words[1:] for name, words in reasons.items()}
 
 
 def _because(finding: Finding[Any]) -> str:
-    return f"{'Said by' if finding.told else 'A guess:'} {finding.reason}"
+    return f"{'Said by' if finding.stated else 'A guess:'} {finding.reason}"
 
 
 def questions(table: Table) -> dict[str, str]:
@@ -106,7 +106,7 @@ def questions(table: Table) -> dict[str, str]:
     if choice.question:
         asked["y"] = choice.question + (f" A guess: {choice.reason}." if choice.columns else "")
     rate = contents.sample_rate
-    if rate is not None and not rate.told:
+    if rate is not None and not rate.stated:
         trouble = contents.sampling.trouble if contents.sampling is not None else ""
         question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
         asked["sample_rate"] = f"{trouble} {question}".strip()
@@ -116,12 +116,12 @@ def questions(table: Table) -> dict[str, str]:
 def said(table: Table) -> str:
     """What else a file says about itself, in a line; its load in newtons too."""
     contents = table.contents
-    told = [
+    stated = [
         f"{_short(name)} {_short(text)}" for name, text in list(contents.said.items())[:MOST_SAID]
     ]
-    words = f"The file says: {', '.join(told)}." if told else ""
+    words = f"The file says: {', '.join(stated)}." if stated else ""
     if contents.load is not None:
-        sure = "" if contents.load.told else " if it is in pounds"
+        sure = "" if contents.load.stated else " if it is in pounds"
         words += f" Its load is {contents.load.value:.4g} N{sure}."
     return words.strip()
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from bearing_explorer.compute.executors import READERS
 from bearing_explorer.compute.jobs import Change
-from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.background import noise_level, true_part
 from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
@@ -37,6 +37,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.common.numbers import thousands
@@ -150,7 +151,7 @@ class Measurement:
         self.diagnoses.stop()
 
     def redraw(self) -> None:
-        """Draw again with what the views have been told."""
+        """Draw again with what the views know now."""
         self._draw()
 
     def asked(self, message: Any) -> None:
@@ -216,7 +217,7 @@ class Measurement:
             self.measured = _measured(found.asked)
             contents = table.contents
             speed = "" if contents.shaft_speed is not None else _SPEED_OF_SCENE
-            unit = "" if contents.unit.told else _UNIT_GUESSED.format(contents.unit.value)
+            unit = "" if contents.unit.stated else _UNIT_GUESSED.format(contents.unit.value)
             words, bad = self._summary(unit, speed), False
         else:
             words = f"{table.name} is read. {_WAITS} " + " ".join(
@@ -393,7 +394,7 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
 def _speed_is_told(table: Table) -> bool:
     """Whether the file itself says how fast the shaft turned."""
     speed = table.contents.shaft_speed
-    return speed is not None and speed.told
+    return speed is not None and speed.stated
 
 
 def _measured(asked: Asked) -> Measured:

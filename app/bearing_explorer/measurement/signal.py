@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.results import Results
 from bearing_explorer.compute.single_flight import SingleFlightCache
+from bearing_explorer.state.settings import Settings
 from bearingcore.signals.envelope_band import PIECES
 
 if TYPE_CHECKING:

@@ -36,9 +36,9 @@ class Headers(OutputTransform):
         headers["Cross-Origin-Resource-Policy"] = "same-origin"
         if len(self.frame_ancestors) == 1:  # it has no way to name others
             headers["X-Frame-Options"] = "SAMEORIGIN"
-        for told in ("Server", "Access-Control-Allow-Origin"):
-            if told in headers:
-                del headers[told]
+        for name in ("Server", "Access-Control-Allow-Origin"):
+            if name in headers:
+                del headers[name]
         return status_code, headers, chunk
 
 

@@ -1,4 +1,4 @@
-"""What a message would cost to parse, told from its bytes alone.
+"""What a message would cost to parse, known from its bytes alone.
 
 A parser makes fifty bytes of objects out of two bytes of text, and half a second of silence out of
 a megabyte of brackets. Counting brackets, commas and quotes takes a hundredth of that, so it is

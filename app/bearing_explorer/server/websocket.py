@@ -1,6 +1,6 @@
 """The websocket of a browser: who may speak, how much, and how fast.
 
-What a frame would cost is told before it is parsed, what comes too fast waits, and who sends what
+What a frame would cost is known before it is parsed, what comes too fast waits, and who sends what
 no page sends is cut off.
 """
 
@@ -126,8 +126,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         if kind == "PATCH-DOC":
             events = message.content.get("events")
             known = self.connection.session.document.models
-            told = [by_name(event) for event in (events if isinstance(events, list) else [])]
-            kept = [event for event in told if welcome(event, ById(known))]
+            heard = [by_name(event) for event in (events if isinstance(events, list) else [])]
+            kept = [event for event in heard if welcome(event, ById(known))]
             if len(kept) == 1 and (found := message_of(kept[0])) is not None:
                 model = known.get_by_id(found[0])
                 if model is not None:

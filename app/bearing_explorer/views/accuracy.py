@@ -25,10 +25,10 @@ from bokeh.plotting import figure
 from bearing_explorer.compute.accuracy import TRIALS, Found, compute
 from bearing_explorer.compute.jobs import Work
 from bearing_explorer.compute.planning import steps_by_hand
-from bearing_explorer.compute.results import Settings
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.widgets.step_choice import StepChoice

@@ -357,14 +357,14 @@ def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
     """Which balls, counted from 0, are in a defect, row by row."""
     if balls.size == 0:
         return ""
-    told = []
+    words = []
     for row in range(len(bearing.all_rows)):
         own = balls[balls // bearing.n_balls == row] % bearing.n_balls + 1
         if own.size:
             of_row = f" of row {row + 1}" if bearing.rows else ""
             names = style.list_words([str(ball) for ball in own])
-            told.append(f"{elements(bearing, own.size)} {names}{of_row}")
-    return f"; {style.list_words(told)} {_in_defect(balls.size)}"
+            words.append(f"{elements(bearing, own.size)} {names}{of_row}")
+    return f"; {style.list_words(words)} {_in_defect(balls.size)}"
 
 
 def _in_defect(count: int) -> str:

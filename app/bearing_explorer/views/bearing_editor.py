@@ -64,14 +64,14 @@ class BearingEditor(ControlView):
         angle = "° and ".join(f"{math.degrees(one):.4g}" for one in dict.fromkeys(angles))
         rows = "two rows of " if bearing.rows else ""
         names = elements(bearing, bearing.n_balls)
-        told = f"{rows}{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
+        words = f"{rows}{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
         if bearing.roller_length is not None:
-            told += f"{1e3 * bearing.roller_length:.4g} mm long."
+            words += f"{1e3 * bearing.roller_length:.4g} mm long."
         else:
-            told += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
+            words += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
             kind = kind_of(bearing)
-            told += "." if kind == "single" else f", {kind.replace('-', ' ')}."
-        return told[0].upper() + told[1:]
+            words += "." if kind == "single" else f", {kind.replace('-', ' ')}."
+        return words[0].upper() + words[1:]
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

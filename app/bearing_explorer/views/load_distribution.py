@@ -154,19 +154,19 @@ class LoadDistribution(View):
         bearing = results.scene.bearing
         if not results.equilibrium.converged.any():
             return f"There is no load distribution: {results.equilibrium.reason(0)}."
-        told: list[str] = []
+        parts: list[str] = []
         curves = zip(results.load_curves, results.healthy_load_curves, strict=False)
         for row, ((angle, load), (_, healthy)) in enumerate(curves):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
             part = (
-                f"{'the' if told else 'The'} greatest load of a {element(bearing)}{which} is "
+                f"{'the' if parts else 'The'} greatest load of a {element(bearing)}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.beside_words and np.isfinite(healthy).any():
                 part += f"; {results.beside_words} {style.with_prefix(np.nanmax(healthy), 'N')}"
-            told.append(part)
-        words = ", ".join(told)
+            parts.append(part)
+        words = ", ".join(parts)
         if results.over_shaft:
             words += " (the most at each angle while the shaft makes this turn)"
         now = results.now

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
+from bearing_explorer.compute.excerpt import why_ended
 from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -44,7 +45,7 @@ class MassInSpectrum(View):
     def sentence(self, results: Results) -> str:
         found = results.ball_mass
         if not found.spectra:
-            return "The simulated motion did not stay finite: there is no spectrum of it."
+            return f"There is no spectrum, as {why_ended(found.broke_off)}."
         low, high = found.resonances
         resonance = "No ball carries load, so none resonates between its contacts. "
         if high > 0.0:

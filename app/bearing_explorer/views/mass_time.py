@@ -12,7 +12,7 @@ from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
 from bearing_explorer.compute.ball_mass import BallMass
-from bearing_explorer.compute.excerpt import least_and_greatest
+from bearing_explorer.compute.excerpt import least_and_greatest, why_ended
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
@@ -181,7 +181,8 @@ class MassInTime(View):
     def sentence(self, results: Results) -> str:
         shown = results.ball_mass
         if shown.broke_off:
-            return f"The simulated motion ended early: {shown.broke_off}."
+            words = why_ended(shown.broke_off)
+            return f"{words[0].upper()}{words[1:]}."
         peaks = [
             "the housing's acceleration peaks at "
             f"{style.number(float(np.max(np.abs(shown.with_mass[dof]))), 2)} m/s² along {dof} with "

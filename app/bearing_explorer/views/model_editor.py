@@ -58,11 +58,14 @@ class ModelEditor(ControlView):
     def sentence(self, results: Results) -> str:
         support = results.scene.support
         given = "given" if results.scene.contact_damping is not None else "from its stiffness"
-        return (
+        words = (
             f"A rotor of {style.number(support.inner_mass, 4)} kg in a housing of "
-            f"{style.number(support.outer_mass, 4)} kg; a loaded contact has a damping of "
-            f"{style.number(results.contact_damping, 4)} N·s/m, {given}."
+            f"{style.number(support.outer_mass, 4)} kg; "
         )
+        if not results.contact_damping and results.scene.contact_damping is None:
+            return f"{words}without a static state there is no stiffness to take a damping from."
+        damping = style.number(results.contact_damping, 4)
+        return f"{words}a loaded contact has a damping of {damping} N·s/m, {given}."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

@@ -42,12 +42,12 @@ INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 
 _ROW = ROW_PIXELS / FRAME
-_NAME_COLUMNS = ("frequency", "order", "row", "alpha", "told")
+_NAME_COLUMNS = ("frequency", "order", "row", "alpha", "labelled")
 _NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
 """Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
 _WORDS = """
 const name = row.order == 1 ? '%s' : `${row.order}×`
-return row.told ? `${name} ${rounded(row.frequency, 4)} Hz` : name
+return row.labelled ? `${name} ${rounded(row.frequency, 4)} Hz` : name
 """
 
 
@@ -199,7 +199,7 @@ class PartLines:
                 "order": labels,
                 "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
                 "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
-                "told": np.full(labels.size, float(zoom.part != "")),
+                "labelled": np.full(labels.size, float(zoom.part != "")),
             }
         if lead is not None:
             sources |= self._of_lead(lead)

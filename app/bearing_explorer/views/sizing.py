@@ -196,8 +196,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         return work
 
     def _take(self, found: Sized) -> None:
-        if self.measurement is not None:  # events are drawn into the signal where they are told
-            self.measurement.sized = found if told(found.sizing) else None
+        if self.measurement is not None:  # events are drawn into the signal where they are known
+            self.measurement.sized = found if has_answer(found.sizing) else None
         self._looked = None
         super()._take(found)
 
@@ -350,7 +350,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         return sized.sizing.table().in_units().named()
 
 
-def told(sizing: Sizing) -> bool:
+def has_answer(sizing: Sizing) -> bool:
     """Whether a sizing has an answer, be it a bound."""
     return bool(sizing.candidates) and (sizing.conclusive or bool(sizing.bound))
 

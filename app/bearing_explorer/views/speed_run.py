@@ -330,7 +330,7 @@ class SpeedRunSpectra(JobView[Found]):
         try:
             work = self.prepare(given, self._editor)
         except ValueError:
-            return  # whoever asks is told why
+            return  # whoever asks learns why
         assert jobs is not None
         jobs.start(work, self._take, self.job.show)
 

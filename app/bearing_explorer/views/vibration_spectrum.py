@@ -11,6 +11,7 @@ from bokeh.models import CheckboxGroup, CustomJS, GlyphRenderer, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.compute.excerpt import why_ended
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
@@ -218,7 +219,7 @@ class VibrationSpectra(View):
     def sentence(self, results: Results) -> str:
         words = []
         if not results.late_spectra:
-            return "The simulated motion did not stay finite: there is no spectrum of it."
+            return f"There is no spectrum, as {why_ended(results.motion.status)}."
         for dof in SHOWN:
             if dof in results.late_spectra:
                 frequency, density = results.late_spectra[dof]

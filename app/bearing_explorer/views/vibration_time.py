@@ -10,7 +10,7 @@ from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.excerpt import Event, Excerpt, least_and_greatest
+from bearing_explorer.compute.excerpt import Event, Excerpt, least_and_greatest, why_ended
 from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import element_name
 from bearing_explorer.figures.ranges import StickyRange
@@ -172,7 +172,8 @@ class VibrationInTime(View):
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
         if shown.broke_off:
-            return f"The simulated motion ended early: {shown.broke_off}."
+            words = why_ended(shown.broke_off)
+            return f"{words[0].upper()}{words[1:]}."
         peaks = [
             f"{style.number(float(np.max(np.abs(shown.acceleration[dof]))), 2)} m/s² along {dof}"
             for dof in SHOWN

@@ -37,7 +37,7 @@ SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 
 
 MOST_SAMPLES = 20_000_000
-"""Samples of all directions that are listened to at most unless told otherwise: about a minute of
+"""Samples of all directions that are listened to at most unless asked otherwise: about a minute of
 one core, and some gigabytes."""
 
 
@@ -91,10 +91,10 @@ def _speeds(
     """The speed from, to [Hz], and where it is from."""
     turn = 2.0 * math.pi
     if shaft_speed is None:
-        told = getattr(recording, "shaft_speed", None)
-        if told is not None:
-            speed = checks.number("shaft_speed", told, above=0.0, unit="rad/s") / turn
-            return speed, speed, "told by the recording"
+        given = getattr(recording, "shaft_speed", None)
+        if given is not None:
+            speed = checks.number("shaft_speed", given, above=0.0, unit="rad/s") / turn
+            return speed, speed, "given by the recording"
         return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
     if np.ndim(shaft_speed) == 0:
         speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]

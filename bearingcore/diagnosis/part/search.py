@@ -145,7 +145,7 @@ def listen(
     known_speed
         whether the shaft's own lines are known well enough to be left out.
     given
-        [Hz] the speed as told, from which lines may not be farther than the slip either.
+        [Hz] the speed as given, from which lines may not be farther than the slip either.
     """
     segment = turns / shaft
     top = max(lines.order for lines in parts) * (1.0 + slip)
@@ -192,7 +192,7 @@ def within(
 ) -> NDArray[np.bool_]:
     """Which frequencies [Hz] may be a part's first line.
 
-    Within the slip of the speed that the shaft's lines show and of the speed as told: otherwise a
+    Within the slip of the speed that the shaft's lines show and of the speed as given: otherwise a
     shaft found wrongly would open the window to twice the slip.
     """
     middle = 0.5 * (combs.shaft + given) * lines.order

@@ -46,7 +46,7 @@ DRAWS = 2
 """Simulations of each extent with its scene's numbers varied, beside the one as given."""
 
 PARTS = 16
-"""In which the library is simulated, so that progress can be told and work given up."""
+"""In which the library is simulated, so that progress can be shown and work given up."""
 
 PROMISING = 0.5
 """Part of the extents that are simulated with the scene's numbers varied too."""
@@ -92,7 +92,7 @@ LEAST_GAIN = 0.2
 """Of a score: less is not worth another step."""
 
 OTHER_EDGE = 1.0
-"""Taken off the score of an edge model that was not told."""
+"""Taken off the score of an edge model that was not given."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ class Search:
     ) -> Guess:
         """Simulate a defect and compare it with the signal, behind a path or the best of all.
 
-        Like a guess nearby, where one is told: behind its path, and its motion goes on.
+        Like a guess nearby, where one is given: behind its path, and its motion goes on.
         """
         extent = min(max(extent, LEAST_EXTENT), GREATEST_EXTENT)
         offsets = np.where(self.tolerances.spread > 0.0, np.clip(offsets, -MOST_OFF, MOST_OFF), 0.0)
@@ -208,7 +208,7 @@ class Search:
 
     @property
     def edges(self) -> tuple[str, str]:
-        """The edge model that was told, and the one most unlike it."""
+        """The edge model that was given, and the one most unlike it."""
         (defect,) = self.scene.defects
         return edges_tried(defect.edge)
 
@@ -284,9 +284,9 @@ class Search:
         return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter)
 
 
-def edges_tried(told: str) -> tuple[str, str]:
+def edges_tried(given: str) -> tuple[str, str]:
     """An edge model, and the one most unlike it."""
-    return told, "published" if told == "exact" else EDGES[-1]
+    return given, "published" if given == "exact" else EDGES[-1]
 
 
 def exit_phases(scene: Scene, extents: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -332,8 +332,8 @@ def _simulator(sought: _Sought) -> Simulator:
 
 
 @lru_cache(maxsize=8 * PARTS)
-def _as_told(sought: _Sought, part: int) -> _Library:
-    """A part of all extents, in a scene as it was told."""
+def _as_given(sought: _Sought, part: int) -> _Library:
+    """A part of all extents, in a scene as it was given."""
     (defect,) = sought.scene.defects
     simulator = _simulator(sought)
     nothing = np.zeros(len(sought.tolerances.spread))
@@ -363,7 +363,7 @@ def _varied(sought: _Sought, index: int) -> _Library:
     (defect,) = sought.scene.defects
     edges = edges_tried(defect.edge)
     part = next(number for number, one in enumerate(_OF_PARTS) if index <= one[-1])
-    begin = _as_told(sought, part).begins[index - int(_OF_PARTS[part][0])]
+    begin = _as_given(sought, part).begins[index - int(_OF_PARTS[part][0])]
     rng = np.random.default_rng(index)
     spread = sought.tolerances.spread
     made, passes = [], []
@@ -420,8 +420,8 @@ class _Compared:
 
     def add(self, library: _Library, score: NDArray[np.float64]) -> None:
         """Signals with scores behind each path (p, m)."""
-        told, _ = self.search.edges
-        other = np.array([edge != told for edge in library.edges])
+        given, _ = self.search.edges
+        other = np.array([edge != given for edge in library.edges])
         cost = 0.5 * (library.offsets**2).sum(axis=1) + OTHER_EDGE * other
         self.scores.append(score.max(axis=0) - cost)
         paths = [self.search.paths[number] for number in score.argmax(axis=0).tolist()]
@@ -459,7 +459,7 @@ def guesses(
 def _library_compared(
     search: Search, by_chance: ByChance, progress: Stop, threads: Executor
 ) -> _Compared:
-    """All extents as the scene is told, and the promising half of them with it varied too."""
+    """All extents as the scene is given, and the promising half of them with it varied too."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)
@@ -477,8 +477,8 @@ def _library_compared(
             tried.append(prepared.match(library.power).score)
         return np.array(tried)
 
-    def as_told(part: int) -> tuple[_Library, NDArray[np.float64]]:
-        library = _as_told(sought, part)
+    def as_given(part: int) -> tuple[_Library, NDArray[np.float64]]:
+        library = _as_given(sought, part)
         return library, explained(library, True)
 
     def varied(some: NDArray[np.int_]) -> tuple[_Library, NDArray[np.float64]]:
@@ -486,7 +486,7 @@ def _library_compared(
         return library, explained(library, False)
 
     compared = _Compared(search)
-    for part, found in enumerate(threads.map(as_told, range(PARTS))):
+    for part, found in enumerate(threads.map(as_given, range(PARTS))):
         compared.add(*found)
         progress(0.3 * (part + 1) / PARTS)
     # where no neighbour is any good, another stiffness or load does not make it so

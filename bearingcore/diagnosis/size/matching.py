@@ -146,7 +146,7 @@ class Target:
         """Compare with simulated `harmonics` and `power`, each (m, N, d).
 
         Behind a path balls leave at the phases `exits` (m,) [rad] of the simulated passes, and the
-        lag is looked for `near` one, where one is told.
+        lag is looked for `near` one, where one is given.
         """
         return Prepared(self, harmonics, model, exits).match(power, near)
 

@@ -60,7 +60,7 @@ from bearingcore.signals.spectrum import check_samples
 from bearingcore.statics.passes import crossings
 
 MOST_STEPS = 100_000_000
-"""Steps of integration of all simulations together, unless told otherwise: ten times what a usual
+"""Steps of integration of all simulations together, unless asked otherwise: ten times what a usual
 scene takes, about a minute of one core."""
 
 TEMPERATURE = 3.0
@@ -85,7 +85,7 @@ standard deviation at `TEMPERATURE`), none is told."""
 CLEAR = 0.9
 """Probability from which a candidate counts as told."""
 
-MUCH_UNEXPLAINED = 0.25
+MUCH_UNEXPLAINED = 0.2
 """Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
 
 PIT = math.radians(2.0)
@@ -192,7 +192,7 @@ class Sizing:
     bound
         "at most" or "at least" where the best extent stands at an end of the search; else "".
     diagnosis
-        which part the signal accuses; None where it was told by hand.
+        which part the signal names; None where it was given by hand.
     quality
         what the mean ball pass consists of.
     chance
@@ -403,7 +403,7 @@ def size_defect(
 
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     progress = progress if progress is not None else _go_on
-    tried = [("as told", scene.support)] if support_known else other_supports(scene.support)
+    tried = [("as given", scene.support)] if support_known else other_supports(scene.support)
     steps = len(tried) * steps_needed(Search(scene, target, columns, tolerances, path.models))
     if steps > most_steps:
         cost = (
@@ -577,7 +577,7 @@ def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
 
 
 def _no_size(found: Diagnosis) -> str:
-    """Why no extent is looked for where the outer race is not accused."""
+    """Why no extent is looked for where the outer race is not named."""
     words = found.status
     if found.fault == INNER:
         words += (
@@ -625,10 +625,10 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
         return False, "", none + refusal
     if best.probability < CLEAR:
         likely = [c for c in sized.candidates if c.probability >= 0.05]
-        told = ", ".join(
+        each = ", ".join(
             f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
         )
-        return False, "", f"The signal cannot tell these apart: {told}."
+        return False, "", f"The signal cannot tell these apart: {each}."
     if sized.apart > WIDEST * best.scene.bearing.ball_spacing:
         low, high = (math.degrees(best.extent + way * sized.apart) for way in (-1.0, 1.0))
         return False, "", (

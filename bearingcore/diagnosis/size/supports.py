@@ -28,7 +28,7 @@ class SupportTrial:
     Attributes
     ----------
     words
-        how it differs from the one that was told.
+        how it differs from the one that was given.
     support
         it.
     extent, extent_uncertainty
@@ -51,8 +51,8 @@ class SupportTrial:
 
 
 def other_supports(support: Support) -> list[tuple[str, Support]]:
-    """The support as told and others, each with how it differs."""
-    found = [("as told", support)]
+    """The support as given and others, each with how it differs."""
+    found = [("as given", support)]
     for factor in STIFFNESS_FACTORS:
         words = f"stiffness × {factor:g}"
         found.append((words, _scaled(support, factor, 1.0)))

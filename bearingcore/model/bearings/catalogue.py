@@ -11,7 +11,7 @@ A table has a line of headings and a line for each bearing. Columns, in any orde
 - `dynamic_load_rating_kn`, `note`: may stay empty.
 
 Columns are parted by semicolons, commas or tabs; decimals may have a comma where columns do not.
-Empty lines and lines that begin with # are passed over. What was assumed for an empty cell is told
+Empty lines and lines that begin with # are passed over. What was assumed for an empty cell is said
 with each bearing. A table with faults is refused as a whole, each fault named by line and column.
 """
 
@@ -44,7 +44,7 @@ COLUMNS = (
 )
 
 USUAL_RATIO = {"inner": 0.52, "outer": 0.53}
-"""Groove radius over ball diameter where it is not told: the widest that ISO 281 rates in full."""
+"""Groove radius over ball diameter where it is not given: the widest that ISO 281 rates in full."""
 
 USUAL_CLEARANCE_UM = 10.0
 
@@ -53,7 +53,7 @@ MOST_BEARINGS = 2000
 LONGEST_NAME, LONGEST_NOTE = 80, 2000
 
 LONGEST_REFUSAL = 500
-"""Characters up to which faults are told at once; the others are counted."""
+"""Characters up to which faults are listed at once; the others are counted."""
 
 _SEPARATORS = (";", "\t", ",")
 
@@ -69,9 +69,9 @@ class CatalogueBearing:
     bearing
         with groove radii, steel on steel.
     dynamic_load_rating
-        C_r [N] as told, or None.
+        C_r [N] as given, or None.
     note
-        where the numbers come from, as told.
+        where the numbers come from, as given.
     assumed
         what stands in for empty cells, in words.
     """
@@ -132,12 +132,12 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
 
 def _together(faults: list[str]) -> str:
     """The first faults as a sentence, at least one, and how many more there are."""
-    told = faults[0]
+    words = faults[0]
     for count, fault in enumerate(faults[1:], start=1):
-        if len(told) + len(fault) > LONGEST_REFUSAL:
-            return f"{told}; and {len(faults) - count} more"
-        told += f"; {fault}"
-    return told
+        if len(words) + len(fault) > LONGEST_REFUSAL:
+            return f"{words}; and {len(faults) - count} more"
+        words += f"; {fault}"
+    return words
 
 
 def catalogue_text(bearings: Iterable[CatalogueBearing]) -> str:

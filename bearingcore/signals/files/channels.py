@@ -138,8 +138,8 @@ def choose(
         return Choice({}, "", words)
     places = {columns[index].place for index in signals} - {""}
     if len(places) > 1:
-        told = ", ".join(sorted(places))
-        question = f"The file holds signals of several places ({told}). Which is at this bearing?"
+        known = ", ".join(sorted(places))
+        question = f"The file holds signals of several places ({known}). Which is at this bearing?"
         place = place_in(file_name)
         there = [index for index in signals if columns[index].place == place]
         if place and len(there) == 1:

@@ -190,8 +190,8 @@ def _columns(
         time = next((i for i, column in enumerate(columns) if column.role == TIME), None)
     if time is None and len(columns) > 1 and not table.headed and table.sample_rate is None:
         # a first column without a name that rises evenly is a time, or counts the rows
-        told = sampling_of(table.columns[:, 0])
-        if told.told and not told.trouble:
+        found = sampling_of(table.columns[:, 0])
+        if found.stated and not found.trouble:
             time = 0
     if time is None:
         return tuple(columns), None
@@ -224,18 +224,18 @@ def _rate(
     said = facts.sample_rate_in(named, table.name)
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
-        timed = Finding(sampling.sample_rate, sampling.reason, sampling.told)
-    for told in (timed, said):
-        if told is not None and told.told:
-            return told
+        timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    for finding in (timed, said):
+        if finding is not None and finding.stated:
+            return finding
     return said or timed or known.sample_rate
 
 
 def _unit(
     table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Known
 ) -> Finding[str]:
-    told = {columns[index].unit for index in picked} - {None}
-    if len(told) == 1 and (unit := next(iter(told))) is not None:
+    units = {columns[index].unit for index in picked} - {None}
+    if len(units) == 1 and (unit := next(iter(units))) is not None:
         name = next(columns[index].name for index in picked if columns[index].unit)
         return Finding(unit, f"the name “{name}”")
     said = facts.unit_said(table.remarks, table.texts)

@@ -26,13 +26,13 @@ class Finding(Generic[T]):
         in SI units.
     reason
         where it stands, or why it is likely, in a few words.
-    told
+    stated
         whether the file says so; else it is a guess, and whoever knows better is to be asked.
     """
 
     value: T
     reason: str
-    told: bool = True
+    stated: bool = True
 
 
 @dataclass(frozen=True)
@@ -89,8 +89,8 @@ def named_in(lines: Iterable[str]) -> list[Named]:
         name, text, unit = match.groups()
         value = _number(text)
         if value is not None:
-            told = unit_named(unit) if unit else unit_in(name)
-            found.append(Named(name.strip(), value, told))
+            of_unit = unit_named(unit) if unit else unit_in(name)
+            found.append(Named(name.strip(), value, of_unit))
     return found
 
 
@@ -158,15 +158,15 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
                 unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
                 found.append(Finding(value * SPEEDS[unit], f"{words}, taken as {unit}", False))
         elif key == "rate" and value < LEAST_RATE:
-            told = bool(rates)  # two rates: one is that of the samples, the other the shaft's
-            found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", told))
+            stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
+            found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
     match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower())
     if match is not None and float(match[1]) > 0.0:
         found.append(Finding(float(match[1]) * SPEEDS["rpm"], f"“{match[0]}” in the file's name"))
     if not found:
         return None
-    first = next((one for one in found if one.told), found[0])
-    if any(one.told and abs(one.value / first.value - 1.0) > 0.005 for one in found):
+    first = next((one for one in found if one.stated), found[0])
+    if any(one.stated and abs(one.value / first.value - 1.0) > 0.005 for one in found):
         return Finding(first.value, f"{first.reason}, which names another one too", False)
     return first
 

@@ -157,7 +157,7 @@ def answer(content: bytes, most_numbers: int) -> tuple[dict[str, Any], list[byte
 
 if __name__ == "__main__":
     limit()
-    told, parts = answer(sys.stdin.buffer.read(), int(sys.argv[1]))
-    sys.stdout.buffer.write(json.dumps(told).encode() + b"\n")
+    about, parts = answer(sys.stdin.buffer.read(), int(sys.argv[1]))
+    sys.stdout.buffer.write(json.dumps(about).encode() + b"\n")
     for part in parts:
         sys.stdout.buffer.write(part)

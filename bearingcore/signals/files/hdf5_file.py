@@ -61,13 +61,13 @@ def read_hdf5(content: bytes, most_numbers: int) -> Variables:
     line, found, rest = done.stdout.partition(b"\n")
     if done.returncode != 0 or not found:
         raise ValueError("a damaged or unknown part, or more in it than can be unpacked")
-    told = json.loads(line)
-    if "wrong" in told:
-        raise ValueError(told["wrong"])
-    variables = Variables(texts=told["texts"])
+    about = json.loads(line)
+    if "wrong" in about:
+        raise ValueError(about["wrong"])
+    variables = Variables(texts=about["texts"])
     place = 0
     data = memoryview(rest)
-    for name, kind, shape in told["numbers"]:
+    for name, kind, shape in about["numbers"]:
         size = int(np.dtype(kind).itemsize * np.prod(shape, dtype=np.int64))
         array = np.frombuffer(data[place : place + size], kind).reshape(shape)
         variables.numbers[name] = np.atleast_2d(array)

@@ -2,7 +2,7 @@
 
 A file is read in two steps, as it seldom says all that is needed. `read_table` finds its columns
 of numbers, and `Table.contents` what the file says about them; `Table.recording` makes a
-`Recording` of the columns that are the housing's acceleration, once it is told what is missing.
+`Recording` of the columns that are the housing's acceleration, once what is missing is given.
 
 Whatever is wrong with a file is said in one sentence, as a ValueError.
 """

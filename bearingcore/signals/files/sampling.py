@@ -40,7 +40,7 @@ class Sampling:
     ----------
     sample_rate
         [Hz], None where there is none.
-    told
+    stated
         whether the times say so themselves; else it is a proposal.
     first, last
         the rows (last excluded) of the longest part without a jump.
@@ -51,7 +51,7 @@ class Sampling:
     """
 
     sample_rate: float | None
-    told: bool
+    stated: bool
     first: int
     last: int
     trouble: str = ""
@@ -74,7 +74,7 @@ def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
         return Sampling(_customary(*even, unit, n), True, 0, n)
     rounded = _rounded(time, steps)
     if rounded is not None:
-        return _told_rounded(rounded, time, unit)
+        return _rounded_times(rounded, time, unit)
     return _with_jumps(time, steps, unit)
 
 
@@ -113,7 +113,7 @@ def _rounded(time: NDArray[np.float64], steps: NDArray[np.float64]) -> float | N
     return grain if stray.max() <= 1.01 * grain else None
 
 
-def _told_rounded(grain: float, time: NDArray[np.float64], unit: float) -> Sampling:
+def _rounded_times(grain: float, time: NDArray[np.float64], unit: float) -> Sampling:
     n = len(time)
     rate = (n - 1) / float(time[-1] - time[0])
     error = 2.0 * rate * grain / float(time[-1] - time[0])
@@ -121,9 +121,9 @@ def _told_rounded(grain: float, time: NDArray[np.float64], unit: float) -> Sampl
     if abs(near - rate / unit) <= error / unit:
         rate = near * unit
     shared = round(grain * rate)
-    told = f"about {shared} rows share one" if shared > 1 else "some rows share one"
+    so = f"about {shared} rows share one" if shared > 1 else "some rows share one"
     trouble = (
-        f"The times are rounded to {grain * unit:.2g} s, so that {told}: over all rows it is "
+        f"The times are rounded to {grain * unit:.2g} s, so that {so}: over all rows it is "
         f"{rate / unit:.6g} Hz, give or take {error / unit:.2g} Hz, and shorter gaps than that "
         "would not show."
     )
@@ -149,9 +149,9 @@ def _with_jumps(time: NDArray[np.float64], steps: NDArray[np.float64], unit: flo
                 return Sampling(rate, True, first, last, said)
             grain = _rounded(part, np.diff(part))
             if grain is not None:
-                told = _told_rounded(grain, part, unit)
-                trouble = f"{said} {told.trouble}"
-                return Sampling(told.sample_rate, False, first, last, trouble, told.reason)
+                rounded = _rounded_times(grain, part, unit)
+                trouble = f"{said} {rounded.trouble}"
+                return Sampling(rounded.sample_rate, False, first, last, trouble, rounded.reason)
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     trouble = (
@@ -174,15 +174,15 @@ def _jumps(
     with np.errstate(over="ignore"):
         missing = float(np.maximum(np.round(steps[jumps] / usual) - 1.0, 0.0).sum())
     times = "once" if jumps.size == 1 else f"{jumps.size} times"
-    told = f"The times jump {times}, first after row {jumps[0] + 1}"
+    words = f"The times jump {times}, first after row {jumps[0] + 1}"
     remarks = []
     if missing > 0.0 and not shared:
         remarks.append(f"{missing:.0f} sample{'s are' if missing > 1.0 else ' is'} missing")
     if back:
         remarks.append("back" if back == jumps.size else f"{back} times back")
-    told += f" ({', '.join(remarks)})" if remarks else ""
+    words += f" ({', '.join(remarks)})" if remarks else ""
     return (
-        f"{told}. Only the longest part without a jump is used: rows {first + 1} to {last} of "
+        f"{words}. Only the longest part without a jump is used: rows {first + 1} to {last} of "
         f"{len(steps) + 1}."
     )
 

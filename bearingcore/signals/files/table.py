@@ -39,7 +39,7 @@ class Table(FileColumns):
     def suggested_rate(self) -> float | None:
         """Sample rate [Hz] that the file tells; None where it does not, or only lets it guess."""
         rate = self.contents.sample_rate
-        return rate.value if rate is not None and rate.told else None
+        return rate.value if rate is not None and rate.stated else None
 
     def recording(
         self,
@@ -93,7 +93,7 @@ class Table(FileColumns):
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
             notes += self._to_acceleration(signal, units, rate, sensitivity)
         speed = contents.shaft_speed
-        if shaft_speed is None and speed is not None and speed.told:
+        if shaft_speed is None and speed is not None and speed.stated:
             shaft_speed = speed.value
         made = Recording(
             signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes))
@@ -134,16 +134,16 @@ class Table(FileColumns):
         places = {self.contents.columns[i].place: self.names[i] for i in picked}
         places.pop("", None)
         if len(places) > 1:
-            told = " and ".join(f"{name} ({place})" for place, name in places.items())
+            sensors = " and ".join(f"{name} ({place})" for place, name in places.items())
             raise checks.refuse(
-                "columns", told, "directions of one place; these are sensors at two places"
+                "columns", sensors, "directions of one place; these are sensors at two places"
             )
 
     def _unit(self, index: int, unit: str | None) -> str:
         column = self.contents.columns[index]
         if unit is None:
-            told = self.contents.unit
-            unit = column.unit or (told.value if told.told else None)
+            of_file = self.contents.unit
+            unit = column.unit or (of_file.value if of_file.stated else None)
             if unit is None:
                 raise checks.refuse(
                     "unit", None, f"one of {', '.join(UNITS)}: the file does not tell it"
@@ -152,22 +152,26 @@ class Table(FileColumns):
 
     def _rate(self, asked: float | None) -> tuple[float, list[str]]:
         """The sample rate [Hz], and what is to be said about it."""
-        sampling, told = self.contents.sampling, self.contents.sample_rate
+        sampling, stated = self.contents.sampling, self.contents.sample_rate
         trouble = sampling.trouble if sampling is not None else ""
         if asked is None:
-            if told is None or not told.told:
-                guess = f"; {told.value:.6g} is likely ({told.reason})" if told is not None else ""
+            if stated is None or not stated.stated:
+                guess = (
+                    f"; {stated.value:.6g} is likely ({stated.reason})"
+                    if stated is not None
+                    else ""
+                )
                 why = f" {trouble}" if trouble else ""
                 raise checks.refuse(
                     "sample_rate", None, f"a number [Hz]: the file does not tell it{guess}.{why}"
                 )
-            return told.value, [trouble]
+            return stated.value, [trouble]
         rate = checks.number("sample_rate", asked, above=0.0, unit="Hz")
         notes = [trouble]
-        if told is not None and told.told and abs(rate / told.value - 1.0) > RATE_DOUBT:
+        if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
             notes.append(
-                f"The sample rate was typed as {rate:.6g} Hz; {told.reason} says "
-                f"{told.value:.6g} Hz."
+                f"The sample rate was typed as {rate:.6g} Hz; {stated.reason} says "
+                f"{stated.value:.6g} Hz."
             )
         return rate, notes
 

@@ -120,8 +120,8 @@ def unit_in(heading: str) -> str | None:
     >>> unit_in("acc x [mm/s^2]"), unit_in("sensor_g"), unit_in("acceleration_y_m_per_s2")
     ('mm/s²', 'g', 'm/s²')
     """
-    for told in _IN_BRACKETS.findall(heading):
-        unit = unit_named(told)
+    for name in _IN_BRACKETS.findall(heading):
+        unit = unit_named(name)
         if unit is not None:
             return unit
     bare = heading.strip().lower()
@@ -186,9 +186,9 @@ def level_doubt(level: float) -> str:
     >>> level_doubt(3.0)
     ''
     """
-    told = f"{level:.2g} m/s² ({level / STANDARD_GRAVITY:.2g} g)"
+    words = f"{level:.2g} m/s² ({level / STANDARD_GRAVITY:.2g} g)"
     if level > GREATEST_LEVEL:
-        return f"A root mean square of {told} is more than bearings give: the unit may be another."
+        return f"A root mean square of {words} is more than bearings give: the unit may be another."
     if level < LEAST_LEVEL:
-        return f"A root mean square of {told} is less than bearings give: the unit may be another."
+        return f"A root mean square of {words} is less than bearings give: the unit may be another."
     return ""

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from bearing_explorer.compute.accuracy import TRIALS, Found, compute
 from bearing_explorer.compute.jobs import Work
-from bearing_explorer.compute.results import Results, Settings
+from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.accuracy import COLORS, MOST_METHODS, NAMES, Accuracy, legend, look
 from bearing_explorer.widgets.status import status_of
 

@@ -6,7 +6,8 @@ import asyncio
 
 import pytest
 from bearing_explorer.compute import compiling
-from bearing_explorer.compute.results import Results, quick_duration
+from bearing_explorer.compute.motion_cost import quick_duration
+from bearing_explorer.compute.results import Results
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mechanism import WhichMechanism

@@ -10,8 +10,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from bearing_explorer.compute import idle_task, planning
+from bearing_explorer.compute.answers import plans
+from bearing_explorer.compute.motion_cost import is_costly
 from bearing_explorer.compute.planning import by_hand, chosen, plan_for, with_choices
-from bearing_explorer.compute.results import Results, is_dear, plans
+from bearing_explorer.compute.results import Results
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.settings import MotionPlanning, Settings
 from bearing_explorer.views.base import View
@@ -164,7 +166,7 @@ def test_nothing_jumps_when_the_planned_spectrum_replaces_the_live_one(preset: s
 
 
 def test_motions_that_take_long_are_coarse_while_something_moves_and_only_then() -> None:
-    assert not is_dear(FAN_RIG, 65536.0, 1.4)
+    assert not is_costly(FAN_RIG, 65536.0, 1.4)
     moving, still = Results(LIEW_LIM, moving=True), Results(LIEW_LIM)
     assert moving.coarse
     assert not still.coarse

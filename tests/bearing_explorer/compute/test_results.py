@@ -5,15 +5,12 @@ import threading
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import (
-    MOST_STEPS,
-    SHORTEST,
-    Results,
-    Settings,
-    orbits,
-)
+from bearing_explorer.compute.answers import orbits
+from bearing_explorer.compute.motion_cost import MOST_STEPS, SHORTEST
+from bearing_explorer.compute.results import Results
 from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.settings import Settings
 
 from bearingcore import Scene, equilibrium, presets
 from bearingcore.dynamics.orbit import NOT_CONVERGED
@@ -80,7 +77,7 @@ def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(
         together.wait()
         return {}
 
-    monkeypatch.setattr("bearing_explorer.compute.results.late_spectra", SingleFlightCache(slow, 8))
+    monkeypatch.setattr("bearing_explorer.compute.answers.late_spectra", SingleFlightCache(slow, 8))
     results = Results(presets["fan-rig"])
     results.begin(frozenset({"late_spectra", "modes"}))
     assert scenes == []
@@ -94,11 +91,11 @@ def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(
 
 def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
     hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi)
-    hasty, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
-    assert hasty is not None
+    quick, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
+    assert quick is not None
     assert patient is not None
-    assert hasty.status == patient.status == NOT_CONVERGED
-    assert hasty.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
+    assert quick.status == patient.status == NOT_CONVERGED
+    assert quick.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
     usual = presets["fan-rig"]
     found = Results(usual, moving=True).orbit
     assert found is not None
@@ -121,7 +118,7 @@ def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
     assert len(asked) <= 43
     assert not orbits.knows(hopeless, results._marching)
     results.seek_orbit(lambda: False)
-    monkeypatch.setattr("bearing_explorer.compute.results.core.orbit", None)
+    monkeypatch.setattr("bearing_explorer.compute.answers.core.orbit", None)
     assert results.orbit is not None
     assert results.orbit.status == NOT_CONVERGED
     assert results.orbit.right_hand_side_calls > 100 * len(asked)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from bearing_explorer.compute import compiling
 from bearing_explorer.compute.ball_mass import BallMass
-from bearing_explorer.compute.results import Results, quick_duration
+from bearing_explorer.compute.motion_cost import quick_duration
+from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mass_spectrum import MassInSpectrum

@@ -86,7 +86,8 @@ def test_only_what_really_changed_is_said() -> None:
 
 def test_what_has_no_answer_is_said_too() -> None:
     loose = FAN_RIG.replace(fy=0.0)
-    assert "there is no equilibrium any more, nothing touches" in told(loose, FAN_RIG)
+    assert "there is no equilibrium any more (nothing touches" in told(loose, FAN_RIG)
+    assert "there is no equilibrium, as before (" in told(loose.replace(depth=9e-6), loose)
     assert "now there is an equilibrium" in told(FAN_RIG, loose)
     still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
     assert still.endswith("there is no spectrum: nothing turns.")
@@ -142,7 +143,7 @@ def changed(**news: object) -> str:
          "So: the x₁ band sinks from 365–480 to 300–400 Hz."),
         ({"answered": 0.75, "reason": "why"},
          "So: nothing changes along the chain; at 25 % of the cage angles there is no "
-         "equilibrium, why."),
+         "equilibrium (why)."),
     ],
 )  # fmt: skip
 def test_each_link_in_words(news: dict, words: str) -> None:

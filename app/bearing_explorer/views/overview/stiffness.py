@@ -24,7 +24,7 @@ from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
-from bearingcore.statics.equilibrium import TERM_UNITS
+from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -167,7 +167,8 @@ class OverviewStiffness(View):
             return "There is no equilibrium here, so there is no stiffness to show."
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
         named = [
-            f"{term} from {style.with_prefix(np.nanmin(values), TERM_UNITS[term])} to "
+            f"k_{TERM_SYMBOLS[term][1:]} from "
+            f"{style.with_prefix(np.nanmin(values), TERM_UNITS[term])} to "
             f"{style.with_prefix(np.nanmax(values), TERM_UNITS[term])}"
             for term, scale in zip(STIFFNESS_TERMS, scales, strict=True)
             if term in free_terms(found.dofs)

@@ -29,7 +29,8 @@ def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
     `why_not` is why the loads stay exactly as they are, should they.
     """
     if now.answered == 0.0:
-        return f"{cause}: there is no equilibrium any more, {now.reason}."
+        gone = "there is no equilibrium" + (" any more" if before.answered else ", as before")
+        return f"{cause}: {gone} ({now.reason})."
     if before.answered == 0.0:
         return f"{cause}: now there is an equilibrium, which there was not before."
     along = direction(now, before)
@@ -44,7 +45,7 @@ def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
     if now.answered < 1.0:
         text += (
             f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
-            f"no equilibrium, {now.reason}"
+            f"no equilibrium ({now.reason})"
         )
     if now.silent:
         text += f"; there is no spectrum: {now.silent}"

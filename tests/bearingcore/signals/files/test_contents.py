@@ -39,9 +39,9 @@ def test_case_western_variables_are_of_several_places() -> None:
     assert not found.choice.columns
     assert "Which is at this bearing?" in found.choice.question
     assert found.unit.value == "g"
-    assert not found.unit.told
+    assert not found.unit.stated
     assert found.sample_rate is not None
-    assert (found.sample_rate.value, found.sample_rate.told) == (12_000.0, False)
+    assert (found.sample_rate.value, found.sample_rate.stated) == (12_000.0, False)
     assert found.shaft_speed is not None
     assert rpm(found.shaft_speed.value) == pytest.approx(1796.0)
     with pytest.raises(ValueError, match="sensors at two places"):
@@ -70,11 +70,11 @@ def test_mfpt_structs_tell_rate_speed_and_load() -> None:
     run = {"gs": NOISE[:, :1], "sr": 48_828, "rate": 25, "load": "150"}
     table = read_table("run.mat", matlab(bearing=run, BPFO=81.125))
     found = table.contents
-    assert found.unit.told
+    assert found.unit.stated
     assert found.unit.value == "g"
     assert found.load is not None
     assert found.load.value == pytest.approx(667.23, abs=0.01)
-    assert not found.load.told  # pounds are what the collection says, not the file
+    assert not found.load.stated  # pounds are what the collection says, not the file
     assert found.said["BPFO"] == "81.125"
     got = table.recording([0], ["y"])
     assert got.sample_rate == 48_828.0
@@ -115,7 +115,7 @@ def test_ims_tables_without_headings_or_extension(columns: int, places: list[int
     assert [column.place for column in found.columns] == [f"bearing {n}" for n in places]
     assert "several places" in found.choice.question
     assert found.sample_rate is not None
-    assert (found.sample_rate.value, found.sample_rate.told) == (20_480.0, False)
+    assert (found.sample_rate.value, found.sample_rate.stated) == (20_480.0, False)
 
 
 def test_two_columns_without_a_name_are_a_guess_and_three_are_asked_about() -> None:
@@ -160,7 +160,7 @@ def test_the_heading_of_a_single_column_is_kept_and_its_unit_used(
     table = read_table("a.csv", lines(NOISE[:600, :1], heading=heading))
     assert table.names == (heading,)
     assert table.contents.unit.value == unit
-    assert table.contents.unit.told
+    assert table.contents.unit.stated
     got = table.recording([0], ["y"], sample_rate=1e3)
     np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:600, 0] * factor, rtol=1e-7)
 
@@ -188,14 +188,14 @@ def test_a_column_of_speed_is_the_shafts() -> None:
     content = lines(np.column_stack([NOISE[:600, 0], speed]), heading="acc [g],speed [rpm]")
     found = read_table("a.csv", content).contents
     assert found.shaft_speed is not None
-    assert found.shaft_speed.told
+    assert found.shaft_speed.stated
     assert rpm(found.shaft_speed.value) == pytest.approx(1480.0)
     content = lines(
         np.column_stack([NOISE[:600, 0], speed + np.arange(600)]), heading="acc [g],speed [rpm]"
     )
     varying = read_table("a.csv", content).contents.shaft_speed
     assert varying is not None
-    assert not varying.told
+    assert not varying.stated
     assert "goes from 1480 to 2079" in varying.reason
 
 
@@ -230,7 +230,7 @@ def test_real_records_tell_what_they_hold() -> None:
         assert found.unit.value == "g"
         assert found.sample_rate is not None
         if kind == "femto":
-            assert found.sample_rate.told
+            assert found.sample_rate.stated
             assert found.sample_rate.value == 25_600.0
             assert found.choice.columns == {"x": 4, "y": 5}
         elif kind == "mfpt":

@@ -12,7 +12,7 @@ TIME = np.arange(3000) / RATE
 @pytest.mark.parametrize("decimals", [9, 6, 5])
 def test_times_rounded_to_less_than_a_step_tell_the_rate(decimals: int) -> None:
     found = sampling_of(np.round(TIME, decimals))
-    assert found.told
+    assert found.stated
     assert found.sample_rate == pytest.approx(RATE, rel=1e-6)
     assert not found.trouble
 
@@ -24,7 +24,7 @@ def test_a_clock_that_is_off_is_believed() -> None:
 @pytest.mark.parametrize("decimals", [4, 3])
 def test_times_rounded_to_more_than_a_step_propose_a_rate(decimals: int) -> None:
     found = sampling_of(np.round(TIME, decimals))
-    assert not found.told
+    assert not found.stated
     assert found.sample_rate == RATE
     assert f"rounded to {10.0**-decimals:.2g} s" in found.trouble
 
@@ -43,7 +43,7 @@ def test_times_rounded_to_more_than_a_step_propose_a_rate(decimals: int) -> None
 )
 def test_only_the_longest_part_between_jumps_is_used(time, rows, words) -> None:
     found = sampling_of(time)
-    assert found.told
+    assert found.stated
     assert found.sample_rate == pytest.approx(RATE)
     assert (found.first, found.last) == rows
     assert words in found.trouble
@@ -51,7 +51,7 @@ def test_only_the_longest_part_between_jumps_is_used(time, rows, words) -> None:
 
 def test_a_jump_shows_in_rounded_times_too() -> None:
     found = sampling_of(np.round(np.delete(TIME, slice(1000, 1200)), 3))
-    assert not found.told
+    assert not found.stated
     assert (found.first, found.last) == (1000, 2800)
     assert found.sample_rate == RATE
     assert "jump once" in found.trouble
@@ -67,7 +67,7 @@ def test_a_jump_shows_in_rounded_times_too() -> None:
 )
 def test_times_that_wander_tell_no_rate_but_their_mean(time) -> None:
     found = sampling_of(time)
-    assert not found.told
+    assert not found.stated
     assert "do not rise evenly" in found.trouble
     assert found.sample_rate == pytest.approx((len(time) - 1) / (time[-1] - time[0]))
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
+from tests.browser.explorer_page import wait
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -54,6 +55,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     missing: list[str] = []
     page.on("response", lambda one: missing.append(one.url) if one.status == 404 else None)
     with serving(with_limits()) as server, proxied(server.port, "/bearing/") as url:
+        wait(page, lambda: "Ready after" in server.log)
         answer = page.goto(url)
         assert answer is not None
         assert "unsafe-eval" in answer.headers["content-security-policy"]

@@ -27,9 +27,16 @@ def begin(level: str) -> None:
     """Write to standard error from now on; `level` is one of LEVELS."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(OneLine("%(asctime)s %(levelname)s %(message)s"))
+    handler.addFilter(meant_so)
     handler.addFilter(Seldom())
     logging.basicConfig(level=logging.WARNING, handlers=[handler])
     log.setLevel(level.upper())
+
+
+def meant_so(record: logging.LogRecord) -> bool:
+    """Whether a line is trouble: that somebody was asked to come back later (503) is none."""
+    asked_back = record.name == "tornado.access" and isinstance(record.args, tuple)
+    return not (asked_back and record.args[:1] == (503,)) or log.isEnabledFor(logging.INFO)
 
 
 class OneLine(logging.Formatter):

@@ -14,7 +14,7 @@ from urllib.request import urlopen
 import pytest
 from bearing_explorer.server import connections, limits, places, serving
 from bearing_explorer.server.limits import Limits
-from bearing_explorer.server.log import OneLine, Seldom
+from bearing_explorer.server.log import OneLine, Seldom, meant_so
 from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
 from bearing_explorer.server.message_cost import too_much, weight
 from bearing_explorer.server.turns import Turns
@@ -395,6 +395,15 @@ def test_trouble_of_one_kind_is_written_once_a_second() -> None:
     late = record("late")
     assert seldom.filter(late)
     assert late.getMessage() == "late (1000 more like it)"
+
+
+@pytest.mark.parametrize(("status", "written"), [(503, False), (500, True), (404, True)])
+def test_whoever_is_asked_to_come_back_is_no_trouble(status: int, written: bool) -> None:
+    words = (status, "GET / (127.0.0.1)", 0.4)
+    line = logging.LogRecord(
+        "tornado.access", logging.ERROR, "web.py", 1, "%d %s %.2fms", words, None
+    )
+    assert meant_so(line) is written
 
 
 def test_what_strangers_send_stays_on_its_line() -> None:

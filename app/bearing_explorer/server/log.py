@@ -35,8 +35,9 @@ def begin(level: str) -> None:
 
 def meant_so(record: logging.LogRecord) -> bool:
     """Whether a line is trouble: that somebody was asked to come back later (503) is none."""
-    asked_back = record.name == "tornado.access" and isinstance(record.args, tuple)
-    return not (asked_back and record.args[:1] == (503,)) or log.isEnabledFor(logging.INFO)
+    status = record.args[0] if isinstance(record.args, tuple) and record.args else None
+    asked_back = record.name == "tornado.access" and status == 503
+    return not asked_back or log.isEnabledFor(logging.INFO)
 
 
 class OneLine(logging.Formatter):

@@ -156,7 +156,8 @@ def speed_run(
         )
 
     shape = (speeds.size, frequency.size, len(dofs))
-    steps = _steps_of_marching(scene, speeds, duration / (1.0 - SETTLING), sample_rate)
+    lasting = duration / (1.0 - SETTLING)
+    steps = _steps_of_marching(scene, speeds, lasting, sample_rate, most_steps)
     if cost := too_many_in_all(steps, f"at {speeds.size} speeds", most_steps_in_all):
         return told(
             np.broadcast_to(np.float64(math.nan), shape),
@@ -216,12 +217,22 @@ _NONE_LEFT = TOO_MANY_STEPS + ": none is left of most_steps_in_all = {}"
 
 
 def _steps_of_marching(
-    scene: Scene, speeds: NDArray[np.float64], duration: float, sample_rate: float
+    scene: Scene,
+    speeds: NDArray[np.float64],
+    duration: float,
+    sample_rate: float,
+    most_steps: int,
 ) -> float:
-    """Steps that all speeds take if each is marched for so long [s]; 0 where none can be."""
+    """Steps that all speeds take if each is marched for so long [s]; 0 where none can be.
+
+    A speed that takes more than `most_steps` takes none: it is refused by itself.
+    """
+    steps = []
     try:
-        at = scene.replace(shaft_speed=float(speeds.max()))
-        rate = default_step_rate(at, sample_rate, highest_natural_frequency(at))
-    except ValueError:  # told where the motion is tried
+        highest = highest_natural_frequency(scene.replace(shaft_speed=float(speeds.max())))
+        for speed in speeds.tolist():
+            rate = default_step_rate(scene.replace(shaft_speed=speed), sample_rate, highest)
+            steps.append(duration * rate)
+    except ValueError:  # said where the motion is tried
         return 0.0
-    return speeds.size * duration * rate
+    return sum(one for one in steps if one <= most_steps)

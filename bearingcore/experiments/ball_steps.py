@@ -77,12 +77,13 @@ def swing(force, k, c, mass, speed, h):
 
 
 @inlined
-def forces_of_balls(X, V, balls, at, passage, inner, system, part, exponential):
-    """Σ Q e of both races, (fi0, fi1, fo0, fo1), rings at X, V (2, 2), balls at (u, v).
+def forces_of_balls(rings, balls, at, passage, inner, system, part, exponential):
+    """Σ Q e of both races, (fi0, fi1, fo0, fo1), rings at (X, V), each (2, 2), balls at (u, v).
 
     part [s] > 0: each ball takes a step of twice that, `exponential` or of the implicit midpoint
     rule; 0: where it is. Returns the sums and the number of evaluations.
     """
+    X, V = rings
     u, v = balls
     contacts = system.contacts
     races = system.races
@@ -186,7 +187,7 @@ def march_split_balls(y, h, substeps, stride, exponential, system, history):
             laid = 0
         if step % stride == 0:
             fi0, fi1, fo0, fo1, more = forces_of_balls(
-                X, V, (u, v), 2 * laid, passage, inner, system, 0.0, exponential
+                (X, V), (u, v), 2 * laid, passage, inner, system, 0.0, exponential
             )
             f = ((fi0, fi1), (fo0, fo1))
             row = history[step // stride]
@@ -209,7 +210,7 @@ def march_split_balls(y, h, substeps, stride, exponential, system, history):
                     Xm[body, a] = X[body, a] + away * (V[body, a] + 0.5 * away * A[body, a])
                     Vm[body, a] = V[body, a] + away * A[body, a]
             fi0, fi1, fo0, fo1, more = forces_of_balls(
-                Xm, Vm, (u, v), 2 * laid + 1, passage, inner, system, 0.5 * small, exponential
+                (Xm, Vm), (u, v), 2 * laid + 1, passage, inner, system, 0.5 * small, exponential
             )
             calls += more
             laid += 1

@@ -394,7 +394,7 @@ def test_a_lesson_is_where_one_left_it(
     settle(page)
     expect(panel.locator("h2")).to_have_text("Two defects that look alike")
     expect(panel.locator(".answer")).to_be_visible()
-    expect(panel.locator(".verdict")).to_contain_text("otherwise")
+    expect(panel.locator(".verdict")).to_contain_text("differently")
     assert "extent_deg=38.6" in page.evaluate("location.search")
     page.get_by_role("button", name="Close the lessons").click()
     expect(panel).to_be_hidden()

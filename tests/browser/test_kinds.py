@@ -162,7 +162,7 @@ def test_life_follows_the_rating_that_is_typed(watch: tuple[Page, Watch], explor
     page, _ = watch
     open_scene(page, explorer, "nu208", "life")
     life = page.locator(".view-life")
-    expect(life).to_contain_text("enter that of the catalogue")
+    expect(life).to_contain_text("by ISO 281")
     rating = page.get_by_label("Dynamic load rating of the catalogue")
     rating.fill("62")
     rating.press("Enter")

@@ -512,7 +512,7 @@ def _parts(text: str, offset: int, head: _Head, tabs: Tabs) -> tuple[Part, ...]:
 
 def _lower(token: Token) -> None:
     """A heading of a part stands below the lesson's own title."""
-    token.tag = f"h{min(int(token.tag[1]) + 1, 6)}"
+    token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
 
 
 def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:

@@ -832,6 +832,10 @@ def test_nothing_a_stranger_writes_becomes_a_script(hostile: str) -> None:
     judge(GOOD.replace("A title", hostile.replace('"', "'")))
 
 
+def test_headings_of_a_part_stand_below_it() -> None:
+    judge(GOOD.replace("Words", "\n\n# Loud\n\nWords\n\n"))
+
+
 @settings(max_examples=60, deadline=None)
 @given(st.text(st.sampled_from("<>[]()$\\{}_^&;:=\"'#|-*`!a1 \n/+é\0"), max_size=120))
 def test_any_text_is_a_lesson_or_refused(text: str) -> None:

@@ -31,7 +31,7 @@ from bearing_explorer.views.frequency_view import MOST_LINES, Look, curves
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
-from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, status, told
+from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, has_answer, status
 from bearing_explorer.widgets.candidates import rows
 from scipy.io import wavfile
 
@@ -148,19 +148,19 @@ def test_the_scene_is_simulated_at_the_speed_of_the_measurement():
 
 
 @pytest.mark.parametrize(
-    ("speed", "told"),
+    ("speed", "said"),
     [
         (7.0, r"is (2×)?(3×)?BPFO\."),
         (7.12, r"BPFO, 1\.[5-9] % below"),
         (8.7, "none of the bearing's"),
     ],
 )
-def test_the_envelope_says_what_knocks(speed, told):
+def test_the_envelope_says_what_knocks(speed, said):
     measured = Measured(signal().recording, 2.0 * math.pi * speed)
     view = view_of(MeasuredEnvelope, measured)
     sentence = view.sentence(RESULTS)
     assert "where knocks stand out most" in sentence
-    assert re.search(told, sentence), sentence
+    assert re.search(said, sentence), sentence
 
 
 def test_a_band_of_ones_own_is_taken_and_an_impossible_one_told():
@@ -368,8 +368,8 @@ def test_an_answer_at_the_edge_of_the_search_is_a_bound(sized):
     )  # fmt: skip
     line = status(dataclasses.replace(sized, sizing=sizing))
     assert (line["mood"], line["words"]) == ("good", "The defect extends over 1.2° at most")
-    assert told(sizing)
-    assert not told(dataclasses.replace(sizing, bound=""))
+    assert has_answer(sizing)
+    assert not has_answer(dataclasses.replace(sizing, bound=""))
 
 
 def test_the_outer_race_may_be_known_to_be_damaged():

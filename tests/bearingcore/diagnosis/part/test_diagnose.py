@@ -202,7 +202,7 @@ def test_a_speed_the_recording_carries_is_taken(damaged):
     object.__setattr__(recording, "shaft_speed", MOTOR.shaft_speed)
     found = diagnose(recording, MOTOR.bearing, None)
     assert found.fault == "outer race"
-    assert found.speed_source.startswith("told by the recording")
+    assert found.speed_source.startswith("given by the recording")
 
 
 def test_a_speed_told_one_percent_wrong_does_no_harm(damaged):

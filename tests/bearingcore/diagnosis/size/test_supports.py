@@ -14,7 +14,7 @@ from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 def test_other_supports_differ_in_one_thing_and_keep_their_damping_ratio() -> None:
     tried = other_supports(RIG.support)
     assert [words for words, _ in tried] == [
-        "as told", "stiffness × 0.5", "stiffness × 2", "masses × 0.5", "masses × 2",
+        "as given", "stiffness × 0.5", "stiffness × 2", "masses × 0.5", "masses × 2",
     ]  # fmt: skip
     told = RIG.support
     for _, one in tried[1:]:
@@ -55,9 +55,9 @@ def trial(words: str, extent_deg: float, weight: float) -> SupportTrial:
 
 
 def test_the_sentence_says_what_the_supports_say() -> None:
-    alone = dependence((trial("as told", 20.0, 0.999), trial("masses × 2", 60.0, 0.001)))
+    alone = dependence((trial("as given", 20.0, 0.999), trial("masses × 2", 60.0, 0.001)))
     assert "from 20.0° to 60.0°" in alone
-    assert "only one explains the signal (as told): 20.0°" in alone
-    both = dependence((trial("as told", 20.0, 0.6), trial("masses × 2", 22.0, 0.4)))
+    assert "only one explains the signal (as given): 20.0°" in alone
+    both = dependence((trial("as given", 20.0, 0.6), trial("masses × 2", 22.0, 0.4)))
     assert "2 of 2 supports" in both
     assert "from 20.0° to 22.0°" in both

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import open_page, pixels, place, settle, show, source, wait, words
 from tests.browser.helpers import Server, Watch
 
 
+@pytest.mark.proof
 def test_a_measured_step_is_taken_over_and_given_back(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import open_page, settle, show, source, wait
@@ -25,6 +26,7 @@ def test_a_strike_is_seen_and_its_mechanism_said(
     expect(spectrum).to_contain_text(re.compile(r"[Mm]assless: within"), timeout=60_000)
 
 
+@pytest.mark.proof
 def test_balls_get_mass_by_a_choice_and_keep_it_in_the_link(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

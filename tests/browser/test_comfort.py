@@ -178,6 +178,7 @@ def test_a_phone_has_room_for_figures_and_lessons(
 # --- keyboard -------------------------------------------------------------------------------------
 
 
+@pytest.mark.proof
 def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
@@ -319,6 +320,7 @@ DARKEST_CORNER = """() => {
 }"""
 
 
+@pytest.mark.proof
 def test_dark_follows_the_system_until_somebody_chooses(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -372,6 +374,7 @@ IN_SIGHT = """name => {
 }"""
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("size", [(1366, 768), (390, 844)], ids=str)
 def test_a_lesson_is_where_one_left_it(
     watch: tuple[Page, Watch], explorer: Server, size: tuple[int, int]

@@ -48,6 +48,7 @@ def marked(page: Page) -> list[str]:
     return page.locator(".picture .marked").evaluate_all("all => all.map(g => g.dataset.name)")
 
 
+@pytest.mark.proof
 def test_a_dimension_is_dragged_and_everything_follows(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -92,6 +93,7 @@ def test_the_picture_shows_what_is_edited_and_leads_to_it(
     assert marked(page) == ["outer_raceway_radius_mm"]
 
 
+@pytest.mark.proof
 def test_an_impossible_bearing_is_refused_and_the_picture_stays(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -121,6 +123,7 @@ def test_an_impossible_bearing_is_refused_and_the_picture_stays(
     expect(fact(page, "Balls pass the outer race")).to_have_text("40.29 Hz")
 
 
+@pytest.mark.proof
 def test_a_bearing_from_its_drawing(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
@@ -143,6 +146,7 @@ def test_a_bearing_from_its_drawing(watch: tuple[Page, Watch], explorer: Server)
     expect(page.locator(".origin")).to_contain_text("Petersen")
 
 
+@pytest.mark.proof
 def test_an_inner_race_defect_turns_and_the_axes_say_so(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -170,6 +174,7 @@ def test_an_inner_race_defect_turns_and_the_axes_say_so(
     page.wait_for_function(label % "Cage angle φc (°)")
 
 
+@pytest.mark.proof
 def test_several_defects_with_a_rough_floor(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
@@ -213,6 +218,7 @@ def test_several_defects_with_a_rough_floor(watch: tuple[Page, Watch], explorer:
     expect(page.get_by_role("button", name="Remove defect 1")).to_be_disabled()
 
 
+@pytest.mark.proof
 def test_a_floor_from_a_file(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
@@ -245,6 +251,7 @@ def test_a_floor_from_a_file(watch: tuple[Page, Watch], explorer: Server) -> Non
     expect(status(page)).to_contain_text("Converged")
 
 
+@pytest.mark.proof
 def test_support_and_contact_are_edited(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "modes")
@@ -268,6 +275,7 @@ def test_support_and_contact_are_edited(watch: tuple[Page, Watch], explorer: Ser
     assert max(source(page, "modes_bands")["high"]) < max(before)
 
 
+@pytest.mark.proof
 def test_directions_are_forced_and_the_error_shown(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

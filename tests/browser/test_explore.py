@@ -87,6 +87,7 @@ def choose(page: Page, **fields: str) -> None:
         page.locator(f"#job-{name}:visible").select_option(text)
 
 
+@pytest.mark.proof
 def test_a_plane_is_explored(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, watching = watch
     open_page(page, explorer, "explore")

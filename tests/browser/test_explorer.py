@@ -125,6 +125,7 @@ def test_every_view_follows_the_slider(watch: tuple[Page, Watch], explorer: Serv
             assert status.inner_text() != words[view], f"the sentence of {view} did not follow"
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("end", [0.83, 0.31])
 def test_the_last_position_of_the_slider_is_drawn(
     watch: tuple[Page, Watch], explorer: Server, end: float
@@ -145,6 +146,7 @@ def test_the_last_position_of_the_slider_is_drawn(
     assert drawn["now"][15] == expected.loaded_balls[0]
 
 
+@pytest.mark.proof
 def test_what_is_not_on_screen_is_not_sent_and_what_appears_is_up_to_date(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -215,6 +217,7 @@ def test_bad_input_is_refused_with_a_sentence_and_the_picture_stays(
         expect(field).to_have_value("12.9")
 
 
+@pytest.mark.proof
 def test_a_load_nothing_can_carry_is_said_in_words(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -236,6 +239,7 @@ def test_a_load_nothing_can_carry_is_said_in_words(
     )
 
 
+@pytest.mark.proof
 def test_a_preset_brings_its_values_and_ranges(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
@@ -248,6 +252,7 @@ def test_a_preset_brings_its_values_and_ranges(watch: tuple[Page, Watch], explor
     expect(number(page, "extent_deg")).to_have_value("40")
 
 
+@pytest.mark.proof
 def test_the_keyboard_moves_sliders_numbers_and_tabs(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

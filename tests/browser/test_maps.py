@@ -52,6 +52,7 @@ def place(page: Page, map_index: int, across: float, up: float) -> tuple[float, 
     return float(found[0]), float(found[1])
 
 
+@pytest.mark.proof
 def test_every_point_has_the_colour_of_its_value(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -75,6 +76,7 @@ def test_every_point_has_the_colour_of_its_value(
     assert images[31][0][0] == cells["high"][15] - cells["low"][15], "a step for each number"
 
 
+@pytest.mark.proof
 def test_maps_follow_the_depth_and_the_load(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_maps(page, explorer)
@@ -92,6 +94,7 @@ def test_maps_follow_the_depth_and_the_load(watch: tuple[Page, Watch], explorer:
         assert drawn["now"][i] == pytest.approx(float(now.term(term)[0]), rel=1e-4, abs=1e-3)
 
 
+@pytest.mark.proof
 def test_a_click_goes_to_its_extent_and_cage_angle(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -125,6 +128,7 @@ def test_a_click_goes_to_its_extent_and_cage_angle(
     assert watching.frames_sent - sent < 3
 
 
+@pytest.mark.proof
 def test_the_value_under_the_pointer_is_shown(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_maps(page, explorer)
@@ -147,6 +151,7 @@ def test_the_value_under_the_pointer_is_shown(watch: tuple[Page, Watch], explore
         assert unit in text
 
 
+@pytest.mark.proof
 def test_every_change_that_is_waited_for_is_drawn(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

@@ -43,6 +43,7 @@ def bring(page: Page, name: str, content: bytes) -> None:
     )
 
 
+@pytest.mark.proof
 def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     watch: tuple[Page, Watch], explorer: Server, recording: bytes
 ) -> None:

@@ -60,6 +60,7 @@ def test_the_orbit_follows_the_sliders(watch: tuple[Page, Watch], explorer: Serv
     assert min(source(page, "orbit_outside")["x"]) < -1.0
 
 
+@pytest.mark.proof
 def test_a_map_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "orbits")
@@ -95,6 +96,7 @@ def test_a_map_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Se
     assert len(table) == 1 + 13 * 13
 
 
+@pytest.mark.proof
 def test_a_changed_scene_makes_the_map_faint(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "orbits")
@@ -106,6 +108,7 @@ def test_a_changed_scene_makes_the_map_faint(watch: tuple[Page, Watch], explorer
     expect(page.locator(".view-stability-map")).to_contain_text("the scene has changed")
 
 
+@pytest.mark.proof
 def test_progress_moves_and_cancel_works(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "orbits")
@@ -130,6 +133,7 @@ def test_progress_moves_and_cancel_works(watch: tuple[Page, Watch], explorer: Se
     assert grid(page, "stability_cells")[0] >= 13
 
 
+@pytest.mark.proof
 def test_sliders_stay_lively_and_tabs_change_while_it_computes(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

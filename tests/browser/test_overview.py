@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import pytest
 from playwright.sync_api import Locator, Page, ViewportSize, expect
 
 from tests.browser.explorer_page import (
@@ -41,6 +42,7 @@ def sentence(page: Page) -> Locator:
     return page.locator(".view-last-change [role=status]")
 
 
+@pytest.mark.proof
 def test_the_first_visit(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     page.set_viewport_size(LAPTOP)
@@ -236,6 +238,7 @@ def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explore
     assert shown() == whole
 
 
+@pytest.mark.proof
 def test_a_tab_that_takes_a_while_says_so_at_once(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import open_page, rest, settle, show, slider, source, status, wait
@@ -31,6 +32,7 @@ PAUSES = """() => {
 }"""
 
 
+@pytest.mark.proof
 def test_the_hand_moves_rests_overrules_and_gives_back(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

@@ -48,6 +48,7 @@ def with_limits() -> Server:
     return server
 
 
+@pytest.mark.proof
 def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     watch: tuple[Page, Watch],
 ) -> None:

@@ -132,6 +132,7 @@ def test_nothing_overtakes_a_position_that_waits(
     assert value(page, "depth_um") == 50, "a drag is one step"
 
 
+@pytest.mark.proof
 def test_a_link_opens_what_it_stands_for_and_a_bad_one_says_so(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -163,6 +164,7 @@ def test_a_link_opens_what_it_stands_for_and_a_bad_one_says_so(
     connection.close()
 
 
+@pytest.mark.proof
 def test_scenes_are_kept_pinned_and_read_back_with_care(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

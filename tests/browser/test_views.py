@@ -77,6 +77,7 @@ def test_the_bearing_is_round(watch: tuple[Page, Watch], explorer: Server, width
     assert math.isfinite(plot["w"])
 
 
+@pytest.mark.proof
 def test_harmonics_are_marked_on_demand_without_the_server(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

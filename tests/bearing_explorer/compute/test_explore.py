@@ -180,6 +180,7 @@ def test_motions_that_take_too_many_steps_are_not_begun() -> None:
     assert found.reasons[0, 1] == ""
 
 
+@pytest.mark.proof
 def test_the_error_of_a_sizing_and_where_there_can_be_none() -> None:
     asked = question("extent_error", ("extent_deg", "0", "38.6"), ("depth_um", "50", "60"))
     small = Question(

@@ -275,6 +275,7 @@ def entering(law: str) -> Scene:
     )
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("law", ["published", "no tension"])
 def test_two_families_of_methods_agree(law: str) -> None:
     """Steps of RK4 in variables without jumps, and scipy's DOP853 and Radau on the plain law."""

@@ -102,6 +102,7 @@ def told(process: subprocess.Popen[str]) -> tuple[float, int, bool, bool]:
     return float(value), int(hits), before == "True", after == "True"
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("beside", [True, False], ids=["beside the sources", "in a folder apart"])
 def test_an_upgrade_that_changes_only_a_callee_counts(
     package: Path, tmp_path: Path, beside: bool

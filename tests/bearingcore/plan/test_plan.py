@@ -102,6 +102,7 @@ def test_curves_of_200_scenes_stay_within_the_budget(view: str) -> None:
     assert sum(h.plan.met for h in held) >= 0.95 * len(held)
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("view", [VIBRATION, SETTLED])
 def test_motions_stay_within_the_budget(view: str) -> None:
     """A few of those of `python -m tests.benchmarks.plans`, which says what is saved."""

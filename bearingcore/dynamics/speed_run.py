@@ -125,7 +125,7 @@ def speed_run(
     ------
     ValueError
         for speeds that are not above zero, or where `simulate` refuses every speed. One that is
-        refused among others is told in `refusals`.
+        refused among others stands in `refusals`.
     """
     speeds = np.asarray(shaft_speeds, dtype=float).ravel()
     if not 1 <= speeds.size <= 1000:
@@ -144,7 +144,7 @@ def speed_run(
     inner = any(defect.race == "inner" for defect in scene.defects)
     passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
 
-    def told(density: NDArray[np.float64], **more: Any) -> SpeedRun:
+    def run_of(density: NDArray[np.float64], **more: Any) -> SpeedRun:
         return SpeedRun(
             scene=scene,
             dofs=dofs,
@@ -159,7 +159,7 @@ def speed_run(
     lasting = duration / (1.0 - SETTLING)
     steps = _steps_of_marching(scene, speeds, lasting, sample_rate, most_steps)
     if cost := too_many_in_all(steps, f"at {speeds.size} speeds", most_steps_in_all):
-        return told(
+        return run_of(
             np.broadcast_to(np.float64(math.nan), shape),
             from_orbit=np.zeros(speeds.size, dtype=bool),
             bands=modes(scene).bands(),
@@ -192,7 +192,7 @@ def speed_run(
                 nearby = found
                 continue
             may_take = max(min(most_steps, left), 1)
-            motion = simulate(at, duration / (1.0 - SETTLING), sample_rate, most_steps=may_take)
+            motion = simulate(at, lasting, sample_rate, most_steps=may_take)
             left -= motion.right_hand_side_calls // 4
             if motion.status.startswith(TOO_MANY_STEPS):
                 raise ValueError(motion.status)
@@ -204,7 +204,7 @@ def speed_run(
             density[i] = spectrum(late, sample_rate, resolution).density
     if len(refusals) == speeds.size:
         raise ValueError(refusals[0])
-    return told(
+    return run_of(
         density,
         from_orbit=proven,
         bands=modes(scene).bands(),

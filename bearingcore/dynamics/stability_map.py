@@ -199,7 +199,7 @@ def _least_of_all(
         try:
             at = scene.replace(**{x[0]: float(x_value), y[0]: float(y_value)})
             found.append(least_steps(at, ball_passes))
-        except ValueError:  # told where the point is tried
+        except ValueError:  # said where the point is tried
             continue
     return float(np.mean(found)) * x[1].size * y[1].size if found else 0.0
 

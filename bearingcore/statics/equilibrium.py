@@ -42,7 +42,7 @@ TERM_SYMBOLS = {
 ANGLES_A_PERIOD = 121
 
 MOST_CONTACTS = 20_000_000
-"""Contacts, those of all balls at all cage angles, that are solved at most unless told otherwise:
+"""Contacts, those of all balls at all cage angles, that are solved at most unless asked otherwise:
 some seconds of one core and a gigabyte of answers."""
 
 REASONS = {

@@ -33,7 +33,7 @@ from bearingcore.statics.load_capacity import runs_away
 Array = NDArray[np.float64]
 
 GREATEST_EXTENT = math.radians(90.0)
-"""How far maps go unless told otherwise, as the paper's Figs. 5 and 6 do."""
+"""How far maps go unless asked otherwise, as the paper's Figs. 5 and 6 do."""
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,8 @@ if TYPE_CHECKING:
     from bearingcore.plan import Plan
 
 FEW_PERIODS = 30
-"""Periods that are integrated at most to find it meanwhile; most orbits take 5 to 12."""
+"""Periods that are integrated at most to find an orbit while a slider moves; most take 5 to 12."""
+
 COARSE_STEPS = 0.45
 """Part of the usual steps that is taken while a slider moves, where all of them take too long."""
 

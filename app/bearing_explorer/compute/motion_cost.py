@@ -24,12 +24,12 @@ MOST_STEPS_WITH_MASS = 1_600_000
 SHORTEST = 0.1
 """[s] Shorter motions say nothing at the resolution of the spectra."""
 
-
 GLANCE, PASSES_OF_GLANCE, DROP_OF_GLANCE = 0.05, 2.36, 0.3
 """[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
 of it that counts as its start and is not shown. What is shown is as long as one stretch of a
 spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
 ends within six tenths of the next."""
+
 GENERAL_COST = 4.0
 """What a contact costs where it is not that of a flat bearing, over what it costs there."""
 MASS_COST = 2.5

@@ -51,6 +51,7 @@ Answer = TypeVar("Answer")
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
+
 LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
 

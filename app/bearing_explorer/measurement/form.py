@@ -82,16 +82,16 @@ def reasons(table: Table) -> dict[str, str]:
     """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
-    reasons = dict.fromkeys(choice.columns, choice.reason)
-    reasons["unit"] = _because(contents.unit)
+    found = dict.fromkeys(choice.columns, choice.reason)
+    found["unit"] = _because(contents.unit)
     if not table.full_scale_known:
-        reasons["full_scale"] = "Full scale of the recorder, in the unit."
-    reasons["sensitivity"] = "A guess: the usual sensor. It stands on its label."
-    reasons["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
-    reasons["shaft_speed"] = (
+        found["full_scale"] = "Full scale of the recorder, in the unit."
+    found["sensitivity"] = "A guess: the usual sensor. It stands on its label."
+    found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
+    found["shaft_speed"] = (
         "The file does not say it; this is the scene's." if speed is None else _because(speed)
     )
-    return {name: words[:1].upper() + words[1:] for name, words in reasons.items()}
+    return {name: words[:1].upper() + words[1:] for name, words in found.items()}
 
 
 def _because(finding: Finding[Any]) -> str:

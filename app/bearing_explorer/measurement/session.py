@@ -253,7 +253,7 @@ class Measurement:
         if "y" in left and texts.get("x"):
             left.remove("y")
         known = sure or texts.get("shaft_speed") != first.get("shaft_speed")
-        known = known or _speed_is_told(table)
+        known = known or _speed_is_stated(table)
         self._latest += 1
         self._in_background(
             lambda: _tried(table, texts, known),
@@ -383,7 +383,7 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
         raise ValueError(f"{name} is too large for this server.") from None
     table, cut = _shortened(table)
     form, asks = guess(table, shaft_speed_hz), questions(table)
-    found = _tried(table, form, _speed_is_told(table))
+    found = _tried(table, form, _speed_is_stated(table))
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
@@ -391,7 +391,7 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
     return _Read(table, form, cut, None if asks else found, {}, asks)
 
 
-def _speed_is_told(table: Table) -> bool:
+def _speed_is_stated(table: Table) -> bool:
     """Whether the file itself says how fast the shaft turned."""
     speed = table.contents.shaft_speed
     return speed is not None and speed.stated

@@ -80,10 +80,10 @@ SPREAD_FLOOR = math.radians(0.02)
 
 WIDEST = 0.1
 """Of a ball spacing: where extents that are nearly as good lie further apart than this (their
-standard deviation at `TEMPERATURE`), none is told."""
+standard deviation at `TEMPERATURE`), no size is given."""
 
 CLEAR = 0.9
-"""Probability from which a candidate counts as told."""
+"""Probability from which a candidate counts as found."""
 
 MUCH_UNEXPLAINED = 0.2
 """Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
@@ -92,7 +92,7 @@ PIT = math.radians(2.0)
 """[rad] Extents up to which a defect counts as a pit."""
 
 PIT_UNEXPLAINED = 0.45
-"""The same for pits, of which only a bound or a small extent is told."""
+"""The same for pits, of which only a bound or a small extent is given."""
 
 MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
 """Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
@@ -188,7 +188,7 @@ class Sizing:
     status
         a sentence: how sure the answer is, or why there is none.
     conclusive
-        whether one candidate is told from all the others, and its extent is not a bound.
+        whether one candidate stands out from all the others, and its extent is not a bound.
     bound
         "at most" or "at least" where the best extent stands at an end of the search; else "".
     diagnosis
@@ -268,10 +268,14 @@ class Sizing:
     @property
     def bound_extent(self) -> float:
         """[rad] where the bound lies; NaN where there is none."""
+        return self.end(self.bound) if self.bound else math.nan
+
+    def end(self, bound: str) -> float:
+        """How long [rad] the defect is at most, or at least, by `bound`."""
         room = 2.0 * self.extent_uncertainty
-        if self.bound == AT_MOST:
+        if bound == AT_MOST:
             return max(self.best.extent + room, self.resolved)
-        return self.best.extent - room if self.bound else math.nan
+        return self.best.extent - room
 
     @property
     def best(self) -> Candidate:
@@ -643,11 +647,11 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
             "nearly the same."
         )  # fmt: skip
     if best.extent < max(sized.resolved, LEAST_EXTENT + 2.0 * spread):
-        most = math.degrees(dataclasses.replace(sized, bound=AT_MOST).bound_extent)
+        most = math.degrees(sized.end(AT_MOST))
         words = f"The defect extends over {most:.1f}° at most: shorter ones are not told apart."
         return False, AT_MOST, words
     if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
-        least = math.degrees(dataclasses.replace(sized, bound=AT_LEAST).bound_extent)
+        least = math.degrees(sized.end(AT_LEAST))
         return False, AT_LEAST, f"The defect extends over {least:.1f}° at least."
     return (
         True,

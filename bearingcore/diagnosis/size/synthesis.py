@@ -241,14 +241,3 @@ def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:
     """Root mean square of the difference of two passes, as a share of the first one's."""
     size = float((np.abs(one) ** 2).sum())
     return math.sqrt(float((np.abs(one - other) ** 2).sum()) / max(size, 1e-300))
-
-
-def synthesise(scene: Scene, frequency: float, count: int, columns: Sequence[int]) -> BallPasses:
-    """Simulated ball passes of a scene whose balls pass `frequency` [Hz] times a second.
-
-    `count` harmonics, along `columns`, indices into the scene's active directions. Coefficients
-    are NaN where the motion diverged or had no static state to start from.
-    """
-    (defect,) = scene.defects
-    simulator = Simulator(scene, frequency, count, columns)
-    return simulator.passes(defect.extent, defect.edge, np.zeros(5))[0]

@@ -12,9 +12,9 @@ from bearingcore.diagnosis.simulated import pit, simulated_recording
 from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
 from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
-from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band, synthesise
+from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band
 from bearingcore.diagnosis.size.variants import Tolerances, variant
-from bearingcore.signals.averaging import average_passes
+from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.files.read import read_table
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing_proof import SCORED, size_all
@@ -271,18 +271,31 @@ def test_any_rate_allows_what_it_allows(rate):
     assert len(found.harmonics) == math.floor(0.4 * rate / found.frequency)
 
 
+def marched(scene, frequency, count, columns) -> BallPasses:
+    """Ball passes by `simulate`, of a long motion with fine steps."""
+    n, settle, passes = 600, 90, 30
+    nominal = scene.bearing.bpfo(scene.shaft_speed)
+    scene = scene.replace(shaft_speed=scene.shaft_speed * frequency / nominal)
+    rate = n * frequency
+    motion = simulate(scene, (settle + passes) / frequency, rate, step_rate=rate)
+    signal = motion.outer_acceleration[settle * n :, list(columns)]
+    each = coefficients(signal.reshape(passes, n, len(columns)), count)
+    power = (np.abs(each) ** 2).mean(axis=0)
+    return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
+
+
 def test_a_synthesised_pass_matches_itself_turned():
     scene = RIG
     band = comparison_band(scene, RATE)
     frequency = scene.bearing.bpfo(scene.shaft_speed)
-    passes = synthesise(scene, frequency, 61, (0, 1))
+    passes = marched(scene, frequency, 61, (0, 1))
     target = Target(passes, band)
     turn = np.exp(-1j * 1.234 * np.arange(1, 62))[:, None]
     match = target.match((passes.harmonics * turn)[None], passes.power[None])
     assert match.lag[0] == pytest.approx(1.234, abs=1e-3)
     assert match.waveform_misfit.max() < 1e-4
     assert match.spectrum_misfit.max() < 1e-4
-    other = synthesise(scene.replace(extent=math.radians(38.6)), frequency, 61, (0, 1))
+    other = marched(scene.replace(extent=math.radians(38.6)), frequency, 61, (0, 1))
     assert target.match(other.harmonics[None], other.power[None]).waveform_misfit.min() > 0.3
 
 
@@ -352,7 +365,7 @@ def test_a_simulator_varies_structs_as_scenes_are_varied():
         extent = math.radians(31.0)
         passes, _ = simulator.passes(extent, edge, offsets)
         scene = variant(RIG, extent, edge, offsets)
-        assert apart(synthesise(scene, frequency, 40, (0, 1)).harmonics, passes.harmonics) < 2e-3
+        assert apart(marched(scene, frequency, 40, (0, 1)).harmonics, passes.harmonics) < 2e-3
 
 
 def test_a_motion_that_goes_on_from_its_neighbour_s_ends_in_the_same_pass():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +19,6 @@ from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-    from bearingcore import Modes
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
@@ -48,7 +48,7 @@ class NaturalFrequencies(View):
         " direction that moves most. Shaded: the band in which it moves. Grey: {grey}. "
         "Black: now."
     )
-    needs = frozenset({"modes", "healthy_modes"})
+    needs = frozenset({"modes", "healthy_modes", "bands", "healthy_bands"})
     plans = ("modes",)
 
     def build(self, packed: PackedSource) -> Any:
@@ -110,9 +110,9 @@ class NaturalFrequencies(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes, healthy = results.modes, results.healthy_modes
-        shown = self._range.fit(modes.frequency, healthy.frequency)
+        bands = band_rows(results.bands)
+        shown = self._range.fit(modes.frequency, healthy.frequency, bands["low"], bands["high"])
         angle = results.along(modes.cage_angles)
-        bands = band_rows(modes)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
         middle = 0.5 * (bands["low"] + bands["high"])
         bands["end"] = np.full(middle.size, angle[-1])
@@ -132,7 +132,7 @@ class NaturalFrequencies(View):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, healthy = results.modes.bands(), results.healthy_modes.bands()
+        bands, healthy = results.bands, results.healthy_bands
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             return "There is no static state to take natural frequencies from."
@@ -165,11 +165,11 @@ def _from_to(band: tuple[float, float]) -> str:
     return f"from {words}" if " to " in words else f"at {words}"
 
 
-def band_rows(modes: Modes) -> dict[str, np.ndarray]:
+def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:
     """Bands as columns: low and high [Hz], index of the direction, number of the mode."""
     rows = [
         (low, high, style.DIRECTIONS.index(label[:-1]), int(label[-1]))
-        for label, (low, high) in modes.bands().items()
+        for label, (low, high) in bands.items()
         if np.isfinite(low)
     ]
     low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T

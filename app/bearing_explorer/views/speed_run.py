@@ -40,7 +40,7 @@ from bearing_explorer.state.value_range import (
 )
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.modes import BAND_WORDS, spread
+from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
 
@@ -400,17 +400,9 @@ def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> t
 
 def band_columns(run: SpeedRun, dof: str, top: float) -> dict[str, np.ndarray]:
     """Bands of the modes of one direction as columns, with the places of their labels."""
-    rows = [
-        (low, high, style.DIRECTIONS.index(dof), int(label[-1]))
-        for label, (low, high) in run.bands.items()
-        if label[:-1] == dof and np.isfinite(low)
-    ]
-    low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T
-    middle = 0.5 * (low + high)
-    places = spread(middle, LABEL_WIDTH * top, 0.0, top)
-    return {
-        "low": low, "high": high, "direction": direction, "number": number, "label_at": places,
-    }  # fmt: skip
+    bands = band_rows({label: ends for label, ends in run.bands.items() if label[:-1] == dof})
+    middle = 0.5 * (bands["low"] + bands["high"])
+    return {**bands, "label_at": spread(middle, LABEL_WIDTH * top, 0.0, top)}
 
 
 def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:

@@ -12,11 +12,11 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, FREQUENCY, band_rows, direction_mapper
 from bearing_explorer.views.vibration_spectrum import HIGHEST
+from bearingcore.dynamics.modes import bands_table
 from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-    from bearingcore import Modes
 
 _LABEL_FROM = 0.8  # of the width: further right a label would be cut off
 
@@ -31,7 +31,7 @@ class OverviewBands(View):
         "{grey}. Black: where it is at this cage angle. The axis is that of the "
         "spectrum below."
     )
-    needs = frozenset({"band_modes", "healthy_modes"})
+    needs = frozenset({"band_modes", "bands", "healthy_bands"})
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "modes"
@@ -78,8 +78,7 @@ class OverviewBands(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        modes = results.band_modes
-        bands, usual = band_rows(modes), band_rows(results.healthy_modes)
+        bands, usual = band_rows(results.bands), band_rows(results.healthy_bands)
         top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         order = np.argsort(bands["low"], kind="stable")
         bands = {name: column[order] for name, column in bands.items()}
@@ -95,7 +94,7 @@ class OverviewBands(View):
             "overview_bands": {
                 **bands,
                 "row": -np.arange(float(order.size)),
-                "now": _now(modes, results)[order],
+                "now": _now(results)[order],
                 # beside the band where there is room: right of it, else left
                 "right": np.where(near_edge, np.nan, bands["high"]),
                 "left": np.where(near_edge, bands["low"], np.nan),
@@ -111,9 +110,7 @@ class OverviewBands(View):
         }
 
     def sentence(self, results: Results) -> str:
-        bands = {
-            label: band for label, band in results.band_modes.bands().items() if band[0] == band[0]
-        }
+        bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
         words = [
             f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
             for label, (low, high) in bands.items()
@@ -123,24 +120,25 @@ class OverviewBands(View):
         return f"The natural frequencies move within: {style.list_words(words)}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        return results.band_modes.bands_table().named()
+        return bands_table(results.bands).named()
 
 
 def highest_band(results: Results) -> float:
     """Up to where [Hz] the cards of the overview reach, for the bands that they share."""
-    ends = [band_rows(modes)["high"] for modes in (results.band_modes, results.healthy_modes)]
+    ends = [band_rows(bands)["high"] for bands in (results.bands, results.healthy_bands)]
     return float(1.05 * np.max(np.concatenate(ends), initial=0.0))
 
 
-def _now(modes: Modes, results: Results) -> np.ndarray:
+def _now(results: Results) -> np.ndarray:
     """Frequency [Hz] of each mode that `band_rows` lists at the cage angle shown."""
+    modes = results.band_modes
     angles = modes.cage_angles
     first, last, _ = results.stretch
     at = first + (results.cage_angle - first) % (last - first)
     return np.array(
         [
-            np.interp(at, angles, modes.frequency[:, i])
-            for i, label in enumerate(modes.label)
-            if np.isfinite(modes.bands()[label][0])
+            np.interp(at, angles, modes.frequency[:, modes.label.index(label)])
+            for label, (low, _) in results.bands.items()
+            if np.isfinite(low)
         ]
     )

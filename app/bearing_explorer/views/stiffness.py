@@ -20,6 +20,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.compute.chain import over_turn
 from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.cell_axes import axes_when_zoomed
 from bearing_explorer.figures.element_words import elements
 from bearing_explorer.figures.matrix_cells import (
     PLACES,
@@ -111,6 +112,8 @@ class Stiffness(View):
         plot.line("x", "y", source=healthy, line_color=HEALTHY, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
+        names = [*SYMBOLS, "Loaded balls"]
+        axes_when_zoomed(plot, _FRAMES, names, _SCALE_OF, [cells, axis], units=[*UNITS, ""])
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
         return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
 
@@ -221,6 +224,16 @@ class Stiffness(View):
         return columns
 
 
+_SCALE_OF = """
+const [{data: rows}, {data: axis}] = sources
+const unit = units[rows.unit[k]], [low, high] = [rows.low[k], rows.high[k]]
+const e = unit ? power(Math.max(Math.abs(low), Math.abs(high))) : 0
+const words = axis.shaft[0] ? 'Shaft angle φs' : 'Cage angle φc'
+return {
+  x: {first: 0, last: Math.max(...rows.foot), factor: 1, unit: '°', words},
+  y: {first: low, last: high, factor: 10**e, unit: unit ? names[e] + unit : '', words: ''},
+}
+"""
 _GAP = np.array([np.nan])
 _AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, LinearColorMapper
+from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -62,9 +62,7 @@ class NaturalFrequencies(View):
             height=HEIGHT,
             right=128,
         )
-        bands = packed.source(
-            "modes_bands", "low", "high", "direction", "number", "end", "label_at"
-        )
+        bands = packed.source("modes_bands", "low", "high", "direction", "number", "label_at")
         colors = direction_mapper()
         plot.hstrip(
             "low",
@@ -95,9 +93,12 @@ class NaturalFrequencies(View):
         return plot
 
     def _label(self, plot: figure, bands: ColumnDataSource, colors: LinearColorMapper) -> None:
+        # at the right edge also of who has zoomed in
+        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
-            "end",
+            1.0,
             "label_at",
+            x_range_name="shares",
             text=style.words_of(bands, BAND_WORDS),
             source=bands,
             level="annotation",  # beside the frame, not cut off by it
@@ -115,7 +116,6 @@ class NaturalFrequencies(View):
         angle = results.along(modes.cage_angles)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
         middle = 0.5 * (bands["low"] + bands["high"])
-        bands["end"] = np.full(middle.size, angle[-1])
         bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
         sources: Sources = {
             "modes_bands": bands,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
 
 _LABEL_FROM = 0.8  # of the width: further right a label would be cut off
+_LABEL_WIDTH = 0.26  # of the width, of a narrow card
+_MOST_ROWS = 5
+"""Modes that have a row each; of more those of a direction share one, or nobody could read them."""
 
 
 class OverviewBands(View):
@@ -82,22 +86,23 @@ class OverviewBands(View):
         top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         order = np.argsort(bands["low"], kind="stable")
         bands = {name: column[order] for name, column in bands.items()}
-        rows = {
-            key: -float(i)
-            for i, key in enumerate(zip(bands["direction"], bands["number"], strict=True))
-        }
+        keys = list(zip(bands["direction"], bands["number"], strict=True))
+        each = keys if len(keys) <= _MOST_ROWS else [(direction, 0) for direction, _ in keys]
+        places = {key: -float(i) for i, key in enumerate(dict.fromkeys(each))}
+        rows = {key: places[own] for key, own in zip(keys, each, strict=True)}
         row = [
             rows.get(key, np.nan) for key in zip(usual["direction"], usual["number"], strict=True)
         ]
-        near_edge = bands["high"] > _LABEL_FROM * top
+        own_row = np.array([rows[key] for key in keys])
+        left = _left_of(bands, own_row, top)
         return {
             "overview_bands": {
                 **bands,
-                "row": -np.arange(float(order.size)),
+                "row": own_row,
                 "now": _now(results)[order],
                 # beside the band where there is room: right of it, else left
-                "right": np.where(near_edge, np.nan, bands["high"]),
-                "left": np.where(near_edge, bands["low"], np.nan),
+                "right": np.where(left, np.nan, bands["high"]),
+                "left": np.where(left, bands["low"], np.nan),
             },
             "overview_healthy_bands": {
                 "low": usual["low"],
@@ -106,7 +111,7 @@ class OverviewBands(View):
             },
         }, {
             "overview_band_frequency": (0.0, top),
-            "overview_band_rows": (0.4 - max(order.size, 1), 0.6),
+            "overview_band_rows": (0.4 - max(len(places), 1), 0.6),
         }
 
     def sentence(self, results: Results) -> str:
@@ -121,6 +126,17 @@ class OverviewBands(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return bands_table(results.bands).named()
+
+
+def _left_of(bands: dict[str, np.ndarray], row: np.ndarray, top: float) -> NDArray[np.bool_]:
+    """Which bands have their names on the left: near the edge, or before another of their row."""
+    left = bands["high"] > _LABEL_FROM * top
+    for i in range(row.size):
+        follows = (row == row[i]) & (bands["low"] > bands["low"][i])
+        room = np.min(bands["low"][follows], initial=np.inf) - bands["high"][i]
+        names = _LABEL_WIDTH * (1.0 + np.any(left & follows)) * top
+        left[i] |= room < names and bands["low"][i] > _LABEL_WIDTH * top
+    return np.asarray(left, dtype=np.bool_)
 
 
 def highest_band(results: Results) -> float:

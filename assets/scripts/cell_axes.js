@@ -2,8 +2,8 @@
 // See app/bearing_explorer/figures/cell_axes.py. `scale_of` is put in front of this file.
 const MOST_TICKS = {x: 8, y: 6}
 const {x_range, y_range} = plot
-const zoomed = [x_range, y_range].some(({start, end, reset_start, reset_end}) =>
-  Math.abs(start - reset_start) + Math.abs(end - reset_end) > 1e-6*Math.abs(reset_end - reset_start))
+const zoomed = [x_range, y_range].some(({start, end}, i) =>
+  Math.abs(start - home[i][0]) + Math.abs(end - home[i][1]) > 1e-6*(home[i][1] - home[i][0]))
 const seen = cells.map(([left, right, bottom, top], k) => ({k, left, right, bottom, top}))
   .filter(({left, right, bottom, top}) =>
     right > x_range.start && left < x_range.end && top > y_range.start && bottom < y_range.end)

@@ -56,6 +56,7 @@ def axes_when_zoomed(
             "cells": [[cell.left, cell.right, cell.bottom, cell.top] for cell in cells],
             "cell_names": list(names),
             "sources": list(sources),
+            "home": [[shown.start, shown.end] for shown in (plot.x_range, plot.y_range)],
             **known,
         },
         code=f"{style.JS_PREFIX}const scale_of = (k) => {{{scale_of}}}\n"

@@ -301,6 +301,22 @@ return texts
     )
 
 
+NARROW = 420
+"""[px] width of a frame below which there is room for short words only."""
+_IS_NARROW = f"""
+let narrow = false
+try {{ narrow = plot.inner_width > 0 && plot.inner_width < {NARROW} }} catch {{}}  // not laid out
+"""
+
+
+def fitting_words(plot: figure, source: ColumnDataSource, code: str) -> CustomJSExpr:
+    """Like `words_of`; the code knows too whether the frame of the plot is `narrow`."""
+    # how wide it is is known later than its numbers, and changes
+    write = CustomJS(args={"source": source}, code="source.change.emit()")
+    plot.js_on_change("inner_width", write)
+    return words_of(source, _IS_NARROW + code, plot=plot)
+
+
 def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:
     """The upright line at the current cage angle; the same look in every figure."""
     return plot.vspan(x=column, source=source, line_color=INK, line_width=1.2, line_alpha=0.75)

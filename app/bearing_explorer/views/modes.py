@@ -24,11 +24,16 @@ FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
 LABEL_PIXELS = 16.0  # height that a label needs
 
-BAND_WORDS = """
+_BAND_NAME = """
 const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
+"""
+_BAND_SPAN = """
 const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
+BAND_WORDS = _BAND_NAME + _BAND_SPAN
+SHORT_BAND_WORDS = f"{_BAND_NAME}\nif (narrow) return name\n{_BAND_SPAN}"
+"""The same for `style.fitting_words`."""
 
 
 def direction_mapper() -> LinearColorMapper:

@@ -40,7 +40,7 @@ from bearing_explorer.state.value_range import (
 )
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
+from bearing_explorer.views.modes import SHORT_BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
 
@@ -59,7 +59,8 @@ HEIGHT = 520
 
 _SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABLE[SPEED])}
 _SAY = "return isNaN(cell[0]) ? 'not computed' : `${cell[0].toFixed(1).replace('-', '\\u2212')} dB`"
-_HARMONIC_WORDS = "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
+_HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
+_HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
 _SWITCH = """
 const shown = cb_obj.active
 parts.forEach((own, which) => { for (const part of own) part.visible = which == shown })
@@ -190,7 +191,8 @@ class SpeedRunSpectra(JobView[Found]):
             line_alpha=0.9, line_width=1.0,
         )  # fmt: skip
         names = plot.text(
-            "label_at", 0.965, y_range_name="rows", text=style.words_of(bands, BAND_WORDS),
+            "label_at", 0.965, y_range_name="rows",
+            text=style.fitting_words(plot, bands, SHORT_BAND_WORDS),
             source=bands, text_align="center", text_baseline="middle",
             text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
             text_color=style.LIGHT, background_fill_color=style.SHADE,
@@ -206,7 +208,7 @@ class SpeedRunSpectra(JobView[Found]):
             line_width=1.0, line_dash=[5, 4],
         )  # fmt: skip
         names = plot.text(
-            "frequency", "speed", text=style.words_of(self._names, _HARMONIC_WORDS),
+            "frequency", "speed", text=style.fitting_words(plot, self._names, _HARMONIC_WORDS),
             source=self._names, text_align="center", text_baseline="top", y_offset=36,
             text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
             text_color=style.LIGHT, background_fill_color=style.SHADE,

@@ -52,7 +52,8 @@ export function render({ model }) {
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)
     // where there is little room, the first of it: how many are crossed, or kept
     const [first, ...others] = model.summary.split(", ")
-    more.replaceChildren(first, element("span", { class: "rest" }, others.length ? `, ${others.join(", ")}` : ""),
+    const [count, word, ...how] = first.split(" ")
+    more.replaceChildren(`${count} `, element("span", { class: "word" }, `${word} `), how.join(" "), element("span", { class: "rest" }, others.length ? `, ${others.join(", ")}` : ""),
       element("span", { class: "help", "aria-hidden": "true" }, "?"))
     more.setAttribute("aria-label", model.summary)
     more.title = list.hidden ? "Show all limits of the model" : "Hide the limits"

@@ -65,7 +65,7 @@ class NaturalFrequencies(View):
             self._angle_range,
             packed.range("modes_frequency", 0.0, 2000.0),
             height=HEIGHT,
-            right=128,
+            right=148,
         )
         bands = packed.source("modes_bands", "low", "high", "direction", "number", "label_at")
         colors = direction_mapper()

@@ -52,7 +52,7 @@ def test_it_begins_once_and_only_where_something_is_missing(
     compiling.begin()
     compiling.begin()
     assert len(fresh) == 1
-    assert "compile_all" in fresh[0][-1]
+    assert "compile_behind" in fresh[0][-1]
 
 
 def test_motions_are_not_planned_until_it_is_done(

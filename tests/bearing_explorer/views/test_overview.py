@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import re
 
@@ -193,5 +194,5 @@ def test_names_of_bands_stand_clear_of_each_other(name: str) -> None:
             )
         ]
         ends.sort()
-        assert all(a[1] < b[0] for a, b in zip(ends, ends[1:], strict=False)), ends
+        assert all(a[1] < b[0] for a, b in itertools.pairwise(ends)), ends
         assert ends[-1][1] < 1.03 * top

@@ -14,7 +14,7 @@ from typing import Any
 
 ARENAS = 2
 """Heaps of a process, whatever its threads: they seldom ask at the same time."""
-LARGE = 8 * 2**20
+LARGE = 4 * 2**20
 """[bytes] from which an array has pages of its own, which go back as soon as it is gone."""
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD, _M_ARENA_MAX = -1, -3, -8  # as malloc.h has them

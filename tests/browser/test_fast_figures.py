@@ -3,11 +3,18 @@
 import pytest
 from playwright.sync_api import BrowserContext, Page
 
-from tests.browser.explorer_page import open_page, painted, pixels, rest, settle, slider
+from tests.browser.explorer_page import open_page, painted, rest, settle, slider
 from tests.browser.helpers import Server, Watch, move
 
 _LINES = """() => [...Bokeh.index.query((view) => view.model.type === "GlyphRenderer")]
   .filter((view) => view.model.glyph.type === "Line" && view.model.data_source.length > 2)"""
+
+# Bokeh does not clear half a pixel along two edges: what is there depends on how often it painted.
+_INSIDE = """canvases => canvases.map((canvas) => {
+  const {width, height} = canvas
+  const inside = canvas.getContext("2d").getImageData(4, 4, width - 8, height - 8).data
+  return [width, height, inside.reduce((sum, value) => (31 * sum + value) % 1e9, 0)]
+})"""
 
 
 @pytest.mark.parametrize("tab", ["overview", "load"])
@@ -18,14 +25,15 @@ def test_every_pixel_is_as_bokeh_paints_it(
     plain = browser.new_page()
     plain.add_init_script("window.fast_figures = {without: ['all']}")
     views = {"overview": ["overview-bearing", "overview-stiffness"], "load": ["load-distribution"]}
-    shown = []
+    shown: list[list[list[list[int]]]] = []
     for page in (fast, plain):
         open_page(page, explorer, tab)
         for degrees in (14, 31):
             move(slider(page, "extent_deg"), degrees)
             settle(page)
         rest(page)
-        shown.append([pixels(page, view) for view in views[tab]])
+        canvases = [page.locator(f".view-{view} canvas") for view in views[tab]]
+        shown.append([found.evaluate_all(_INSIDE) for found in canvases])
     assert fast.evaluate("window.fast_figures.missing") == []
     plain.close()
     assert shown[0] == shown[1]
@@ -47,7 +55,7 @@ def test_hidden_glyphs_wait_until_they_are_to_be_seen(
                 if (Object.hasOwn(proto, "map_data") && !proto.map_data.counts) {{
                   const map_data = proto.map_data
                   proto.map_data = function () {{
-                    window.heard += this.base != null
+                    window.heard += this.base != null && this.parent.hover_glyph !== this
                     map_data.call(this)
                   }}
                   proto.map_data.counts = true

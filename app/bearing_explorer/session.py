@@ -593,6 +593,7 @@ class Explorer:
             if other != name:
                 for view in self._views[other]:
                     view.put_away()
+        self.packed.introduce()
         self.tabs.active = self._on_screen = name
 
     # Drawing: off the event loop to compute, on it to assign.

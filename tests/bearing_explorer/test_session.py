@@ -4,9 +4,11 @@ import asyncio
 import math
 import threading
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 
 from bearingcore import presets
@@ -66,6 +68,25 @@ def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     shown = session(lambda e: e._tab_asked({"show": "two"}))
     assert drawn(shown, "two") == [pytest.approx(50e-6)], "a view that appears is up to date"
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
+
+
+def test_sources_are_introduced_with_their_figures(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bokeh counts all models of the document for each message with new ones."""
+    found: list[bool] = []
+    send = PackedSource.send
+
+    def looked_at(self: PackedSource, *given: Any) -> int:
+        given_before = self._unpack.args
+        size = send(self, *given)
+        found.append(self._unpack.args is given_before)
+        return size
+
+    monkeypatch.setattr(PackedSource, "send", looked_at)
+    session(lambda e: e._tab_asked({"show": "two"}))
+    assert len(found) > 1
+    assert all(found)
 
 
 def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> None:

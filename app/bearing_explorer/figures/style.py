@@ -164,6 +164,7 @@ def house_figure(
         background_fill_color=PAPER,
         border_fill_color=PAPER,
         outline_line_color=None,
+        lod_threshold=None,  # or Bokeh holds lines of thousands of points once more, with fewer
         **{"min_width": 280, **options},
     )
     plot.toolbar.logo = None

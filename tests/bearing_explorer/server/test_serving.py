@@ -201,7 +201,7 @@ def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptu
         assert unpack.code == code
         assert len(document.models) == count
         assert not other.closed
-        assert not any("77" in str(words) for words in other.words.values())
+        assert not any("77°" in str(words) for words in other.words.values())
         assert other.drawn == 0
 
     with caplog.at_level(logging.WARNING):

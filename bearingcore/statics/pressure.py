@@ -47,15 +47,25 @@ class HeaviestBall:
 
 def heaviest_ball(state: Equilibrium) -> HeaviestBall:
     """The heaviest loaded ball of all cage angles whose loads are known."""
-    loads = np.where(np.isfinite(state.ball_load), state.ball_load, -math.inf)
+    return max(heaviest_balls(state), key=lambda ball: ball.load)
+
+
+def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
+    """The heaviest loaded ball of each row that is unlike the others; one where all are alike."""
+    return tuple(_heaviest(state, balls) for _, balls in state.scene.bearing.unlike_rows)
+
+
+def _heaviest(state: Equilibrium, balls: slice) -> HeaviestBall:
+    loads = np.where(np.isfinite(state.ball_load), state.ball_load, -math.inf)[:, balls]
     if not loads.size or np.isneginf(loads).all():
         return HeaviestBall(math.nan, math.nan, math.nan)
     i, j = np.unravel_index(int(np.argmax(loads)), loads.shape)
+    ball = balls.start + int(j)
     return HeaviestBall(
         float(loads[i, j]),
         float(state.cage_angles[i]),
-        float(state.ball_angle[i, j]),
-        int(j) // state.scene.bearing.n_balls,
+        float(state.ball_angle[i, ball]),
+        state.scene.bearing.row_of_ball(ball)[0],
     )
 
 

@@ -13,7 +13,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import elements
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.choice_list import KIND, NUMBERS, kind_of
-from bearing_explorer.state.quantities import in_unit
+from bearing_explorer.state.quantities import in_unit, of_rows
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
@@ -38,6 +38,13 @@ class BearingRows(Rows):
     ]
 
 
+def _balls_of(bearing: Bearing) -> str:
+    """Balls of a row in words."""
+    ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
+    names = elements(bearing, bearing.n_balls)
+    return f"{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm"
+
+
 class BearingEditor(ControlView):
     """The bearing that the sliders load, dimension by dimension."""
 
@@ -59,12 +66,12 @@ class BearingEditor(ControlView):
 
     def sentence(self, results: Results) -> str:
         bearing = results.scene.bearing
-        ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
-        angles = [bearing.of_row(k).contact_angle for k in range(len(bearing.all_rows))]
-        angle = "° and ".join(f"{math.degrees(one):.4g}" for one in dict.fromkeys(angles))
+        own = [one for one, _ in bearing.unlike_rows]
+        angles = dict.fromkeys(one.contact_angle for one in own)
+        angle = "° and ".join(f"{math.degrees(one):.4g}" for one in angles)
         rows = "two rows of " if bearing.rows else ""
-        names = elements(bearing, bearing.n_balls)
-        words = f"{rows}{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
+        kinds = dict.fromkeys(_balls_of(one) for one in own)
+        words = f"{rows}{' and of '.join(kinds)}, "
         if bearing.roller_length is not None:
             words += f"{1e3 * bearing.roller_length:.4g} mm long."
         else:
@@ -84,7 +91,7 @@ class BearingEditor(ControlView):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         bearing = results.scene.bearing
         rows = [q for q in QUANTITY_LIST if q.group in BEARING_GROUPS]
-        values = [in_unit(q, getattr(bearing, q.last_name)) for q in rows]
+        values = [in_unit(q, of_rows(bearing, q.last_name)) for q in rows]
         facts = facts_of(results.scene)
         return {
             "quantity": np.array([q.label for q in rows] + [fact["label"] for fact in facts]),
@@ -96,10 +103,17 @@ class BearingEditor(ControlView):
         }
 
 
+_OF_EACH_ROW = (
+    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle"),
+    *("outer_raceway_radius", "inner_raceway_radius"),
+)
+"""What the picture needs of each row."""
+
+
 def shape_of(bearing: Bearing) -> dict[str, Any]:
     """What the picture is drawn from: the fields of the bearing, in SI, and which kind it is."""
     shape = {
-        q.last_name: getattr(bearing, q.last_name)
+        q.last_name: of_rows(bearing, q.last_name)
         for q in QUANTITY_LIST
         if q.group in BEARING_GROUPS
     }
@@ -111,7 +125,7 @@ def shape_of(bearing: Bearing) -> dict[str, Any]:
             {
                 "place": row.place,
                 "facing": row.facing,
-                "contact_angle": bearing.of_row(k).contact_angle,
+                **{name: getattr(bearing.of_row(k), name) for name in _OF_EACH_ROW},
             }
             for k, row in enumerate(bearing.all_rows)
         ],
@@ -123,10 +137,9 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
     bearing, speed = scene.bearing, scene.shaft_speed
 
     def hertz(name: str) -> str:
-        """A frequency; of rows with contact angles of their own one after the other."""
-        rows = range(len(bearing.all_rows))
-        of_rows = [float(getattr(bearing.of_row(k), name)(speed)) for k in rows]
-        return " and ".join(f"{style.number(one, 4)} Hz" for one in dict.fromkeys(of_rows))
+        """A frequency; of rows that are not alike one after the other."""
+        each = [float(getattr(own, name)(speed)) for own, _ in bearing.unlike_rows]
+        return " and ".join(f"{style.number(one, 4)} Hz" for one in dict.fromkeys(each))
 
     facts = [
         (
@@ -237,8 +250,8 @@ def _of_rows(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         return [("Rows apart", "a", style.with_prefix(distance, "m", 4), about)]
     if distance is None or bearing.arrangement == "tandem" or not bearing.arrangement:
         return []
-    tangents = [math.tan(bearing.of_row(row).contact_angle) for row in range(2)]
-    reach = 0.5 * bearing.pitch_diameter * sum(tangents)
+    own = [bearing.of_row(row) for row in range(2)]
+    reach = sum(0.5 * one.pitch_diameter * math.tan(one.contact_angle) for one in own)
     back = bearing.arrangement == "back-to-back"
     apart = distance + reach if back else abs(distance - reach)
     return [

@@ -98,10 +98,11 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
     rotor = system.rotor
     contacts = system.contacts
     races = system.races
-    w = rotor.cage_speed
     n_balls = contacts.angle.size
-    ui = seen_from_the_cage(row_components(work.x, INNER), row_components(work.v, INNER), w)
-    uo = seen_from_the_cage(row_components(work.x, OUTER), row_components(work.v, OUTER), w)
+    xi = row_components(work.x, INNER)
+    vi = row_components(work.v, INNER)
+    xo = row_components(work.x, OUTER)
+    vo = row_components(work.v, OUTER)
     f = work.f
     f[:, :] = 0.0
     for j in range(n_balls):
@@ -109,6 +110,7 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
         sj = passage.s[at, j]
         work.ball[0, j] = races.centrifugal[j] - races.weight[j] * sj
         work.ball[1, j] = 0.0
+        w = rotor.cage_speed * contacts.pace[j]
         for race in range(2):
             delta = work.contact[race, j, 0]
             if delta <= 0.0:
@@ -116,12 +118,12 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
             er = work.contact[race, j, 1]
             ez = work.contact[race, j, 2]
             if race == INNER:
-                r, z = ring_at_ball(ui, cj, sj, j, contacts)
+                r, z = ring_at_ball(seen_from_the_cage(xi, vi, w), cj, sj, j, contacts)
                 r -= k[first + j]
                 z -= k[first + n_balls + j]
                 d_rate = inner.d_rate[at, j]
             else:
-                r, z = ring_at_ball(uo, cj, sj, j, contacts)
+                r, z = ring_at_ball(seen_from_the_cage(xo, vo, w), cj, sj, j, contacts)
                 r = k[first + j] - r
                 z = k[first + n_balls + j] - z
                 d_rate = passage.d_rate[at, j]

@@ -109,10 +109,8 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
     is p = Σ (Q e − c δ ė): e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A,
     t across the contact and ṗ the rate of the ball's displacement.
     """
-    w = rotor.cage_speed
     damping = rotor.contact_damping
     tension = rotor.tension
-    u = seen_from_the_cage(work.x, work.v, w)
     contact = work.contact
     f0 = 0.0
     f1 = 0.0
@@ -126,6 +124,8 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
         ez = contact[i, 2]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
+        w = rotor.cage_speed * contacts.pace[j]
+        u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
         if smooth:

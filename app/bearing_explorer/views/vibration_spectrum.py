@@ -75,7 +75,7 @@ class VibrationSpectra(View):
         level = packed.range("spectrum_level", -80.0, -20.0)
         lines = packed.source("spectrum_lines", "frequency", *SHOWN)
         healthy = packed.source("spectrum_healthy", "frequency", *SHOWN)
-        passes = packed.source("spectrum_passes", "frequency", "inner")
+        passes = packed.source("spectrum_passes", "frequency", "inner", "row")
         first = packed.source("spectrum_first_pass", "frequency", "inner", "row")
         plots, marks = [], []
         for dof in SHOWN:

@@ -175,6 +175,7 @@ def by_scipy(duration: float, rtol: float, atol: float) -> np.ndarray:
     return np.array([motion(t, y)[6:] for t, y in zip(time, answer.y.T, strict=True)])
 
 
+@pytest.mark.proof
 def test_default_tolerances_are_the_size_of_the_signal() -> None:
     """An absolute tolerance of 1e-6 m lets through errors as large as all that moves.
 

@@ -50,6 +50,7 @@ def test_a_measured_step_is_taken_over_and_given_back(
     place(page, "accuracy_drawing_evaluations", 1e3, 1e-2)
 
 
+@pytest.mark.proof
 def test_where_steps_are_too_long(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "accuracy")

@@ -11,6 +11,7 @@ from tests.browser.explorer_page import open_page, settle, show, source, wait
 from tests.browser.helpers import Server, Watch
 
 
+@pytest.mark.proof
 def test_a_strike_is_seen_and_its_mechanism_said(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

@@ -75,6 +75,7 @@ def test_a_dimension_is_dragged_and_everything_follows(
     np.testing.assert_allclose(cells["now"][5], k_yy, rtol=1e-5)
 
 
+@pytest.mark.proof
 def test_the_picture_shows_what_is_edited_and_leads_to_it(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -346,7 +347,7 @@ def test_every_control_has_a_name_and_takes_the_keyboard(
         assert nameless == []
 
 
-@pytest.mark.parametrize("tab", ["bearing", "model"])
+@pytest.mark.parametrize("tab", ["bearing", pytest.param("model", marks=pytest.mark.proof)])
 @pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844)])
 def test_the_editors_fit_the_screen(
     watch: tuple[Page, Watch], explorer: Server, tab: str, width: int, height: int

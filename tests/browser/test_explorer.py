@@ -29,7 +29,9 @@ from tests.browser.explorer_page import (
 from tests.browser.helpers import Server, Watch, drag, explorer_server, move
 
 
-@pytest.mark.parametrize(("waited", "sent_at_once"), [(0, {2}), (300, {0, 1})])
+@pytest.mark.parametrize(
+    ("waited", "sent_at_once"), [pytest.param(0, {2}, marks=pytest.mark.proof), (300, {0, 1})]
+)
 def test_a_queue_on_the_server_is_not_made_longer(
     watch: tuple[Page, Watch], explorer: Server, waited: int, sent_at_once: set[int]
 ) -> None:
@@ -161,6 +163,7 @@ def test_what_is_not_on_screen_is_not_sent_and_what_appears_is_up_to_date(
     assert source(page, "stiffness_defective") != before
 
 
+@pytest.mark.proof
 def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer)
@@ -302,6 +305,7 @@ def test_the_page_fits_the_screen(watch: tuple[Page, Watch], explorer: Server) -
             fits(f"{tab} at {screen}")
 
 
+@pytest.mark.proof
 def test_the_server_says_what_it_does_and_ends_cleanly() -> None:
     for number_ in (signal.SIGTERM, signal.SIGINT):
         server = explorer_server()

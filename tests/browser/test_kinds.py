@@ -22,11 +22,9 @@ _BLANK = """all => {
   const blank = (canvas) => {
     const {width, height} = canvas
     if (!width || !height) return true
-    const data = canvas.getContext("2d").getImageData(0, 0, width, height).data
-    const first = data.slice(0, 4).join()
-    for (let i = 4; i < data.length; i += 4)
-      if (data.slice(i, i + 4).join() !== first) return false
-    return true
+    const {data} = canvas.getContext("2d").getImageData(0, 0, width, height)
+    const pixels = new Uint32Array(data.buffer)
+    return pixels.every((pixel) => pixel === pixels[0])
   }
   const figures = new Map()
   for (const canvas of all) {

@@ -167,6 +167,7 @@ def test_every_change_that_is_waited_for_is_drawn(
     np.testing.assert_allclose(source(page, "maps_cells")["now"], low["now"], rtol=1e-4, atol=1e-3)
 
 
+@pytest.mark.proof
 def test_the_maps_are_saved_as_numbers(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_maps(page, explorer)

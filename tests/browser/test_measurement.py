@@ -149,6 +149,7 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     expect(page.locator(".view-sizing .truth")).to_have_text(re.compile(r"true 38\.\d°"))
 
 
+@pytest.mark.proof
 def test_the_part_is_named_marked_and_zoomed_to(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:

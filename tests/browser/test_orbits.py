@@ -164,6 +164,7 @@ def test_sliders_stay_lively_and_tabs_change_while_it_computes(
     expect(words(page, "stability-map")).to_contain_text("Given up for something else")
 
 
+@pytest.mark.proof
 def test_what_is_refused_gets_a_sentence(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "orbits")
@@ -178,6 +179,7 @@ def test_what_is_refused_gets_a_sentence(watch: tuple[Page, Watch], explorer: Se
     expect(page.locator("#job-x_to")).to_have_value("500")
 
 
+@pytest.mark.proof
 def test_a_speed_run_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "speed-run")

@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
+from concurrent.futures import ThreadPoolExecutor
 
 DONE = "BEARING_EXPLORER_TESTS_COMPILED"
 """Environment variable that says to this process's children that it is done."""
+
+COMPILE_ALL = "from bearing_explorer.compute.compiling import compile_all; compile_all()"
 
 
 def compile_once() -> None:
@@ -25,15 +27,15 @@ def main() -> None:
     """What a server does at its start and when its first page is asked for."""
     from bearing_explorer.compute import compiling
 
-    compiling.begin()
-    if compiling.ready():
-        return  # all is there
+    if compiling.all_on_disk():
+        return
     import bearingcore
 
     print("Compiling the kernels, kept on disk for the next time ...", flush=True)
-    bearingcore.warm(report=lambda _: None)
-    while not compiling.ready():
-        time.sleep(0.1)
+    with ThreadPoolExecutor() as both:
+        beside = both.submit(subprocess.run, [sys.executable, "-c", COMPILE_ALL], check=True)
+        bearingcore.warm(report=lambda _: None)
+        beside.result()
 
 
 if __name__ == "__main__":

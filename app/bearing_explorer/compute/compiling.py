@@ -18,8 +18,9 @@ from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
 from bearingcore.plan.warm_up import motions_with_mass, start_python
 
-_NICE = 10
-_IMPORT = f"from {__name__} import compile_all"
+_NICE = 5
+"""How far the page goes first: at 10 two busy processes of others leave hardly anything."""
+_IMPORT = f"from {__name__} import compile_behind"
 _lock = threading.Lock()
 _helper: subprocess.Popen[str] | None = None
 _begun = False
@@ -32,12 +33,17 @@ def begin() -> None:
         if _begun:
             return
         _begun = True
-        if all(map(kernels.on_disk, _slowest())):
+        if all_on_disk():
             return
         # in a session of its own: Ctrl+C is for the server, which ends it
-        _helper = start_python(f"{_IMPORT}; compile_all()", new_session=True)
+        _helper = start_python(f"{_IMPORT}; compile_behind()", new_session=True)
         if _helper is not None:  # or all is compiled where it is needed
             atexit.register(_end)
+
+
+def all_on_disk() -> bool:
+    """Whether an earlier start has compiled everything."""
+    return all(map(kernels.on_disk, _slowest()))
 
 
 def ready() -> bool:
@@ -45,10 +51,15 @@ def ready() -> bool:
     return _helper is None or _helper.poll() is not None
 
 
-def compile_all() -> None:
-    """Move balls with mass, and plan what calls every kernel that planning and orbits need."""
+def compile_behind() -> None:
+    """`compile_all`, behind what serves the page."""
     if hasattr(os, "nice"):
         os.nice(_NICE)
+    compile_all()
+
+
+def compile_all() -> None:
+    """Move balls with mass, and plan what calls every kernel that planning and orbits need."""
     motions_with_mass()
     for name in ("fan-rig", "liew-lim"):
         for law in ("published", "no tension"):

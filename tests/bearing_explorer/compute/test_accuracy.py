@@ -136,6 +136,7 @@ def test_more_steps_than_the_server_holds_are_refused() -> None:
         _ = Results(RIG, settings=Settings(step_rate=65536.0 * 128)).motion
 
 
+@pytest.mark.proof
 def test_the_stability_chart_holds_every_trial() -> None:
     chart = stability_chart(RIG, duration=0.03)
     view = Accuracy(PackedSource())

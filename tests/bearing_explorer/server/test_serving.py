@@ -260,6 +260,7 @@ def test_a_page_that_nobody_touches_is_closed_and_told_so() -> None:
     served(wait, Limits(idle=60.0))
 
 
+@pytest.mark.proof
 def test_a_flood_waits_and_others_do_not() -> None:
     async def flood(url: str, server: Any) -> None:
         loud, quiet = PageClient(url), PageClient(url)

@@ -236,6 +236,7 @@ def test_odd_recordings_are_drawn_too(rate):
 # -- the size --------------------------------------------------------------------------------------
 
 
+@pytest.mark.proof
 def test_a_file_from_elsewhere_is_sized_on_the_page():
     """Read, asked about and sized as the page does; its clock is 0.1 % off."""
     truth, content = file_from_elsewhere()

@@ -105,6 +105,7 @@ def test_a_map_of_another_scene_is_faint_and_says_so() -> None:
     assert view.sentence(other).startswith("Faint, as the scene has changed")
 
 
+@pytest.mark.proof
 def test_coarse_pictures_come_before_fine_ones() -> None:
     job = Work()
     job.started = time.monotonic()

@@ -571,6 +571,7 @@ class InBackground(threading.Thread):
             self.error = error
 
 
+@pytest.mark.proof
 def test_killed_workers_and_schedulers_lose_nothing(
     cluster: Any, reference: xarray.Dataset, tmp_path: Path
 ) -> None:

@@ -26,6 +26,7 @@ def measured() -> tuple[Scene, bytes]:
     return file_from_elsewhere()
 
 
+@pytest.mark.proof
 def test_a_file_from_elsewhere_is_sized(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording(
@@ -406,7 +407,9 @@ def test_a_spall_of_whole_ball_spacings_is_not_told_from_a_pit(paper):
         assert told or "a pit shorter than" in words
 
 
-@pytest.mark.parametrize(("speed", "bounded"), [(3.0, False), (30.0, True)])
+@pytest.mark.parametrize(
+    ("speed", "bounded"), [pytest.param(3.0, False, marks=pytest.mark.proof), (30.0, True)]
+)
 def test_a_pit_is_sized_where_its_edges_are_resolved_and_bounded_elsewhere(speed, bounded):
     """0.4 mm, 0.86°, of balls with mass, whose edges are others than those that are told."""
     rig = RIG.replace(shaft_speed=2.0 * math.pi * speed)

@@ -103,6 +103,10 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
     vi = row_components(work.v, INNER)
     xo = row_components(work.x, OUTER)
     vo = row_components(work.v, OUTER)
+    pace = 1.0
+    w = rotor.cage_speed
+    ui = seen_from_the_cage(xi, vi, w)
+    uo = seen_from_the_cage(xo, vo, w)
     f = work.f
     f[:, :] = 0.0
     for j in range(n_balls):
@@ -110,7 +114,11 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
         sj = passage.s[at, j]
         work.ball[0, j] = races.centrifugal[j] - races.weight[j] * sj
         work.ball[1, j] = 0.0
-        w = rotor.cage_speed * contacts.pace[j]
+        if contacts.pace[j] != pace:  # another row
+            pace = contacts.pace[j]
+            w = pace * rotor.cage_speed
+            ui = seen_from_the_cage(xi, vi, w)
+            uo = seen_from_the_cage(xo, vo, w)
         for race in range(2):
             delta = work.contact[race, j, 0]
             if delta <= 0.0:
@@ -118,12 +126,12 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
             er = work.contact[race, j, 1]
             ez = work.contact[race, j, 2]
             if race == INNER:
-                r, z = ring_at_ball(seen_from_the_cage(xi, vi, w), cj, sj, j, contacts)
+                r, z = ring_at_ball(ui, cj, sj, j, contacts)
                 r -= k[first + j]
                 z -= k[first + n_balls + j]
                 d_rate = inner.d_rate[at, j]
             else:
-                r, z = ring_at_ball(seen_from_the_cage(xo, vo, w), cj, sj, j, contacts)
+                r, z = ring_at_ball(uo, cj, sj, j, contacts)
                 r = k[first + j] - r
                 z = k[first + n_balls + j] - z
                 d_rate = passage.d_rate[at, j]

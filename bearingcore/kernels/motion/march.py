@@ -111,6 +111,9 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
     """
     damping = rotor.contact_damping
     tension = rotor.tension
+    pace = 1.0
+    w = rotor.cage_speed
+    u = seen_from_the_cage(work.x, work.v, w)
     contact = work.contact
     f0 = 0.0
     f1 = 0.0
@@ -124,8 +127,10 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
         ez = contact[i, 2]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
-        w = rotor.cage_speed * contacts.pace[j]
-        u = seen_from_the_cage(work.x, work.v, w)
+        if contacts.pace[j] != pace:  # another row
+            pace = contacts.pace[j]
+            w = pace * rotor.cage_speed
+            u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
         if smooth:

@@ -60,6 +60,9 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
             Sx[a, b] = 0.0
             Px[a, b] = 0.0
             Pv[a, b] = 0.0
+    pace = 1.0
+    w = rotor.cage_speed
+    u = seen_from_the_cage(work.x, work.v, w)
     for i in range(count):
         if work.contact[i, 4] == 0.0:
             continue
@@ -70,8 +73,10 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
         bend = work.contact[i, 3]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
-        w = rotor.cage_speed * contacts.pace[j]
-        u = seen_from_the_cage(work.x, work.v, w)
+        if contacts.pace[j] != pace:  # another row
+            pace = contacts.pace[j]
+            w = pace * rotor.cage_speed
+            u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         directions_in_q(er, ez, cj, sj, tilting(er, ez, j, contacts), e, e_turn)
         directions_in_q(-ez, er, cj, sj, tilting(-ez, er, j, contacts), t, t_turn)

@@ -120,8 +120,8 @@ function bearing_picture(pointed) {
       const { x, ball, centre } = second
       parts.push(dimension("second_ball_diameter_mm", ...arrow(x - ball, centre, x + ball, centre),
         label(x, centre - 5, ["D", "b2"])),
-        dimension("second_pitch_diameter_mm", ...arrow(x + 0.6 * ball, axis, x + 0.6 * ball, centre),
-          label(x + 0.6 * ball + 5, axis - 0.3 * (axis - centre), ["D", "p2", "/2"], "start")))
+        dimension("second_pitch_diameter_mm", ...arrow(x - 0.6 * ball, axis, x - 0.6 * ball, centre),
+          label(x - 0.6 * ball - 5, axis - 0.3 * (axis - centre), ["D", "p2", "/2"], "end")))
     }
     return [...parts,
       ...(rollers || sphere ? [] : [height("groove_center_radius_mm", 26, left, up(n.groove_center_radius), ["r", "d"])]),

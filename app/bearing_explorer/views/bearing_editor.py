@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -137,9 +139,9 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
     bearing, speed = scene.bearing, scene.shaft_speed
 
     def hertz(name: str) -> str:
-        """A frequency; of rows that are not alike one after the other."""
-        each = [float(getattr(own, name)(speed)) for own, _ in bearing.unlike_rows]
-        return " and ".join(f"{style.number(one, 4)} Hz" for one in dict.fromkeys(each))
+        return _of_each_row(
+            bearing, lambda own: f"{style.number(float(getattr(own, name)(speed)), 4)} Hz"
+        )
 
     facts = [
         (
@@ -178,14 +180,15 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             (
                 "Groove centre radius",
                 "r<sub>d</sub>",
-                style.with_prefix(bearing.groove_center_radius, "m", 5),
+                _of_each_row(
+                    bearing, lambda own: style.with_prefix(own.groove_center_radius, "m", 5)
+                ),
                 "The lever with which a tilt moves a contact.",
             ),
             (
                 "Raceway radii",
                 "R<sub>o</sub>, R<sub>i</sub>",
-                f"{1e3 * bearing.outer_raceway_radius:.5g} mm, "
-                f"{1e3 * bearing.inner_raceway_radius:.5g} mm",
+                _of_each_row(bearing, _raceways),
                 "At the bottom of the grooves, where defects are cut.",
             ),
         ]
@@ -193,17 +196,27 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             (
                 f"{race.capitalize()} groove over ball",
                 "f<sub>" + race[0] + "</sub>",
-                style.number(radius / bearing.ball_diameter, 4),
+                _of_each_row(bearing, partial(_conformity, race=race)),
                 "Groove radius in ball diameters; makers use 0.505 to 0.54.",
             )
-            for race, radius in (
-                ("outer", bearing.outer_groove_radius),
-                ("inner", bearing.inner_groove_radius),
-            )
-            if radius is not None
+            for race in ("outer", "inner")
         ]
     keys = ("label", "symbol", "value", "about")
     return [dict(zip(keys, fact, strict=True)) for fact in facts]
+
+
+def _of_each_row(bearing: Bearing, told: Callable[[Bearing], str]) -> str:
+    """What is told of a bearing, of rows that are not alike of one after the other."""
+    return " and ".join(dict.fromkeys(told(own) for own, _ in bearing.unlike_rows))
+
+
+def _raceways(bearing: Bearing) -> str:
+    radii = (bearing.outer_raceway_radius, bearing.inner_raceway_radius)
+    return ", ".join(f"{1e3 * radius:.5g} mm" for radius in radii)
+
+
+def _conformity(bearing: Bearing, race: str) -> str:
+    return style.number(getattr(bearing, f"{race}_groove_radius") / bearing.ball_diameter, 4)
 
 
 def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
@@ -213,13 +226,17 @@ def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         (
             "Load-deflection factor",
             "K",
-            f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹·⁵",
+            _of_each_row(
+                bearing, lambda own: f"{style.number(own.load_deflection_factor / 1e6, 5)} MN/m¹·⁵"
+            ),
             "Stiffness of both contacts of a ball in series.",
         ),
         (
             "Groove centre distance",
             "A<sub>0</sub>",
-            style.with_prefix(bearing.groove_center_distance, "m", 4),
+            _of_each_row(
+                bearing, lambda own: style.with_prefix(own.groove_center_distance, "m", 4)
+            ),
             "Both groove radii together less a ball diameter.",
         ),
     ]
@@ -230,13 +247,13 @@ def _of_play(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         (
             "Free contact angle",
             "α<sub>f</sub>",
-            _free_angle(bearing),
+            _of_each_row(bearing, _free_angle),
             "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
         ),
         (
             "Diametral play",
             "s",
-            style.with_prefix(bearing.diametral_play, "m"),
+            _of_each_row(bearing, lambda own: style.with_prefix(own.diametral_play, "m")),
             "From contact to contact across the shaft: what contact angle and clearance stand for.",
         ),
     ]

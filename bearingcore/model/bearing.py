@@ -725,7 +725,11 @@ class Bearing:
 
     @property
     def cage_ratio(self) -> float:
-        """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3)."""
+        """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3).
+
+        Of the bearing's own numbers, as all speeds and frequencies: those of a row that has numbers
+        of its own are `of_row(k)`'s.
+        """
         return 0.5 * (1.0 - self._ratio)
 
     def cage_speed(self, shaft_speed: float) -> float:

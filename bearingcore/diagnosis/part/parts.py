@@ -44,7 +44,7 @@ def part_lines(bearing: Bearing) -> tuple[PartLines, ...]:
     """
     if not bearing.rows_are_alike:
         raise ValueError(
-            "rows are not alike; allowed: rows alike, or one of them (bearing.of_row(k)): each has "
+            "rows are not alike; allowed: rows alike, or one row at a time, as each has "
             "frequencies of its own"
         )
     turn = 2.0 * math.pi  # one turn a second [rad/s]

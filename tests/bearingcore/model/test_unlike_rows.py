@@ -39,6 +39,7 @@ from bearingcore.statics.film import rolling_speed
 from bearingcore.statics.life import race_ratings
 from bearingcore.statics.passes import ball_drop, crossings, drops_now
 from tests.helpers.random_rows import Contacts, Long
+from tests.two_contacts import TwoContacts
 
 ONE = presets["7208-25deg"]
 STEEP = math.radians(40.0)
@@ -342,8 +343,25 @@ def test_loads_in_motion_are_those_of_independent_sums(scene: Scene) -> None:
         np.testing.assert_allclose(
             motion.ball_load[i], expected.astype(float), rtol=1e-6, atol=1e-4
         )
-    heavy = simulate(scene.replace(balls="with mass"), 2e-3)
-    assert heavy.completed
+
+
+def test_heavy_balls_of_each_row_are_pressed_as_independent_sums_say() -> None:
+    """Both rows at the middle of the shaft: each by itself, from the places that are returned."""
+    scene = with_rows(Row(), Row(turn=0.1, contact_angle=STEEP, **OWN)).replace(  # type: ignore[arg-type]
+        dofs=("x", "y", "z"), balls="with mass", extent=0.2, row=None
+    )
+    motion = simulate(scene, 6e-3)
+    assert motion.completed
+    rings = np.zeros((2, 5))
+    for i in (0, 200, 390):
+        rings[0, :3], rings[1, :3] = motion.inner_displacement[i], motion.outer_displacement[i]
+        for k, own in enumerate(scene.bearing.balls_of_rows):
+            angle = scene.bearing.pace(k) * float(motion.cage_angle[i]) + 0.1 * k
+            alone = scene.replace(bearing=scene.bearing.of_row(k))
+            sums = TwoContacts(alone, angle, *rings, motion.ball_position[i][:, own])
+            for race, load in enumerate((motion.ball_load_inner, motion.ball_load_outer)):
+                assert load[i, own] == pytest.approx(sums.load[race], rel=1e-6, abs=1e-5)
+    assert motion.ball_load_inner[390].max() > 100.0
 
 
 def test_nothing_repeats_where_cages_turn_at_speeds_of_their_own() -> None:
@@ -442,7 +460,7 @@ def test_a_damaged_race_of_unlike_rows() -> None:
 def test_a_signal_is_diagnosed_for_one_row_at_a_time() -> None:
     noise = np.random.default_rng(1).normal(size=(20_000, 1))
     heard = Recording(noise, 20_000.0, ("y",), "noise")
-    with pytest.raises(ValueError, match=r"bearing.of_row\(k\)"):
+    with pytest.raises(ValueError, match="one row at a time"):
         diagnose(heard, BALLS.bearing, BALLS.shaft_speed)
     assert part_lines(BALLS.bearing.of_row(1)) == part_lines(SMALL)
     with pytest.raises(ValueError, match="rows are not alike"):

@@ -16,6 +16,7 @@ from typing import Any
 for _library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
+from bearing_explorer.server import heap  # noqa: E402
 from bearing_explorer.server.log import LEVELS, begin  # noqa: E402
 
 NOT_KEPT = (
@@ -103,6 +104,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     chosen = options(arguments)
     begin(chosen.log_level)
+    heap.keep_small()
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")

@@ -64,6 +64,7 @@ _PATIENCE = 0.25
 _LIMITS_EVERY = 1.0
 
 _BROKEN = "This could not be computed; what is shown belongs to an earlier position."
+_DRAWN_LATER = "This is drawn by itself as soon as that is done."
 
 
 @dataclass(frozen=True)
@@ -592,6 +593,7 @@ class Explorer:
             if other != name:
                 for view in self._views[other]:
                     view.put_away()
+        self.packed.introduce()
         self.tabs.active = self._on_screen = name
 
     # Drawing: off the event loop to compute, on it to assign.
@@ -739,6 +741,9 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> Planned:
 def _drawing(results: Results, view: View) -> Drawing:
     try:
         return Drawing(view, view.data(results), view.sentence(results))
+    except compiling.StillCompiling as wait:
+        words = str(wait)
+        return Drawing(view, None, f"{words[0].upper()}{words[1:]}. {_DRAWN_LATER}")
     except ValueError as error:
         return Drawing(view, None, f"Not shown for this scene: {in_page_words(str(error))}.")
     except Exception:

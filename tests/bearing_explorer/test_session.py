@@ -4,9 +4,11 @@ import asyncio
 import math
 import threading
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 from bearing_explorer.compute.results import Results
+from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 
 from bearingcore import presets
@@ -68,6 +70,25 @@ def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
 
+def test_sources_are_introduced_with_their_figures(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bokeh counts all models of the document for each message with new ones."""
+    found: list[bool] = []
+    send = PackedSource.send
+
+    def looked_at(self: PackedSource, *given: Any) -> int:
+        given_before = self._unpack.args
+        size = send(self, *given)
+        found.append(self._unpack.args is given_before)
+        return size
+
+    monkeypatch.setattr(PackedSource, "send", looked_at)
+    session(lambda e: e._tab_asked({"show": "two"}))
+    assert len(found) > 1
+    assert all(found)
+
+
 def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> None:
     """A motion is megabytes: a session that has seen all tabs held a hundred of them."""
     away = session(lambda e: e._tab_asked({"show": "two"}))
@@ -75,6 +96,21 @@ def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> N
     assert away._views["one"][0].csv() == ""
     back = session(lambda e: e._tab_asked({"show": "two"}), lambda e: e._tab_asked({"show": "one"}))
     assert back._views["one"][0].csv()
+
+
+def test_numbers_are_offered_again_after_a_way_back_and_only_where_there_are_any(
+    news: list[dict],
+) -> None:
+    there_and_back = [lambda e, n=name: e._tab_asked({"show": n}) for name in ("two", "one")]
+    view = session(*there_and_back)._views["one"][0]
+    assert view.csv() == "depth_m\n5e-05\n"
+    assert not view._caption.empty
+    away, back = there_and_back
+    refused = lambda e: e._asked({"mark": 1, "set": {"depth_um": 400}})  # noqa: E731
+    view = session(away, refused, back)._views["one"][0]
+    assert "more than this view can show" in view._sentence.text
+    assert view.csv() == ""
+    assert view._caption.empty, "no empty file is offered"
 
 
 def test_the_tab_that_was_asked_for_last_is_shown(

@@ -10,6 +10,10 @@ the time from the release to the last repaint of the picture that follows the ha
 rests, the program plans and draws anew: "planned" is when that is on screen, after the event.
 "Disturbed" is a step that comes while a plan is being made. "Median" stands also as a multiple of
 what the C loop of 1.4 s of motion takes just before (`machine`).
+
+The mouse moves 60 times a second, as often as a screen shows it. "Work" is what browser and server
+have worked for a frame of the drag, by the system's count of processor time: two cores have 67 ms
+of it for each of 30 frames a second, whoever else is on them.
 """
 
 from __future__ import annotations
@@ -24,6 +28,7 @@ from typing import Any
 from playwright.sync_api import Page, sync_playwright
 
 from tests.benchmarks.machine import pace
+from tests.benchmarks.processor import worked_by_kind
 from tests.browser.helpers import chromium, explorer_server, serving
 
 STATIC, MOVING = 50.0, 100.0
@@ -181,8 +186,28 @@ class Stepper:
         return found
 
 
-def drag(page: Page, slider: str, seconds: float) -> tuple[float, float]:
-    """Drag to and fro; return frames a second and the tail after release [ms]."""
+HAND = 60.0
+"""Movements of the mouse a second."""
+WORK = 60.0
+"""Target of the work for a frame [ms]."""
+
+
+@dataclass(frozen=True)
+class Drag:
+    """What a drag showed."""
+
+    frames: float
+    """a second"""
+    tail: float
+    """from the release to the last repaint [ms]"""
+    browser: float
+    """what the browser worked for a frame [ms]"""
+    server: float
+    """the same of the server"""
+
+
+def drag(page: Page, slider: str, seconds: float, server: int) -> Drag:
+    """Drag to and fro; `server` is the number of its process."""
     thumb = page.evaluate_handle(f"(name) => ({_FIND})(name)", slider).as_element()
     assert thumb is not None
     thumb.evaluate("slider => slider.scrollIntoView({block: 'center'})")  # from under what sticks
@@ -192,10 +217,14 @@ def drag(page: Page, slider: str, seconds: float) -> tuple[float, float]:
     page.evaluate("() => { window.__paints.length = 0 }")
     page.mouse.move(box["x"] + 0.15 * box["width"], y)
     page.mouse.down()
-    began = time.perf_counter()
+    before = worked_by_kind(server)
+    began, moves = time.perf_counter(), 0
     while (passed := time.perf_counter() - began) < seconds:
         share = 0.15 + 0.7 * abs((passed / 2.0) % 2.0 - 1.0)
         page.mouse.move(box["x"] + share * box["width"], y)
+        moves += 1
+        time.sleep(max(0.0, began + moves / HAND - time.perf_counter()))
+    after = worked_by_kind(server)
     page.mouse.up()
     released = page.evaluate("() => performance.now()")
     page.wait_for_timeout(1500)
@@ -208,7 +237,8 @@ def drag(page: Page, slider: str, seconds: float) -> tuple[float, float]:
         if at > max(end, final[0]) + 150.0:
             break
         end = max(end, at)
-    return len(drawn) / seconds, end - released
+    work = {kind: 1e3 * (after[kind] - before[kind]) / max(len(drawn), 1) for kind in after}
+    return Drag(len(drawn) / seconds, end - released, work["browser"], work["server"])
 
 
 def late(times: list[float]) -> float:
@@ -217,7 +247,7 @@ def late(times: list[float]) -> float:
     return ordered[min(len(ordered) - 1, int(0.95 * len(ordered)))]
 
 
-def measure(page: Page, case: Case, count: int, seconds: float) -> list[str]:
+def measure(page: Page, case: Case, count: int, seconds: float, server: int) -> list[str]:
     """The lines of one case: the tab as a whole, then its views."""
     page.locator(f".tab-{case.tab}").click()
     page.wait_for_function(f"window.__tab == '{case.tab}'", timeout=120_000)
@@ -239,13 +269,15 @@ def measure(page: Page, case: Case, count: int, seconds: float) -> list[str]:
         stepper.step()
         page.wait_for_timeout(150)  # and the 150 ms of quiet of the step: a plan is being made
         disturbed.append(stepper.step()["step"])
-    fps, tail = drag(page, case.slider, seconds)
+    moved = drag(page, case.slider, seconds, server)
     median = statistics.median(times)
-    verdict = "" if median <= case.target else "  over"
+    slow, busy = median > case.target, moved.browser + moved.server > WORK
+    verdict = ("  over" if slow else "") + ("  works" if busy else "")
     whole = (
         f"{case.tab:<11}{case.slider:<17}{median:>6.0f} ms{machine.ratio(0.001 * median):>8}"
         f"{late(times):>6.0f} ms{case.target:>6.0f} ms"
-        f"{paint:>6.1f} ms{fps:>5.0f} fps{tail:>6.0f} ms"
+        f"{paint:>6.1f} ms{moved.frames:>5.0f} fps{moved.tail:>6.0f} ms"
+        f"{moved.browser:>6.0f} +{moved.server:>4.0f} ms"
         + (f"{statistics.median(planned):>7.0f} ms{late(disturbed):>7.0f} ms" if planned else "")
         + verdict
         + f"   {1e3 * machine.statics:.2f}, {1e3 * machine.motion:.1f} ms"
@@ -279,7 +311,7 @@ def main() -> int:
             page.wait_for_function("window.__frames >= 1", timeout=60000)
             print(
                 f"{preset}\n{'on screen':<11}{'slider':<17}{'median':>9}{'':>8}{'95 %':>9}"
-                f"{'target':>9}{'paint':>9}{'drag':>9}{'tail':>9}"
+                f"{'target':>9}{'paint':>9}{'drag':>9}{'tail':>9}{'work':>15}"
                 f"{'planned':>10}{'disturbed':>10}   C loops"
             )
             for case in CASES:
@@ -288,7 +320,9 @@ def main() -> int:
                     page.locator("#choice-preset").select_option(preset)
                     page.wait_for_timeout(500)
                     try:
-                        lines = measure(page, case, chosen.steps, chosen.seconds)
+                        lines = measure(
+                            page, case, chosen.steps, chosen.seconds, server.process.pid
+                        )
                     except RuntimeError as error:
                         lines = [f"{case.tab:<11}{case.slider:<17}failed: {error}"]
                         failed = True

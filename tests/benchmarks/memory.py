@@ -2,14 +2,16 @@
 
 Each scene is another one, drawn from the whole box of `tests.helpers.box`, and everything is asked
 of it that the program can answer: of each what is quick, of some what takes longer, and of a few
-what the page draws of them. Printed is what the process holds after each tenth of them. What is
-kept for later is bounded in number and bytes, so it must be flat once the caches are full; the last
-line says how much was added over the second half.
+what the page draws of them. Printed is what the process holds after each tenth of them: before and
+after a garbage collection, what of that the C library's heap has given out and what it keeps free,
+and what the page's caches hold. They are bounded in number and bytes, so it must be flat once they
+are full; the last line says how much was added over the second half.
 """
 
 from __future__ import annotations
 
 import argparse
+import ctypes
 import gc
 import logging
 import math
@@ -23,6 +25,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from bearing_explorer.compute.budget import SHARED
 from bearing_explorer.compute.results import Results
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.server.packed_source import PackedSource
@@ -65,6 +68,29 @@ _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 def resident() -> float:
     """What this process holds [MB]."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * _PAGE / 1e6
+
+
+class _Heap(ctypes.Structure):
+    """What `mallinfo2` of glibc says, as malloc.h has it [bytes]."""
+
+    _fields_ = [
+        (name, ctypes.c_size_t)
+        for name in (
+            "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
+            "fordblks", "keepcost",
+        )
+    ]  # fmt: skip
+
+
+def heap() -> tuple[float, float]:
+    """What the C library has given out, and what it keeps free [MB]; NaN where it does not say."""
+    try:
+        look = ctypes.CDLL(None).mallinfo2
+    except (OSError, AttributeError):
+        return math.nan, math.nan
+    look.restype = _Heap
+    found = look()
+    return (found.uordblks + found.hblkhd) / 1e6, found.fordblks / 1e6
 
 
 def ask(scene: Scene, angles: np.ndarray, number: int) -> None:
@@ -157,7 +183,7 @@ def main() -> int:
     logging.disable(logging.CRITICAL)  # Bokeh finds scenes that no plot was made for
     rng = np.random.default_rng(chosen.seed)
     begun, done, held = time.perf_counter(), 0, []
-    print(f"{'scenes':>10}{'MB':>9}{'after a collection':>20}")
+    print(f"{'scenes':>10}{'MB':>9}{'after a collection':>20}{'in use':>9}{'free':>9}{'kept':>9}")
     while done < chosen.scenes:
         points = draw(rng, min(CHUNK, chosen.scenes - done))
         for k in range(min(CHUNK, chosen.scenes - done)):
@@ -168,7 +194,12 @@ def main() -> int:
             before = resident()
             gc.collect()
             held.append(resident())
-            print(f"{done:>10,}{before:>9.0f}{held[-1]:>20.0f}", flush=True)
+            used, free = heap()
+            print(
+                f"{done:>10,}{before:>9.0f}{held[-1]:>20.0f}{used:>9.0f}{free:>9.0f}"
+                f"{SHARED.total / 1e6:>9.0f}",
+                flush=True,
+            )
     added = held[-1] - held[(len(held) - 1) // 2]
     took = time.perf_counter() - begun
     machine = pace()

@@ -34,8 +34,11 @@ GENERAL_COST = 4.0
 """What a contact costs where it is not that of a flat bearing, over what it costs there."""
 MASS_COST = 2.5
 """What a ball costs that has mass, and so two contacts and a motion of its own."""
+MOST_IN_FULL = 2.0e5
+"""Contacts, a step each, of a flat bearing that are marched in full while a slider moves: about
+3 ms. A frame of a drag has 30 ms, in which the browser has its work too."""
 MOST_TOUCHED = 2.0e6
-"""Contacts, a step each, of a flat bearing that are marched while a slider moves: about 40 ms."""
+"""The same of what is shortened until it can follow a slider: about 40 ms."""
 MOST_COMPARED = 6.0e7
 """The same of balls with mass when the hand rests, to be compared with massless ones: a second."""
 
@@ -74,7 +77,7 @@ def is_costly(scene: Scene, sample_rate: float, duration: float) -> bool:
         rate = step_rates(scene, sample_rate) or 0.0
     except ValueError:
         return False  # there is no motion
-    return duration * rate * _step_cost(scene) > MOST_TOUCHED
+    return duration * rate * _step_cost(scene) > MOST_IN_FULL
 
 
 def _step_cost(scene: Scene) -> float:

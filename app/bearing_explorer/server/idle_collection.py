@@ -8,11 +8,13 @@ until all hands rest, but not for ever.
 from __future__ import annotations
 
 import gc
+import threading
 import time
 from collections.abc import Callable
 
 from tornado.ioloop import PeriodicCallback
 
+from bearing_explorer.server import heap
 from bearing_explorer.server.bokeh_private import collect_elsewhere
 
 QUIET = 0.6
@@ -63,6 +65,12 @@ def begin(quiet_for: Callable[[], float]) -> None:
     gc.freeze()  # modules and kernels stay for as long as the process does
     young, middle, _ = gc.get_threshold()
     gc.set_threshold(young, middle, _NEVER)
-    collector = IdleCollection(quiet_for)
+    collector = IdleCollection(quiet_for, _collect)
     collect_elsewhere(collector.ask)
     PeriodicCallback(collector.look, 250).start()
+
+
+def _collect() -> None:
+    """In full; what is free then goes back to the system, beside the event loop."""
+    gc.collect()
+    threading.Thread(target=heap.give_back, name="give back", daemon=True).start()

@@ -115,12 +115,19 @@ class PackedSource:
         `worked` is how long they took once they had their turn [s].
         """
         packed = self.pack(data, ranges or {}, mark, worked)
-        if self._known != (known := len(self._sources) + len(self._ranges)):
-            # Not when they are declared: the browser must have met them in a figure first.
-            self._unpack.args = self._args()
-            self._known = known
+        self.introduce()
         self._packet.data = {"packed": packed}
         return packed.nbytes
+
+    def introduce(self) -> None:
+        """Let the browser's callback know all that is declared.
+
+        To be called when their figures are in the document, in the same message: each time that
+        models are given to a callback, Bokeh counts all of the document.
+        """
+        if self._known != (known := len(self._sources) + len(self._ranges)):
+            self._unpack.args = self._args()
+            self._known = known
 
     def pack(
         self,

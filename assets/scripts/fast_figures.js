@@ -1,0 +1,255 @@
+// What BokehJS does anew at each repaint of a figure, and need not. All private names of BokehJS
+// that the page uses stand here; those of Bokeh and Panel in server/bokeh_private.py.
+//
+// A slider that is dragged repaints up to ten figures thirty times a second, each with a few lines
+// of some hundred points. Most of that time goes into what is the same each time or is never seen:
+// see each part. Private names may go with any release: a part whose names are not there is left
+// out, BokehJS then does as it always did, and `window.fast_figures.missing` says which. Tests and
+// benchmarks leave out the parts that they name in `window.fast_figures.without` before.
+{
+  const missing = []
+  const without = globalThis.fast_figures?.without ?? []
+  const view_of = (name) => globalThis.Bokeh?.Models?.get(name)?.prototype.default_view?.prototype
+  const owner = (proto, name) => {
+    while (proto && !Object.hasOwn(proto, name)) proto = Object.getPrototypeOf(proto)
+    return proto
+  }
+  const method = (proto, name) => owner(proto, name)?.[name]
+  const getter = (proto, name) => {
+    const place = owner(proto, name)
+    return place && Object.getOwnPropertyDescriptor(place, name).get
+  }
+  const part = (name, needed, change) => {
+    if (without.includes(name) || without.includes("all")) return
+    if (needed.every((one) => typeof one === "function")) change()
+    else missing.push(name)
+  }
+  const nothing = () => {}
+
+  const renderer = view_of("GlyphRenderer")
+  const line = view_of("Line")
+  const axis = view_of("LinearAxis")
+  const figure = view_of("Plot")
+  const expression = globalThis.Bokeh?.Models?.get("CustomJSExpr")?.prototype
+  const formatter = globalThis.Bokeh?.Models?.get("CustomJSTickFormatter")?.prototype
+
+  // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
+  // own: styles and layout of the page are worked out anew each time they move.
+  const placed = method(renderer, "update_position")
+  part("places of glyphs", [placed], () => {
+    const gone = ":host { display: none; }"
+    renderer.update_position = function () {
+      const sheet = this.position
+      if (typeof sheet?.replace !== "function") placed.call(this)
+      else if (sheet.css !== gone) sheet.replace(gone)
+    }
+  })
+
+  // Each line is held four more times: as it looks selected, not selected, muted, and with fewer
+  // points. They get their numbers when they are to be seen.
+  const set_data = method(renderer, "set_data")
+  const connect_signals = method(renderer, "connect_signals")
+  part("hidden glyphs", [set_data, connect_signals], () => {
+    const steps = ["set_data", "set_visuals", "after_visuals", "after_lazy_visuals", "map_data"]
+    const seen = (view) => {
+      const source = view.model.data_source
+      const chosen = !(source.selected?.is_empty() ?? false)
+      const most = view.plot_model?.lod_threshold
+      const many = most != null && (source.get_length() ?? Infinity) > most
+      return {
+        decimated_glyph: many, muted_glyph: view.model.muted,
+        selection_glyph: chosen, nonselection_glyph: chosen || many,
+      }
+    }
+    renderer.set_data = function (...rest) {
+      for (const [name, shown] of Object.entries(seen(this))) {
+        const glyph = this[name]
+        if (!glyph || glyph === this.glyph) continue
+        for (const step of steps) {
+          if (shown) delete glyph[step]
+          else if (typeof glyph[step] === "function") glyph[step] = nothing
+        }
+      }
+      return set_data.apply(this, rest)
+    }
+    renderer.connect_signals = function () {
+      const wake = () => { void this.set_data() }
+      this.connect(this.model.data_source.selected.change, wake)
+      this.connect(this.model.properties.muted.change, wake)
+      connect_signals.call(this)
+    }
+  })
+
+  // Words in a figure follow the numbers, and then ask for all that the numbers have asked for.
+  const update_data = method(renderer, "update_data")
+  part("one update for all that asks for it", [update_data], () => {
+    const coming = new WeakMap()
+    renderer.update_data = function (indices) {
+      if (indices != null) return update_data.call(this, indices)
+      if (!coming.has(this)) {
+        coming.set(this, Promise.resolve().then(() => {
+          coming.delete(this)
+          return update_data.call(this)
+        }))
+      }
+      return coming.get(this)
+    }
+  })
+
+  // Where which point is, for a mouse that hits it: found out when that is asked.
+  const index_data = method(line, "index_data")
+  const index = getter(line, "index")
+  part("index of points", [index_data, index], () => {
+    const place = owner(line, "index_data")
+    const waits = new WeakSet()
+    place.index_data = function () {
+      waits.add(this)
+    }
+    Object.defineProperty(owner(line, "index"), "index", {
+      configurable: true,
+      get() {
+        if (waits.delete(this)) index_data.call(this)
+        return index.call(this)
+      },
+    })
+  })
+
+  // An axis works out its ticks and their words six times a repaint; they follow from its ranges.
+  const ticks = getter(axis, "tick_coords")
+  const extents = getter(axis, "extents")
+  const labels = method(axis, "compute_labels")
+  part("ticks of axes", [ticks, extents, labels], () => {
+    const kept = new WeakMap()
+    const ends = (range) => [range.start, range.end]
+    const key_of = (view) => {
+      const known = Object.values(view.model.formatter.args ?? {})
+      const shown = known.filter((one) => typeof one?.start === "number").flatMap(ends)
+      return [...view.ranges.flatMap(ends), view.loc, ...shown]
+    }
+    const known = (view) => {
+      const key = key_of(view)
+      let found = kept.get(view)
+      if (found === undefined) {
+        const { model } = view
+        const forget = () => { kept.set(view, { key: [] }) }
+        view.connect(model.change, forget)
+        view.connect(model.ticker.change, forget)
+        view.connect(model.formatter.change, forget)
+      }
+      if (!found || found.key.length !== key.length || found.key.some((v, i) => v !== key[i]))
+        kept.set(view, found = { key, labels: new Map() })
+      found.labels ??= new Map()
+      return found
+    }
+    const numeric = (view) => view.ranges.every((range) => typeof range.start === "number")
+    const keep = (name, compute) => Object.defineProperty(owner(axis, name), name, {
+      configurable: true,
+      get() {
+        return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
+      },
+    })
+    keep("tick_coords", ticks)
+    keep("extents", extents)
+    owner(axis, "compute_labels").compute_labels = function (ticks) {
+      if (!numeric(this) || this._major_label_views?.size) return labels.call(this, ticks)
+      const { labels: found } = known(this)
+      const name = ticks.join()
+      if (!found.has(name)) found.set(name, labels.call(this, ticks))
+      return found.get(name)
+    }
+  })
+
+  // The size of letters in "em", which no figure here has: asking for it works out all styles.
+  const size = getter(figure, "base_font_size")
+  part("size of letters", [size], () => {
+    const sizes = new WeakMap()
+    Object.defineProperty(owner(figure, "base_font_size"), "base_font_size", {
+      configurable: true,
+      get() {
+        if (!sizes.has(this)) {
+          const found = size.call(this)
+          if (found === null) return found
+          sizes.set(this, found)
+        }
+        return sizes.get(this)
+      },
+    })
+  })
+
+  // Scripts of a figure were compiled each time they ran.
+  const made = method(formatter, "_make_func")
+  part("scripts of ticks", [made], () => {
+    const functions = new WeakMap()
+    formatter._make_func = function () {
+      const known = functions.get(this)
+      if (known?.code === this.code && known.args === this.args) return known.act
+      const act = made.call(this)
+      functions.set(this, { code: this.code, args: this.args, act })
+      return act
+    }
+  })
+  const compiled = getter(expression, "func")
+  part("scripts of words", [compiled], () => {
+    const functions = new WeakMap()
+    Object.defineProperty(owner(expression, "func"), "func", {
+      configurable: true,
+      get() {
+        const known = functions.get(this)
+        if (known?.code === this.code && known.args === this.args) return known.act
+        const act = compiled.call(this)
+        functions.set(this, { code: this.code, args: this.args, act })
+        return act
+      },
+    })
+  })
+
+  // A figure that is scrolled out of sight is painted when it comes into sight, or the hand rests.
+  const paint = method(figure, "paint")
+  const render = method(figure, "render")
+  const remove = method(figure, "remove")
+  const repaint = method(figure, "request_repaint")
+  part("figures out of sight", [paint, render, remove, repaint, globalThis.IntersectionObserver], () => {
+    const RESTS = 500  // ms without a picture
+    const views = new WeakMap()  // by their elements
+    const away = new WeakSet(), painted = new WeakSet(), due = new WeakSet(), waiting = new Set()
+    let timer = 0
+    const paint_soon = (view) => {
+      waiting.delete(view)
+      due.add(view)
+      view.request_repaint()
+    }
+    const observer = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries) {
+        const view = views.get(target)
+        if (!isIntersecting) away.add(view)
+        else if (away.delete(view) && waiting.has(view)) paint_soon(view)
+      }
+    }, { rootMargin: "60px" })
+    figure.render = function () {
+      render.call(this)
+      views.set(this.el, this)
+      observer.observe(this.el)
+    }
+    figure.remove = function () {
+      observer.unobserve(this.el)
+      waiting.delete(this)
+      remove.call(this)
+    }
+    figure.paint = function () {
+      if (away.has(this) && painted.has(this) && !due.delete(this)) {
+        waiting.add(this)
+        clearTimeout(timer)
+        timer = setTimeout(() => waiting.forEach(paint_soon), RESTS)
+        return
+      }
+      painted.add(this)
+      paint.call(this)
+    }
+    window.addEventListener("beforeprint", () => {
+      for (const view of waiting) paint.call(view)
+      waiting.clear()
+    })
+  })
+
+  window.fast_figures = { missing }
+}

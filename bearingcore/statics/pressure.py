@@ -19,6 +19,7 @@ import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.bearing import Bearing
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
@@ -45,13 +46,11 @@ class HeaviestBall:
     row: int = 0
 
 
-def heaviest_ball(state: Equilibrium) -> HeaviestBall:
-    """The heaviest loaded ball of all cage angles whose loads are known."""
-    return max(heaviest_balls(state), key=lambda ball: ball.load)
-
-
 def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
-    """The heaviest loaded ball of each row that is unlike the others; one where all are alike."""
+    """The heaviest loaded ball of each row that is unlike the others; one where all are alike.
+
+    Over all cage angles whose loads are known.
+    """
     return tuple(_heaviest(state, balls) for _, balls in state.scene.bearing.unlike_rows)
 
 
@@ -139,6 +138,8 @@ class ContactPressures:
 def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:
     """Ellipse and pressure at each race, where a ball carries most over all cage angles.
 
+    Of rows that are unlike, that of the row whose heaviest ball presses hardest.
+
     Parameters
     ----------
     scene
@@ -155,11 +156,14 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
-    ball = heaviest_ball(state)
-    own = scene.bearing.of_row(ball.row)
-    contacts = {race: own.race_contact(race) for race in RACES}
+    found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    return max(found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure))
+
+
+def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:
     found = {}
-    for race, contact in contacts.items():
+    for race in RACES:
+        contact = bearing.race_contact(race)
         a, b = contact.semi_axes(ball.load)
         p = contact.greatest_pressure(ball.load)
         found[race] = RacePressure(race, ball.load, float(a), float(b), float(p))

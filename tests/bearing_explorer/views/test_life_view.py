@@ -165,4 +165,7 @@ def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_thei
         assert found.film is not None
     passes = next(fact["value"] for fact in facts_of(scene) if fact["symbol"] == "BPFO")
     assert passes.count("Hz") == 2, "one for each row"
+    (title,) = [group for group in groups_of(Results(scene)) if group["title"] == "Life"]
+    told = {fact["label"]: fact["value"] for fact in title["facts"]}
+    assert " and " in told["of rows 1 to 2 on their own"]
     assert facts_of(pair)[0]["value"].count("Hz") == 1

@@ -14,6 +14,7 @@ from bearingcore import (
     Load,
     Recording,
     Scene,
+    contact_pressures,
     diagnose,
     dynamic_load_rating,
     equilibrium,
@@ -320,6 +321,7 @@ def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scen
         for own, load in zip(rows, heaviest, strict=True)
     )
     assert told["contact pressure, inner race"].value == pytest.approx(p, rel=1e-2)
+    assert contact_pressures(scene, state).inner.greatest_pressure == pytest.approx(p, rel=1e-12)
     assert math.isfinite(told["contact angle at the shoulder"].value)
     assert told["centrifugal force, least loaded ball"].value > 0.0
 

@@ -151,14 +151,6 @@ class Bearing:
         object.__setattr__(self, "rows", tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
-        # one way to say it, so that equal bearings are equal
-        keep_rows = []
-        for row in self.rows:
-            same: dict[str, Any] = {
-                name: None for name, held in row.own.items() if held == getattr(self, name)
-            }
-            keep_rows.append(dataclasses.replace(row, **same) if same else row)
-        object.__setattr__(self, "rows", tuple(keep_rows))
         if self.roller_length is not None:
             keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
             if self.contact_angle != 0.0 or self.rows or self.is_drawn:
@@ -331,14 +323,18 @@ class Bearing:
         if self.rows_are_alike:
             return self
         try:
-            return _with_own(self, tuple(self.rows[row].own.items()))
+            return _with_own(self, tuple(self._unlike(self.rows[row]).items()))
         except ValueError as refused:
             raise ValueError(f"row {row + 1}: {refused}") from None
 
     @property
     def rows_are_alike(self) -> bool:
         """True where no row has balls or dimensions of its own; places and turns may differ."""
-        return not any(row.own for row in self.rows)
+        return not any(self._unlike(row) for row in self.rows)
+
+    def _unlike(self, row: Row) -> dict[str, float]:
+        """What a row has of its own that is not the bearing's."""
+        return {name: held for name, held in row.own.items() if held != getattr(self, name)}
 
     @property
     def unlike_rows(self) -> tuple[tuple[Bearing, slice], ...]:
@@ -399,7 +395,7 @@ class Bearing:
     def is_flat(self) -> bool:
         """True where a radial load moves nothing out of the plane of the balls."""
         return self.contact_angle == 0.0 and all(
-            row.place == 0.0 and not row.own for row in self.all_rows
+            row.place == 0.0 and not self._unlike(row) for row in self.all_rows
         )
 
     @classmethod
@@ -546,7 +542,7 @@ class Bearing:
         radius = self.groove_center_distance * math.cos(self.contact_angle)
         place = self.groove_center_distance * math.sin(self.contact_angle)
         return math.isclose(self.groove_center_radius, radius, rel_tol=1e-9) and all(
-            not row.own and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
+            not self._unlike(row) and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
             for row in self.rows
         )
 

@@ -150,6 +150,9 @@ def test_the_second_row_of_a_pair_has_numbers_of_its_own() -> None:
     editor.set({"n_balls": 12, "row_distance_mm": 20.0})
     assert editor.scene.bearing.of_row(0).n_balls == 12
     assert editor.scene.bearing.of_row(1).n_balls == 11
+    for name, value in (("n_balls", 11), ("contact_angle_deg", 40.0), ("contact_angle_deg", 25.0)):
+        editor.set({name: value})  # past the second row's numbers and back
+    assert editor.scene.bearing.rows[1].own == own
     editor.choose({"kind": "face-to-face"})
     assert editor.scene.bearing.rows[1].own == own
     refused, _ = editor.set({"second_n_balls": "40"})

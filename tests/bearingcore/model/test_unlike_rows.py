@@ -59,12 +59,20 @@ both = pytest.mark.parametrize("scene", [UNLIKE, BALLS], ids=["angles", "balls"]
 
 def test_a_row_of_the_bearings_own_angle_is_as_if_none_were_given() -> None:
     angle = ONE.bearing.contact_angle
-    same = with_rows(Row(-9e-3, -1, contact_angle=angle), Row(9e-3))
-    assert same == with_rows(Row(-9e-3, -1), Row(9e-3))
-    assert same.bearing.rows_are_alike
+    n, ball = ONE.bearing.n_balls, ONE.bearing.ball_diameter
+    told = with_rows(
+        Row(-9e-3, -1, contact_angle=angle, n_balls=n), Row(9e-3, ball_diameter=ball)
+    ).replace(extent=0.2)
+    plain = with_rows(Row(-9e-3, -1), Row(9e-3)).replace(extent=0.2)
+    assert told.bearing.rows_are_alike
     assert not UNLIKE.bearing.rows_are_alike
-    n = ONE.bearing.n_balls
-    assert with_rows(Row(-9e-3, n_balls=n), Row(9e-3)) == with_rows(Row(-9e-3), Row(9e-3))
+    assert told.bearing.of_row(1) is told.bearing
+    one, other = equilibrium(told), equilibrium(plain)
+    for name in ("displacement", "ball_load", "stiffness"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    assert life(told, 4e4).million_revolutions == life(plain, 4e4).million_revolutions
+    fewer = told.replace(n_balls=n - 1).bearing
+    assert fewer.of_row(0).n_balls == n, "what is a row's own stays, whatever the bearing's is"
 
 
 def test_what_follows_from_the_angle_follows_for_the_row() -> None:

@@ -133,7 +133,6 @@ class BearingDrawing(View):
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
         plot = style.bare_figure(x, y, height=HEIGHT)
-        plot.min_border_top = 8  # for the words about the load, in large type too
         # on a phone no higher than it is wide, or half of it is empty
         sizes = {"least": 320, "most": HEIGHT, "scale": SCALE_HEIGHT}
         plot.js_on_change("inner_width", CustomJS(args=sizes, code=_NO_HIGHER))
@@ -250,7 +249,9 @@ class BearingDrawing(View):
             "text_color": style.FAINT_INK,
         }
         loads = packed.source(f"{self.prefix}_load_words", "x", "y", "kind", "value", "angle")
-        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
+        # hung up by their tops: larger type on a projector is not cut by the frame
+        hung = {"text_baseline": "top", "y_offset": -12}
+        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look, **hung)
         rows = packed.source(f"{self.prefix}_row_words", "x", "y", "row", "place")
         plot.text(
             "x",
@@ -268,6 +269,7 @@ class BearingDrawing(View):
             source=scale,
             text_align="right",
             **look,
+            **hung,
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

@@ -494,8 +494,13 @@ WAITING = (DefectSize, MeasuredSpectrum, MeasuredEnvelope)
 def test_that_there_is_no_signal_is_said_once_by_what_asks_for_it(kind):
     view = view_of(kind)
     assert view.sentence(RESULTS) == ""
+    view.say(RESULTS, "")
     assert not view.hidden.visible
     assert view.is_empty
+    assert view._caption.nothing
+    there = view_of(kind, signal())
+    there.say(RESULTS, "")
+    assert not there._caption.nothing
 
 
 @pytest.mark.parametrize("kind", WAITING)

@@ -3,7 +3,7 @@
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
-from bearingcore.dynamics.modes import Modes, contact_damping, modes
+from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.model.bearing import Bearing
@@ -75,6 +75,7 @@ __all__ = [
     "envelope_spectrum",
     "equilibrium",
     "film",
+    "frequency_bands",
     "impulsive_band",
     "life",
     "limits",

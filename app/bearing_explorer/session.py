@@ -67,6 +67,7 @@ _LIMITS_EVERY = 1.0
 _SLICE = 0.05
 
 _BROKEN = "This could not be computed; what is shown belongs to an earlier position."
+_DRAWN_LATER = "This is drawn by itself as soon as that is done."
 
 
 @dataclass(frozen=True)
@@ -758,6 +759,9 @@ def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> Planned:
 def _drawing(results: Results, view: View) -> Drawing:
     try:
         return Drawing(view, view.data(results), view.sentence(results))
+    except compiling.StillCompiling as wait:
+        words = str(wait)
+        return Drawing(view, None, f"{words[0].upper()}{words[1:]}. {_DRAWN_LATER}")
     except ValueError as error:
         return Drawing(view, None, f"Not shown for this scene: {in_page_words(str(error))}.")
     except Exception:

@@ -47,7 +47,8 @@ export function render({ model }) {
     item("svg", "Drawing (SVG)", () =>
       save_file(file("svg"), figures_as_svg(views(), model.title), "image/svg+xml")),
   ]
-  const offer = () => { for (const one of pictures) one.hidden = !(model.figures.length || model.picture) }
+  const drawn = () => model.figures.length > 0 || model.picture
+  const offer = () => { for (const one of pictures) one.hidden = !drawn() }
   model.on("figures", offer)
   offer()
   let wanted = "file"
@@ -107,7 +108,7 @@ export function render({ model }) {
   }
 
   model.on("msg:custom", (message) => {
-    if (message.csv !== undefined && wanted === "table") show_table(message.csv)
+    if (message.csv !== undefined && (wanted === "table" || !message.csv)) show_table(message.csv)
     else if (message.csv !== undefined) save_file(file("csv"), message.csv, "text/csv")
     if (message.python !== undefined) {
       code.textContent = message.python || "Nothing is drawn yet."
@@ -157,6 +158,10 @@ export function render({ model }) {
 
   const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
                                      "aria-label": `Export “${model.title}”` }, "Export")
+  // where there is nothing yet, there is nothing to take along
+  const has_anything = () => { opener.hidden = model.empty && !drawn() }
+  for (const name of ["empty", "figures"]) model.on(name, has_anything)
+  has_anything()
   const menu = menu_of([...pictures, numbers, table, python], { class: "menu", "aria-label": `Export “${model.title}”` })
   opens_below(opener, menu, 190)
   return element("header", {}, words, opener, menu, dialog, table_dialog)

@@ -1,4 +1,5 @@
-// Warnings: one sentence for each limit that is crossed, and all limits on demand.
+// Warnings: the first limit that is crossed in a line, and all limits on demand. Who listens to the
+// page hears of all that are crossed.
 export function render({ model }) {
   const strip = document.createElement("section")
   const warnings = document.createElement("div")
@@ -42,7 +43,7 @@ export function render({ model }) {
       said = text
       warnings.replaceChildren(...crossed.map(({ sentence }) => {
         const line = document.createElement("p")
-        line.textContent = sentence
+        line.textContent = line.title = sentence
         return line
       }))
     }
@@ -51,7 +52,9 @@ export function render({ model }) {
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)
     // where there is little room, the first of it: how many are crossed, or kept
     const [first, ...others] = model.summary.split(", ")
-    more.replaceChildren(first, element("span", { class: "rest" }, others.length ? `, ${others.join(", ")}` : ""))
+    const [count, word, ...how] = first.split(" ")
+    more.replaceChildren(`${count} `, element("span", { class: "word" }, `${word} `), how.join(" "), element("span", { class: "rest" }, others.length ? `, ${others.join(", ")}` : ""),
+      element("span", { class: "help", "aria-hidden": "true" }, "?"))
     more.setAttribute("aria-label", model.summary)
     more.title = list.hidden ? "Show all limits of the model" : "Hide the limits"
     if (!list.hidden) fill()

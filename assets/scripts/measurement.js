@@ -71,9 +71,10 @@ export function render({ model }) {
   // What the file does not say for sure.
   const inputs = {
     x: select("measurement-x", []), y: select("measurement-y", []),
-    unit: select("measurement-unit", spec.units),
+    unit: select("measurement-unit", []),
     full_scale: element("input", { type: "text", id: "measurement-full_scale", inputmode: "decimal", autocomplete: "off" }),
-    sensitivity: element("input", { type: "text", id: "measurement-sensitivity", inputmode: "decimal", autocomplete: "off" }),
+    sensitivity: element("input", { type: "text", id: "measurement-sensitivity", inputmode: "decimal", autocomplete: "off",
+      placeholder: `${spec.usual_sensitivity} is usual` }),
     sample_rate: element("input", { type: "text", id: "measurement-sample_rate", inputmode: "decimal", autocomplete: "off" }),
     shaft_speed: element("input", { type: "text", id: "measurement-shaft_speed", autocomplete: "off" }),
   }
@@ -112,12 +113,15 @@ export function render({ model }) {
 
   const show = () => {
     const { words: sentence, bad, busy, columns, values, refused, reasons, open, said: beside,
-            load: newtons, scaled } = model.state
+            load: newtons, scaled, proposed } = model.state
     if (said.textContent !== sentence) said.textContent = sentence
     root.dataset.mood = bad ? "bad" : busy ? "busy" : "good"
     form.hidden = !columns.length
     for (const name of ["x", "y"])
       inputs[name].replaceChildren(...columns.map(([value, text]) => new Option(text, value)))
+    // a unit that the file does not say is nobody's until somebody has chosen it
+    const asked = proposed === null ? [] : [["", proposed ? `choose (${proposed} is likely)` : "choose"]]
+    inputs.unit.replaceChildren(...[...asked, ...spec.units].map(([value, text]) => new Option(text, value)))
     for (const [name, input] of Object.entries(inputs)) {
       if (values[name] !== undefined) input.value = values[name]
       const wrong = refused[name] ?? ""
@@ -127,7 +131,7 @@ export function render({ model }) {
       fields[name].querySelector(".reason").textContent = wrong ? "" : reasons[name] ?? ""
       fields[name].classList.toggle("open", open.includes(name))
     }
-    agree.hidden = !open.length
+    agree.hidden = open.every((name) => spec.sizes.includes(name))
     facts.textContent = beside
     load.hidden = !newtons
     load.textContent = newtons ? `Load the scene with ${newtons.toPrecision(3)} N, downwards` : ""

@@ -148,6 +148,26 @@
     }
   }
 
+  // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
+  // and jumps where they come together. Here it stays under them. Where Bokeh changes what this is
+  // hung on, it is done as before.
+  const pinch_with_fingers = () => {
+    let tool
+    try {
+      tool = Bokeh.require("models/tools/gestures/wheel_zoom_tool").WheelZoomToolView.prototype
+    } catch {
+      return
+    }
+    if (!tool._pinch || !tool.zoom) return
+    const pinched = new WeakMap()
+    tool._pinch_start = function () { pinched.set(this, 1) }
+    tool._pinch = function ({ sx, sy, scale }) {
+      const by = scale / (pinched.get(this) ?? 1)
+      pinched.set(this, scale)
+      this.zoom(sx, sy, (1 - 1 / by) / this.model.speed)
+    }
+  }
+
   // Figures that come later are marked and coloured as they come.
   const follow = () => {
     window.explorer_theme.follow()
@@ -156,6 +176,7 @@
   const begun = () => {
     if (!window.Bokeh?.documents?.length) return setTimeout(begun, 30)
     keep_styles()
+    pinch_with_fingers()
     follow()
     let shown = root.dataset.tab
     show_welcome()

@@ -8,10 +8,10 @@ export function render({ model }) {
     clearTimeout(timer)
     timer = setTimeout(() => model.send_msg({ look: index }), 40)  // not for what a pointer crosses
   }
-  const row = ({ extent, extent_deg, made_of, probability, percent, explains, fitted, truth }, index) => {
+  const row = ({ extent, length, extent_deg, made_of, probability, percent, explains, fitted, truth }, index) => {
     const filled = element("i")
     filled.style.width = `${Math.max(100*probability, 0.4)}%`
-    const name = element("span", { class: "extent" }, extent)
+    const name = element("span", { class: "extent" }, extent, element("small", {}, length))
     const bar = element("span", { class: "bar" }, filled)
     const mark = truth ? [element("span", { class: "truth" }, `true ${truth}`)] : []
     const seen = element("button", { type: "button", class: "seen", "aria-describedby": `candidate-${index}` },

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,6 +17,7 @@ from bearingcore.model.defect import floor_bytes
 from bearingcore.model.packing import contacts
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import (
+    ANGLES_A_PERIOD,
     MOST_CONTACTS,
     STIFFNESS_TERMS,
     Equilibrium,
@@ -52,6 +54,8 @@ class Modes:
         direction that moves most, numbered by rising frequency: "x1", "y1", "x2", "y2".
     body : (m,)
         "inner" or "outer": the body that moves most in that direction.
+    mean_shape : (m, 2 len(dofs))
+        undamped shapes at the mean stiffness, which the modes are followed by.
     cost
         what the static states would have taken, where that was too much to begin; else empty.
 
@@ -67,6 +71,7 @@ class Modes:
     shape: NDArray[np.float64]
     label: tuple[str, ...]
     body: tuple[str, ...]
+    mean_shape: NDArray[np.float64]
     cost: str = ""
 
     def table(self) -> ResultTable:
@@ -81,21 +86,22 @@ class Modes:
             *((f"{label}_damping_ratio", "1", self.damping_ratio[:, i]) for i, label in labels),
         )
 
-    def bands_table(self) -> ResultTable:
-        """A row a mode: its least and greatest frequency over the cage angles."""
-        known = self.bands()
-        return table_of(
-            ("mode", "", list(known)),
-            ("least", "Hz", [low for low, _ in known.values()]),
-            ("greatest", "Hz", [high for _, high in known.values()]),
-        )
-
     def bands(self) -> dict[str, tuple[float, float]]:
-        """Least and greatest frequency [Hz] of each mode over the cage angles, by label.
+        """Least and greatest frequency [Hz] of each mode at the cage angles, by label.
 
-        NaN for both where no angle has an answer.
+        NaN for both where no angle has an answer. What lies between the angles is not looked at:
+        see `frequency_bands`.
         """
         return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
+
+
+def bands_table(bands: Mapping[str, tuple[float, float]]) -> ResultTable:
+    """A row a mode: its least and greatest frequency [Hz], of `bands` by label."""
+    return table_of(
+        ("mode", "", list(bands)),
+        ("least", "Hz", [low for low, _ in bands.values()]),
+        ("greatest", "Hz", [high for _, high in bands.values()]),
+    )
 
 
 def _band(frequency: NDArray[np.float64]) -> tuple[float, float]:
@@ -126,8 +132,65 @@ def modes(
     return modes_at(equilibrium(scene, cage_angles, most_contacts=most_contacts))
 
 
-def modes_at(state: Equilibrium) -> Modes:
-    """The modes at static states that are already known."""
+def frequency_bands(
+    scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
+) -> dict[str, tuple[float, float]]:
+    """Least and greatest natural frequency [Hz] of each mode, wherever the cage stands.
+
+    Unlike those of `Modes.bands` they do not depend on where the samples lie: around each least
+    and greatest sample it is looked for ever closer, to 1/64 of the distance between them.
+
+    Parameters
+    ----------
+    scene
+        as of `modes`.
+    cage_angles : (n,)
+        [rad] between the first and the last of which it is looked; None takes one period.
+    most_contacts
+        as of `equilibrium`, of the first samples. Where there are more nothing is begun.
+
+    Returns
+    -------
+    {label: (least, greatest)} [Hz]
+        NaN for both where no angle has an answer, or nothing was begun.
+
+    Raises
+    ------
+    ValueError
+        where the support lacks a number, by its name.
+    """
+    if cage_angles is None:
+        turning = any(defect.race == "inner" for defect in scene.defects)
+        samples = ANGLES_A_PERIOD if turning else 3 * ANGLES_A_PERIOD - 2
+        cage_angles = default_cage_angles(scene, samples)
+    first = modes(scene, np.unique(np.asarray(cage_angles, float)), most_contacts=most_contacts)
+    angles, frequency = first.cage_angles, first.frequency
+    if not np.isfinite(frequency).any():
+        return first.bands()
+    for _ in range(_ROUNDS):
+        at = np.concatenate([np.nanargmin(frequency, axis=0), np.nanargmax(frequency, axis=0)])
+        gaps = np.unique(np.concatenate([at - 1, at]))
+        gaps = gaps[(gaps >= 0) & (gaps < len(angles) - 1)]
+        if not gaps.size:
+            break
+        wide = angles[gaps + 1] - angles[gaps]
+        between = (angles[gaps][:, None] + wide[:, None] * _QUARTERS).ravel()
+        found = modes_at(equilibrium(scene, between), like=first)
+        angles = np.concatenate([angles, between])
+        order = np.argsort(angles, kind="stable")
+        angles, frequency = angles[order], np.concatenate([frequency, found.frequency])[order]
+    return dict(zip(first.label, map(_band, frequency.T), strict=True))
+
+
+_ROUNDS = 3
+_QUARTERS = np.array([0.25, 0.5, 0.75])
+
+
+def modes_at(state: Equilibrium, like: Modes | None = None) -> Modes:
+    """The modes at static states that are already known.
+
+    They are followed by those `like` which they are to be, else by those of their mean stiffness.
+    """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
     index = [DOF_NAMES.index(name) for name in dofs]
@@ -136,11 +199,12 @@ def modes_at(state: Equilibrium) -> Modes:
     )
     if state.cost:
         support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
-        names = _labels(_undamped(support, mass)[1], mass, dofs)
+        _, template = _undamped(support, mass)
+        names = _labels(template, mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
         return Modes(
-            scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, cost=state.cost
+            scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, template, state.cost
         )
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
@@ -156,12 +220,14 @@ def modes_at(state: Equilibrium) -> Modes:
         if known.any()
         else two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
     )
-    _, template = _undamped(mean, mass)
+    template = _undamped(mean, mass)[1] if like is None else like.mean_shape
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
         frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
     label, body = _labels(template, mass, dofs)
-    return Modes(scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body)
+    return Modes(
+        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template
+    )
 
 
 def undamped_bands(

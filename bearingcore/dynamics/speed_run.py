@@ -13,7 +13,7 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.dynamics.modes import highest_natural_frequency, modes
+from bearingcore.dynamics.modes import frequency_bands, highest_natural_frequency
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
@@ -162,7 +162,7 @@ def speed_run(
         return run_of(
             np.broadcast_to(np.float64(math.nan), shape),
             from_orbit=np.zeros(speeds.size, dtype=bool),
-            bands=modes(scene).bands(),
+            bands=frequency_bands(scene),
             completed=False,
             cost=cost,
         )
@@ -207,7 +207,7 @@ def speed_run(
     return run_of(
         density,
         from_orbit=proven,
-        bands=modes(scene).bands(),
+        bands=frequency_bands(scene),
         completed=done == speeds.size,
         refusals=refusals,
     )

@@ -8,6 +8,7 @@ import numpy as np
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate, hermite_weights
@@ -48,7 +49,7 @@ def measured(method: Method, setting: float, reference: MotionReference) -> Poin
     """One method at one setting against a reference."""
     problem, duration, rate = reference.problem, reference.duration, reference.sample_rate
     march, seconds, runs = least_time(lambda: method.march(problem, setting, duration, rate))
-    words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {setting:.0e}"
+    words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
     if march.failure:
         return failed(method.name, words, setting, march.failure, seconds, march.calls)
     history = at_rate(march.history, march.step_rate, rate, len(reference.history))
@@ -124,7 +125,11 @@ def motion_experiment(
     points = [
         measured(method, setting, reference)
         for method, setting in in_turn(
-            tasks, lambda task: f"{task[0].name}, {task[1]:.0e}", progress, cancelled, begin=0.1
+            tasks,
+            lambda task: f"{task[0].name}, {scientific(task[1])}",
+            progress,
+            cancelled,
+            begin=0.1,
         )
     ]
     return Experiment(

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from bearingcore.common.numbers import scientific
 from bearingcore.common.table import ResultTable, table_of
 
 T = TypeVar("T")
@@ -88,7 +89,9 @@ class Reference:
     @property
     def sentence(self) -> str:
         """For captions: who agrees with whom, and how well."""
-        apart = ", ".join(f"{name} {value:.1e}" for name, value in self.agreement.items())
+        apart = ", ".join(
+            f"{name} {scientific(value, 2)}" for name, value in self.agreement.items()
+        )
         verdict = "agree" if self.trusted else "DO NOT AGREE, so errors below mean little"
         text = f"{self.families[0]} and {self.families[1]} {verdict}: apart by {apart}"
         return f"{text}. {self.note}" if self.note else text

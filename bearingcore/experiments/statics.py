@@ -18,6 +18,7 @@ from scipy.integrate import trapezoid
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.experiments.compiled_methods import static_states_cold
 from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
@@ -405,7 +406,7 @@ def statics_experiment(
     tasks = [(name, tolerance) for name in names for tolerance in SOLVERS[name][1]]
     points = []
     for name, tolerance in in_turn(
-        tasks, lambda task: f"{task[0]}, {task[1]:.0e}", progress, cancelled, begin=0.2
+        tasks, lambda task: f"{task[0]}, {scientific(task[1])}", progress, cancelled, begin=0.2
     ):
         points.append(_measured(problem, reference, name, tolerance))
     return Experiment(
@@ -439,8 +440,8 @@ def _measured(
         if tolerance <= STRICT and not errors["stiffness"] <= WRONG:
             status = "failed: a wrong answer that it calls solved"
     return Point(
-        name, f"tolerance {tolerance:.0e}", tolerance, errors, seconds, runs, found.evaluations,
-        status,
+        name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds, runs,
+        found.evaluations, status,
     )  # fmt: skip
 
 

@@ -126,6 +126,21 @@ def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> N
     assert back._views["one"][0].csv()
 
 
+def test_numbers_are_offered_again_after_a_way_back_and_only_where_there_are_any(
+    news: list[dict],
+) -> None:
+    there_and_back = [lambda e, n=name: e._tab_asked({"show": n}) for name in ("two", "one")]
+    view = session(*there_and_back)._views["one"][0]
+    assert view.csv() == "depth_m\n5e-05\n"
+    assert not view._caption.empty
+    away, back = there_and_back
+    refused = lambda e: e._asked({"mark": 1, "set": {"depth_um": 400}})  # noqa: E731
+    view = session(away, refused, back)._views["one"][0]
+    assert "more than this view can show" in view._sentence.text
+    assert view.csv() == ""
+    assert view._caption.empty, "no empty file is offered"
+
+
 def test_the_tab_that_was_asked_for_last_is_shown(
     news: list[dict], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -65,6 +65,13 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     expect(page.locator(".field-measurement-y")).to_have_class(re.compile("open"))
     page.locator("#measurement-y").select_option("0")
     expect(said).to_contain_text("fan.wav: 3 s along y at 48\u202f000 Hz")
+    # the file does not say its unit: what needs it waits, and the axis does not pretend
+    unit = page.locator(".field-measurement-unit")
+    expect(unit).to_have_class(re.compile("open"))
+    expect(page.locator("#measurement-unit")).to_have_value("")
+    expect(page.locator(".view-measured-spectrum")).to_contain_text("waits for the unit")
+    page.locator("#measurement-unit").select_option("m/s²")
+    expect(unit).not_to_have_class(re.compile("open"))
     page.locator("#measurement-x").select_option("0")
     expect(said).to_contain_text("cannot be the same column")
     page.locator("#measurement-y").select_option("1")

@@ -12,6 +12,7 @@ from tests.browser.explorer_page import (
     export,
     open_page,
     painted,
+    place,
     rest,
     settle,
     show,
@@ -236,6 +237,35 @@ def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explore
     page.wait_for_timeout(500)
     page.mouse.dblclick(x, y)
     assert shown() == whole
+
+    # many maps on one canvas: whoever zooms into one finds its numbers at the edge
+    show(page, "maps")
+    axes = """() => {
+      const [{ model }] = [...Bokeh.index.query(view => view.model.name === "maps_drawing")]
+      const words = ({ visible, axis_label, formatter }) =>
+        visible && [axis_label, formatter.args.get?.("shown") ?? formatter.args.shown]
+      return [...model.left, ...model.below].map(words).map((found) =>
+        found && [found[0], found[1].data.words])
+    }"""
+    assert page.evaluate(axes) == [False, False]
+    page.mouse.move(*place(page, "maps_drawing", 1.3, -4.0))
+    page.keyboard.down("Control")
+    for _ in range(8):
+        page.mouse.wheel(0, -200)
+    page.keyboard.up("Control")
+    painted(page)
+    left, below = page.evaluate(axes)
+    assert left[0] == "Extent Δφf (°)"
+    assert below[0] == "Loaded balls over cage angle φc (°)"
+    for _, numbers in (left, below):
+        degrees = [float(number) for number in numbers]
+        assert len(degrees) >= 3
+        assert degrees == sorted(degrees)
+        assert 0.0 <= degrees[0] < degrees[-1] <= 91.0
+    page.wait_for_timeout(500)
+    page.mouse.dblclick(*place(page, "maps_drawing", 1.3, -4.0))
+    painted(page)
+    assert page.evaluate(axes) == [False, False]
 
 
 @pytest.mark.proof

@@ -82,7 +82,7 @@ class Found:
 
 def _balls(scene: Scene, job: Work) -> Experiment:
     if not compiling.ready():
-        raise ValueError("balls with mass are still being compiled; allowed: another half minute")
+        raise compiling.StillCompiling
     return balls_experiment(
         scene,
         duration=0.25,

@@ -73,6 +73,12 @@ def _modes_over_nodes(scene: Scene, nodes: bytes) -> Modes:
     return core.modes(scene, np.frombuffer(nodes))
 
 
+def _bands(
+    scene: Scene, first: float, last: float, n_cage_angles: int
+) -> dict[str, tuple[float, float]]:
+    return core.frequency_bands(scene, np.linspace(first, last, n_cage_angles))
+
+
 def _maps(scene: Scene, reach: float, m: int, first: float, last: float, n: int) -> Maps:
     return core.stiffness_maps(scene, np.linspace(0.0, reach, m), np.linspace(first, last, n))
 
@@ -88,14 +94,9 @@ How = Marching | MotionPlanning
 """How a motion comes about: marched from rest, or as a plan has it."""
 
 
-STILL_COMPILING = (
-    "balls with mass are still being compiled, once, which takes half a minute: then they are drawn"
-)
-
-
 def _motion(scene: Scene, how: How) -> Moved:
     if scene.balls == WITH_MASS and not compiling.ready():
-        raise ValueError(STILL_COMPILING)  # here it would hold up every page
+        raise compiling.StillCompiling  # here it would hold up every page
     return _marched(scene, how) if isinstance(how, Marching) else _planned(scene, how)
 
 
@@ -216,6 +217,7 @@ planned_equilibria = SingleFlightCache(_over_nodes, 128)
 single_equilibria = SingleFlightCache(_at, 2048)
 modes = SingleFlightCache(_modes, 256)
 planned_modes = SingleFlightCache(_modes_over_nodes, 64)
+bands = SingleFlightCache(_bands, 256)
 maps = SingleFlightCache(_maps, 16)  # about 2 MB each
 motions = SingleFlightCache(_motion, 8)  # about 20 MB each
 dynamic_loads = SingleFlightCache(_dynamic_load, 512)

@@ -116,11 +116,7 @@ def chain(results: Results) -> Chain:
     peaks: dict[str, Peak] = {}
     silent = ""
     try:
-        bands = {
-            label: band
-            for label, band in results.band_modes.bands().items()
-            if math.isfinite(band[0])
-        }
+        bands = {label: band for label, band in results.bands.items() if math.isfinite(band[0])}
         turns = results.scene.shaft_speed > 0.0
         spectra = results.late_spectra if turns else {}
         peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}

@@ -18,6 +18,17 @@ from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
 from bearingcore.plan.warm_up import motions_with_mass, start_python
 
+
+class StillCompiling(ValueError):  # noqa: N818
+    """Something that cannot be had until all is compiled, and comes by itself then."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "balls with mass are still being compiled for this computer, once; that takes about "
+            "half a minute"
+        )
+
+
 _NICE = 5
 """How far the page goes first: at 10 two busy processes of others leave hardly anything."""
 _IMPORT = f"from {__name__} import compile_behind"

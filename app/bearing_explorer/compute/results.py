@@ -69,7 +69,8 @@ class Results:
     equilibrium, healthy_equilibrium: over the stretch of the curves, with the defect and without
     now, healthy_now: at `cage_angle` alone (arrays of length 1)
     modes, healthy_modes: over the same cage angles
-    band_modes: the modes where only their bands count; at fewer cage angles while a hand moves
+    band_modes: the modes where few cage angles will do while a hand moves
+    bands, healthy_bands: {label: (least, greatest)} of the natural frequencies [Hz]
     extent: of the defect looked at [rad]
     healthy_all_around: like healthy_equilibrium, over all that a pinned scene does
     maps: over its extent and the same cage angles
@@ -332,17 +333,31 @@ class Results:
 
     @cached_property
     def band_modes(self) -> Modes:
-        """`modes` for their bands alone: while a hand moves, at every third cage angle.
-
-        When it rests, at thrice as many where no plan says which: a band is then what a plan
-        finds, within its error, and says the same on every tab.
-        """
+        """`modes`, but at every third cage angle while a hand moves."""
         first, last, n = self.stretch
+        return answers.modes(self.scene, first, last, n // 3 + 1) if self.moving else self.modes
+
+    @cached_property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Between which frequencies [Hz] each mode moves over the stretch.
+
+        Looked for between the cage angles too: the same on every tab, by whatever plan its curves
+        are drawn. While a hand moves it is what few cage angles give.
+        """
+        return self.band_modes.bands() if self.moving else self._bands(self.scene)
+
+    @cached_property
+    def healthy_bands(self) -> dict[str, tuple[float, float]]:
+        """The same without the defect."""
         if self.moving:
-            return answers.modes(self.scene, first, last, n // 3 + 1)
-        if self.settings.cage_angles is not None or self._nodes(healthy=False) is not None:
-            return self.modes
-        return answers.modes(self.scene, first, last, 3 * n - 2)
+            return self.healthy_modes.bands()
+        return self._of_pinned(self._bands, self.beside)
+
+    def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
+        first, last, _ = self.stretch
+        n = self.settings.n_cage_angles
+        samples = default_cage_angles(self.scene, n if self.over_shaft else 3 * n - 2)
+        return answers.bands(scene, first, last, samples.size)
 
     @cached_property
     def healthy_modes(self) -> Modes:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from bearing_explorer.compute.compiling import StillCompiling
 from bearing_explorer.state.quantities import in_page_words
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START
 
@@ -55,6 +56,8 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
             return moving
         if shown & ORBITS:
             return of_orbit(results)
+    except StillCompiling:
+        return Verdict("busy", "Balls with mass are being compiled")
     except ValueError as error:  # the view says it at length
         return Verdict("bad", f"No motion: {in_page_words(str(error))}")
     return static

@@ -21,6 +21,14 @@ def measured_lines(view: Any, results: Results, measured: Measured) -> str:
     return script.text
 
 
+_AS_IN_FILE = "# the unit of the file is not known: the numbers are taken as they stand"
+
+
+def column_name(direction: str, in_si: bool) -> str:
+    """Of the signal along a direction; without a unit where nobody knows it."""
+    return f"acceleration_{direction}_m_per_s2" if in_si else f"signal_{direction}"
+
+
 def _recording(script: Script, measured: Measured) -> None:
     recording, origin = measured.recording, measured.origin
     along = quoted(repr(list(recording.directions)))
@@ -30,9 +38,11 @@ def _recording(script: Script, measured: Measured) -> None:
         script.module("from pathlib import Path")
         name = quoted(repr(origin.file))
         columns = list(origin.columns)
+        unit = quoted(repr(origin.unit if measured.in_si else "m/s²"))
         script.add(
             f"table = read_table({name}, Path({name}).read_bytes())",
-            f"recording = table.recording({columns}, {along}, {quoted(repr(origin.unit))}, {rate}, "
+            *([] if measured.in_si else [_AS_IN_FILE]),
+            f"recording = table.recording({columns}, {along}, {unit}, {rate}, "
             f"{short(origin.full_scale)}{_beside(measured)})",
         )
         return
@@ -75,7 +85,7 @@ def _in_time(script: Script, results: Results, measured: Measured, view: Any) ->
         "columns = {",
         '    "time_s": time,',
         *(
-            f'    "acceleration_{dof}_m_per_s2": recording.acceleration[:, {index}],'
+            f'    "{column_name(dof, measured.in_si)}": recording.acceleration[:, {index}],'
             for index, dof in enumerate(measured.directions)
         ),
         "}",
@@ -84,7 +94,9 @@ def _in_time(script: Script, results: Results, measured: Measured, view: Any) ->
         script,
         "plt.plot(time, recording.acceleration, label=recording.directions)",
         'plt.xlabel("Time (s)")',
-        'plt.ylabel("Acceleration (m/s²)")',
+        'plt.ylabel("Acceleration (m/s²)")'
+        if measured.in_si
+        else 'plt.ylabel("Numbers of the file, unit not known")',
         "plt.legend()",
     )
 

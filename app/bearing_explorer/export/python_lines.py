@@ -343,10 +343,11 @@ def _maps(script: Script, results: Results, view: Any) -> None:
 def _modes(script: Script, results: Results, view: Any) -> None:
     beside = _beside(script, results)
     _both(script, results, "modes", results.modes, results.healthy_modes, beside)
+    script.core("frequency_bands")
     name = results.beside_name
     script.add(
         f'columns = (found.table() | grey.table().prefixed("{name}")).in_units().named()',
-        "print(found.bands())  # least and greatest frequency of each mode [Hz]",
+        "print(frequency_bands(scene))  # least and greatest of each mode [Hz]",
     )
     _plot(
         script,

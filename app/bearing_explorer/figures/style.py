@@ -302,6 +302,28 @@ return texts
     )
 
 
+NARROW = 420
+"""[px] width of a frame below which there is room for short words only."""
+_IS_NARROW = """
+let narrow = false
+const larger = window.explorer_projector?.on ? 1.3 : 1  // as projector.js has it
+try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}  // not laid out
+"""
+
+
+def fitting_words(
+    plot: figure, source: ColumnDataSource, code: str, below: float = NARROW
+) -> CustomJSExpr:
+    """Like `words_of`; the code knows too whether the frame of the plot is `narrow`.
+
+    `below`: of which width [px] it is, with type of the usual size.
+    """
+    # how wide it is is known later than its numbers, and changes
+    write = CustomJS(args={"source": source}, code="source.change.emit()")
+    plot.js_on_change("inner_width", write)
+    return words_of(source, _IS_NARROW + code, plot=plot, below=below)
+
+
 def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:
     """The upright line at the current cage angle; the same look in every figure."""
     return plot.vspan(x=column, source=source, line_color=INK, line_width=1.2, line_alpha=0.75)

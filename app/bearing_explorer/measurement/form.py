@@ -2,10 +2,15 @@
 
 Which columns are the housing's acceleration along x and y, in what unit, how often it was sampled,
 how fast the shaft turned. The form holds text, as a person types it.
+
+What is needed to draw anything is asked first (`questions`). How large a number of the file is
+(`size_questions`) is asked too, and never guessed; until that is answered the numbers are taken as
+they stand, for what does not depend on it.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 from collections.abc import Mapping
@@ -16,14 +21,25 @@ import numpy as np
 
 from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
-from bearingcore.common.numbers import number, span
+from bearingcore.common.numbers import number, span, with_prefix
+from bearingcore.signals.files.contents import NOTHING_SAYS
 from bearingcore.signals.files.facts import Finding
-from bearingcore.signals.files.units import STANDARD_GRAVITY, UNITS, VOLTAGES, kind_of
+from bearingcore.signals.files.units import (
+    STANDARD_GRAVITY,
+    UNITS,
+    VOLTAGES,
+    kind_of,
+    level_doubt,
+)
 
 FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate", "shaft_speed")
 LONGEST_TEXT = 40
 NONE = ""
 """The choice of no column."""
+NOT_KNOWN = ""
+"""A unit or a sensitivity that has not been answered."""
+SIZES = ("unit", "sensitivity")
+"""Fields that say how large the numbers of a file are."""
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
@@ -36,16 +52,21 @@ _WORDS = {
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
     "shaft_speed": ("The shaft speed", "Hz", 1e-3, 1e4),
 }
-_USUAL_SENSITIVITY = "100"
+USUAL_SENSITIVITY = 100
+"""[mV/g]"""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """The form as it is understood: a recording, the shaft speed [rad/s] at it, its origin."""
+    """The form as it is understood: a recording, the shaft speed [rad/s] at it, its origin.
+
+    Without `in_si` the recording holds the numbers of the file: their unit is not known.
+    """
 
     recording: Recording
     shaft_speed: float
     origin: Origin
+    in_si: bool = True
 
 
 class FormError(ValueError):
@@ -64,9 +85,9 @@ def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
     return {
         "x": str(chosen.get("x", NONE)),
         "y": str(chosen.get("y", NONE)),
-        "unit": contents.unit.value,
+        "unit": contents.unit.value if contents.unit.stated else NOT_KNOWN,
         "full_scale": "1",
-        "sensitivity": _USUAL_SENSITIVITY,
+        "sensitivity": NOT_KNOWN,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         "shaft_speed": f"{shaft_speed_hz:g} Hz" if speed is None else _written(speed, table),
     }
@@ -83,10 +104,10 @@ def reasons(table: Table) -> dict[str, str]:
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
     found = dict.fromkeys(choice.columns, choice.reason)
-    found["unit"] = _because(contents.unit)
+    found["unit"] = _because(contents.unit) if contents.unit.stated else "The file does not say it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
-    found["sensitivity"] = "A guess: the usual sensor. It stands on its label."
+    found["sensitivity"] = "It stands on the sensor's label."
     found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
     found["shaft_speed"] = (
         "The file does not say it; this is the scene's." if speed is None else _because(speed)
@@ -113,6 +134,28 @@ def questions(table: Table) -> dict[str, str]:
     return asked
 
 
+def proposed_unit(table: Table) -> str | None:
+    """The unit that is likely where the file does not say it, "" where none is; None if it does."""
+    unit = table.contents.unit
+    if unit.stated:
+        return None
+    return "" if unit.reason.startswith(NOTHING_SAYS) else unit.value
+
+
+def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
+    """What a person has to answer before the signal has a size, by field."""
+    if form["unit"] == NOT_KNOWN:
+        likely = proposed_unit(table)
+        why = f" {likely} is likely: {table.contents.unit.reason}." if likely else ""
+        return {"unit": f"In what unit is it? The file does not say.{why}"}
+    if form["unit"] in VOLTAGES and not form["sensitivity"].strip():
+        return {
+            "sensitivity": "What is the sensitivity of the sensor? It stands on its label; "
+            f"{USUAL_SENSITIVITY} mV/g is usual."
+        }
+    return {}
+
+
 def said(table: Table) -> str:
     """What else a file says about itself, in a line; its load in newtons too."""
     contents = table.contents
@@ -122,7 +165,7 @@ def said(table: Table) -> str:
     words = f"The file says: {', '.join(stated)}." if stated else ""
     if contents.load is not None:
         sure = "" if contents.load.stated else " if it is in pounds"
-        words += f" Its load is {contents.load.value:.4g} N{sure}."
+        words += f" Its load is {with_prefix(contents.load.value, 'N', 4)}{sure}."
     return words.strip()
 
 
@@ -163,8 +206,10 @@ def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) 
     refused: dict[str, str] = {}
     numbers: dict[str, float] = {}
     voltage = texts["unit"] in VOLTAGES
+    stated = table.contents.unit.stated
+    in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
     for name in _WORDS:
-        if name == "sensitivity" and not voltage:
+        if name == "sensitivity" and not (voltage and in_si):
             continue
         try:
             numbers[name] = _speed(texts[name]) if name == "shaft_speed" else _read(name, texts)
@@ -181,19 +226,19 @@ def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) 
         refused["y"] = "There is no such column."
     else:
         refused |= _unfit(table, {name: int(text) for name, text in chosen.items()}, texts["unit"])
-    if texts["unit"] not in UNITS:
+    if texts["unit"] not in UNITS and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
     if refused:
         raise FormError(refused)
     columns = tuple(int(text) for text in chosen.values())
     speed = 2.0 * math.pi * numbers["shaft_speed"]
     # [V/(m/s²)], of a number in mV/g
-    sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY if voltage else None
+    sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY if voltage and in_si else None
     try:
         recording = table.recording(
             columns,
             list(chosen),
-            texts["unit"],
+            texts["unit"] if in_si else "m/s²",  # as they stand
             numbers["sample_rate"],
             numbers["full_scale"],
             sensitivity=sensitivity,
@@ -204,7 +249,14 @@ def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) 
             {next(iter(chosen)): f"These columns are no signal: {_said_by(error)}."}
         ) from None
     origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
-    return Asked(recording, speed, origin)
+    return Asked(recording if in_si else _without_size(recording), speed, origin, in_si)
+
+
+def _without_size(recording: Recording) -> Recording:
+    """The recording without what is said of a size that nobody knows."""
+    doubts = {level_doubt(float(level)) for level in recording.acceleration.std(axis=0)}
+    notes = tuple(note for note in recording.notes if note not in doubts)
+    return dataclasses.replace(recording, notes=notes)
 
 
 def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]:

@@ -22,14 +22,17 @@ from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.background import noise_level, true_part
 from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
+    SIZES,
     Asked,
     FormError,
     columns_of,
     guess,
     load_told,
+    proposed_unit,
     questions,
     reasons,
     said,
+    size_questions,
     understood,
     usable,
 )
@@ -65,7 +68,10 @@ FIRST_WORDS = (
     "scene beside."
 )
 
-_UNIT_GUESSED = "The file does not say its unit: {} is a guess, choose another if it is wrong."
+_WITHOUT_SIZE = (
+    "Which part is damaged does not depend on it and is looked for. The size of the defect, and "
+    "spectra beside the model, wait for the answer."
+)
 _SPEED_OF_SCENE = (
     "The shaft speed is that of the scene: type in the measured one if it was another."
 )
@@ -83,8 +89,10 @@ class MeasurementState:
     refused: dict[str, str] = field(default_factory=dict)
     #: why the fields are filled in as they are
     reasons: dict[str, str] = field(default_factory=dict)
-    #: fields that a person has to answer before the signal is taken
+    #: fields that a person has to answer: before the signal is taken, or before it has a size
     open: list[str] = field(default_factory=list)
+    #: the unit that is likely where the file does not say it, "" where none is; None if it does
+    proposed: str | None = None
     #: what the file says beside its signals
     said: str = ""
     #: [N] in the file, None where it tells none
@@ -215,13 +223,11 @@ class Measurement:
         self.measured = self.sized = None
         if found.asked is not None:
             self.measured = _measured(found.asked)
-            contents = table.contents
-            speed = "" if contents.shaft_speed is not None else _SPEED_OF_SCENE
-            unit = "" if contents.unit.stated else _UNIT_GUESSED.format(contents.unit.value)
-            words, bad = self._summary(unit, speed), False
+            speed = "" if table.contents.shaft_speed is not None else _SPEED_OF_SCENE
+            words, bad = self._summary(_about_size(found.sizes), speed), False
         else:
             words = f"{table.name} is read. {_WAITS} " + " ".join(
-                {**found.asks, **found.refused}.values()
+                {**found.asks, **found.refused, **found.sizes}.values()
             )
             bad = bool(found.refused) and not found.asks
         self._tell(
@@ -231,8 +237,9 @@ class Measurement:
             columns=columns_of(table),
             values=found.form,
             refused={name: text for name, text in found.refused.items() if name not in found.asks},
-            reasons={**reasons(table), **found.asks},
-            open=list(found.asks),
+            reasons={**reasons(table), **found.asks, **found.sizes},
+            open=[*found.asks, *found.sizes],
+            proposed=proposed_unit(table),
             said=said(table),
             load=load_told(table),
             scaled=not table.full_scale_known,
@@ -249,7 +256,8 @@ class Measurement:
             return
         texts = {name: str(form.get(name, ""))[:40] for name in self.state.values}
         first = self._first
-        left = [name for name in self.state.open if not sure and texts.get(name) == first.get(name)]
+        asks = [name for name in self.state.open if name not in SIZES]
+        left = [name for name in asks if not sure and texts.get(name) == first.get(name)]
         if "y" in left and texts.get("x"):
             left.remove("y")
         known = sure or texts.get("shaft_speed") != first.get("shaft_speed")
@@ -266,13 +274,22 @@ class Measurement:
             stays = " What is drawn is the signal as it was." if self.measured else ""
             self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
             return
+        table = self._table
+        if table is None:
+            return
+        asks, sizes = questions(table), size_questions(table, texts)
+        news = {
+            "values": texts,
+            "refused": {},
+            "reasons": {**reasons(table), **asks, **sizes},
+            "open": [*left, *sizes],
+        }
         if left:
-            table = self._table
-            words = " ".join(questions(table).get(name, "") for name in left) if table else ""
-            self._tell(words=f"{_WAITS} {words}", bad=False, values=texts, refused={}, open=left)
+            words = " ".join(asks.get(name, "") for name in left)
+            self._tell(words=f"{_WAITS} {words}", bad=False, **news)
             return
         self.measured = _measured(found)
-        self._tell(words=self._summary(), bad=False, busy=False, values=texts, refused={}, open=[])
+        self._tell(words=self._summary(_about_size(sizes)), bad=False, busy=False, **news)
         self._draw()
 
     def _take_load(self, table: Table) -> None:
@@ -353,7 +370,8 @@ class Measurement:
 
 
 _NO_FORM: Mapping[str, Any] = {
-    "columns": [], "values": {}, "refused": {}, "reasons": {}, "open": [], "said": "", "load": None,
+    "columns": [], "values": {}, "refused": {}, "reasons": {}, "open": [], "proposed": None,
+    "said": "", "load": None,
 }  # fmt: skip
 """Of a state without a file."""
 
@@ -362,7 +380,10 @@ _WAITS = "Nothing is drawn yet:"
 
 @dataclass(frozen=True)
 class _Read:
-    """A file's table, what stands in its form, and the recording or why there is none yet."""
+    """A file's table, what stands in its form, and the recording or why there is none yet.
+
+    `asks` is asked before there is a recording, `sizes` before it has a size.
+    """
 
     table: Table
     form: dict[str, str]
@@ -370,6 +391,7 @@ class _Read:
     asked: Asked | None
     refused: dict[str, str]
     asks: dict[str, str]
+    sizes: dict[str, str]
 
 
 def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
@@ -383,12 +405,18 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
         raise ValueError(f"{name} is too large for this server.") from None
     table, cut = _shortened(table)
     form, asks = guess(table, shaft_speed_hz), questions(table)
+    sizes = size_questions(table, form)
     found = _tried(table, form, _speed_is_stated(table))
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
-        return _Read(table, form, cut, None, found.sentences, asks)
-    return _Read(table, form, cut, None if asks else found, {}, asks)
+        return _Read(table, form, cut, None, found.sentences, asks, sizes)
+    return _Read(table, form, cut, None if asks else found, {}, asks, sizes)
+
+
+def _about_size(sizes: Mapping[str, str]) -> str:
+    """The questions about a signal's size, and what waits for the answers."""
+    return " ".join([*sizes.values(), _WITHOUT_SIZE]) if sizes else ""
 
 
 def _speed_is_stated(table: Table) -> bool:
@@ -398,7 +426,7 @@ def _speed_is_stated(table: Table) -> bool:
 
 
 def _measured(asked: Asked) -> Measured:
-    return Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
+    return Measured(asked.recording, asked.shaft_speed, origin=asked.origin, in_si=asked.in_si)
 
 
 def _tried(table: Table, form: Mapping[str, str], speed_known: bool) -> Asked | FormError:

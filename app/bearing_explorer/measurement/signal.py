@@ -67,6 +67,9 @@ class Measured:
         the part that is damaged, or "none", where the signal is a simulated one; else "".
     noiseless
         whether it is simulated without any noise.
+    in_si
+        whether the recording is in m/s². Else nobody knows its unit or its sensor, and its numbers
+        are those of the file: what needs sizes waits until that is answered.
     """
 
     recording: Recording
@@ -75,6 +78,7 @@ class Measured:
     origin: Origin | None = None
     true_part: str = ""
     noiseless: bool = False
+    in_si: bool = True
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False

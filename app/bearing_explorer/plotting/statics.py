@@ -11,7 +11,7 @@ import numpy as np
 from bearing_explorer.compute.load_curve import load_curve
 from bearing_explorer.figures import style
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
-from bearingcore import STIFFNESS_TERMS, Equilibrium, Modes
+from bearingcore import STIFFNESS_TERMS, Equilibrium, Modes, frequency_bands
 from bearingcore.common import checks
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 from bearingcore.sweep.outputs import mode_symbol
@@ -121,7 +121,7 @@ def modes(found: Modes, *, healthy: Modes | None = None) -> hv.Overlay:
     axes = Axes(style.CAGE_ANGLE, quantity)
     drawn: list[hv.Element] = []
     angles = np.degrees(found.cage_angles)
-    for label, (low, high) in found.bands().items():
+    for label, (low, high) in frequency_bands(found.scene, found.cage_angles).items():
         if math.isfinite(low):
             band = hv.Area(
                 (angles[[0, -1]], [low, low], [high, high]),

@@ -147,14 +147,20 @@ class View:
 
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
+        self._has_drawn = False
         self._sentence = Sentence(
             sizing_mode="stretch_width", margin=0, css_classes=list(self.sentence_looks)
         )
         body = pn.panel(self.build(packed), margin=0)
+        if isinstance(body, pn.pane.Bokeh) and not self.compact:
+            # whether a figure's own pane is visible is taken back from the figure
+            body = pn.Column(body, sizing_mode="stretch_width", margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
+        #: what there is to see, where that is figures alone
+        self._picture = body if self.figures and not self.compact and _only_figures(body) else None
         line, rest = first_sentence(self.caption())
         self._caption = Caption(
             title=self.title,
@@ -206,11 +212,18 @@ class View:
     def say(self, results: Results | None, sentence: str) -> None:
         """Show the sentence and keep the results for the table. On the event loop only.
 
-        Without results the last ones stay, as the last picture does.
+        Without results the last ones stay, as the last picture does. Before the first picture the
+        sentence stands in its place, and no empty axes.
         """
         self._results = results or self._results
+        self._has_drawn = self._has_drawn or results is not None
+        if self._picture is not None:
+            self._picture.visible = self._has_drawn
+            # what nobody sees is not to be saved
+            shown = [plot.id for plot in self.figures] if self._has_drawn else []
+            self._caption.put(figures=shown)
         self._sentence.put(text=sentence)
-        self._caption.put(empty=self.is_empty)
+        self._caption.put(empty=self._results is None or self.is_empty)
         if results is not None and self.compares:
             line, rest = first_sentence(self.caption(results.grey_words))
             pinned = results.pinned.name if results.pinned else ""
@@ -247,6 +260,12 @@ class View:
             self._caption.send({"csv": self.csv()})
         if event.data == "python":
             self._caption.send({"python": self.python()})
+
+
+def _only_figures(body: pn.viewable.Viewable) -> bool:
+    """Whether there is nothing in a layout but figures: nothing to choose or to press."""
+    leaves = [part for part in body.select() if not isinstance(part, pn.layout.ListPanel)]
+    return all(isinstance(part, pn.pane.Bokeh) for part in leaves)
 
 
 def first_sentence(text: str) -> tuple[str, str]:

@@ -132,6 +132,7 @@ class BearingDrawing(View):
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
         plot = style.bare_figure(x, y, height=HEIGHT)
+        plot.min_border_top = 8  # for the words about the load, in large type too
         # on a phone no higher than it is wide, or half of it is empty
         sizes = {"least": 320, "most": HEIGHT, "scale": SCALE_HEIGHT}
         plot.js_on_change("inner_width", CustomJS(args=sizes, code=_NO_HIGHER))

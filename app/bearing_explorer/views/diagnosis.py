@@ -12,7 +12,7 @@ from bearing_explorer.measurement.diagnoses import SPEEDS, Question
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views import part_words
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.measured_view import NOTHING, LookPanel, MeasuredView
+from bearing_explorer.views.measured_view import LookPanel, MeasuredView
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
 from bearing_explorer.widgets.part_panel import EvidenceTable, PartPanel
 from bearingcore import Bearing, Diagnosis
@@ -54,6 +54,7 @@ class PartDiagnosis(MeasuredView):
         "line."
     )
     needs = frozenset()
+    without_size = True
 
     def build(self, packed: PackedSource) -> Any:
         self.speed, self.zoom = "given", Zoom()
@@ -149,7 +150,7 @@ class PartDiagnosis(MeasuredView):
     def sentence(self, results: Results) -> str:
         question = self.question(results.scene.bearing)
         if question is None:
-            return NOTHING
+            return self.why_nothing
         answer = self.answer(results.scene.bearing)
         if answer is None:
             return BUSY

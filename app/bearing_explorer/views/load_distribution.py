@@ -53,7 +53,7 @@ class LoadDistribution(View):
             packed.range("load_distribution_load", 0.0, 100.0),
             height=280,
         )
-        style.fixed_ticks(plot.xaxis[0], range(0, 361, 30))
+        style.fixed_ticks(plot.xaxis[0], range(0, 361, 45))
         plot.xgrid.ticker = plot.xaxis[0].ticker
         plot.vstrip(
             "start",

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.cell_axes import axes_when_zoomed
 from bearing_explorer.figures.color_scales import (
     DIVERGING,
     DIVERGING_DARK,
@@ -94,6 +95,16 @@ def _bar(cell: Cell) -> Cell:
 
 _BARS = [_bar(cell) for cell in _CELLS]
 
+_SCALE_OF = """
+const [{data}] = sources
+const words = data.of_shaft[0] ? 'Shaft angle φs' : 'Cage angle φc'
+const ends = (side) => ({first: data[side + '_first'][0], last: data[side + '_last'][0]})
+return {
+  x: {...ends('x'), factor: 1, unit: '°', words},
+  y: {...ends('y'), factor: 1, unit: '°', words: 'Extent Δφf'},
+}
+"""
+
 
 class StiffnessMaps(View):
     """All stiffness terms and the loaded balls over extent and cage angle."""
@@ -136,6 +147,7 @@ class StiffnessMaps(View):
         _crosshair(plot, now)
         _hover(plot, frames, cells, places, points)
         goes_there(plot, places)
+        axes_when_zoomed(plot, _CELLS, [*SYMBOLS, "Loaded balls"], _SCALE_OF, [grid])
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
         return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
 

@@ -10,7 +10,6 @@ from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.views.frequency_lines import fundamentals
 from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
-from bearing_explorer.views.measured_view import NOTHING
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -73,7 +72,7 @@ class MeasuredEnvelope(FrequencyView):
     def sentence(self, results: Results) -> str:
         measured = self.measured
         if measured is None:
-            return NOTHING
+            return self.why_nothing
         shown = self.shown(results, measured)
         first = fundamentals(measured.scene(results.scene))
         assert shown.band is not None

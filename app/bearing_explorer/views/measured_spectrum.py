@@ -21,7 +21,7 @@ from bearing_explorer.views.frequency_view import (
     Look,
     Shown,
 )
-from bearing_explorer.views.measured_view import NOTHING, write_over
+from bearing_explorer.views.measured_view import write_over
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
 
@@ -76,7 +76,7 @@ class MeasuredSpectrum(FrequencyView):
         measured = self.measured
         if results is None or shown is None or measured is None:
             return sources
-        bands = band_rows(Simulated(results, measured).results.modes)
+        bands = band_rows(Simulated(results, measured).results.bands)
         index = style.DIRECTIONS.index(shown.direction)
         own = {name: column[bands["direction"] == index] for name, column in bands.items()}
         middle = 0.5 * (own["low"] + own["high"])
@@ -87,7 +87,7 @@ class MeasuredSpectrum(FrequencyView):
         model = Simulated(results, measured)
         direction = self.direction(measured)
         resolution = measured.finest(float(self.look.resolution))
-        bands = band_rows(model.results.modes)
+        bands = band_rows(model.results.bands)
         top = max(HIGHEST, 1.05 * float(np.max(bands["high"], initial=0.0)))
         top = min(top, 0.5 * measured.recording.sample_rate)
         spectrum = measured.spectrum(direction, resolution)
@@ -100,7 +100,7 @@ class MeasuredSpectrum(FrequencyView):
     def sentence(self, results: Results) -> str:
         measured = self.measured
         if measured is None:
-            return NOTHING
+            return self.why_nothing
         shown = self.shown(results, measured)
         words = f"Along {shown.direction} above 100 Hz the measured housing vibrates most "
         words += _loudest(shown.measured, shown.top)

@@ -44,13 +44,20 @@ def write_over(
 
 
 NOTHING = "There is no signal yet: choose a file or simulate one above."
+WITHOUT_SIZE = "This waits for the unit of the signal, which is asked above."
+WITHOUT_SENSITIVITY = "This waits for the sensitivity of the sensor, which is asked above."
 
 
 class MeasuredView(View):
-    """A view of the session's measurement. What `build` puts in `self.hidden` waits for one."""
+    """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
+
+    Until there is one only the first view, which asks for it, has anything to say.
+    """
 
     in_report = False
     hidden: Any = None
+    #: whether it can be drawn of a signal whose unit nobody knows yet
+    without_size: ClassVar[bool] = False
     measurement: Measurement | None = None
 
     def attach(self, parts: SessionParts) -> None:
@@ -63,14 +70,26 @@ class MeasuredView(View):
 
     @property
     def measured(self) -> Measured | None:
-        """The signal that is drawn, if there is one."""
-        return None if self.measurement is None else self.measurement.measured
+        """The signal that is drawn, if there is one that can be."""
+        measured = None if self.measurement is None else self.measurement.measured
+        if measured is not None and not (measured.in_si or self.without_size):
+            return None
+        return measured
+
+    @property
+    def why_nothing(self) -> str:
+        """What to say while nothing is drawn: for what it waits, where there is a signal."""
+        there = None if self.measurement is None else self.measurement.measured
+        if there is None:
+            return ""
+        knows_unit = there.origin is not None and there.origin.unit
+        return WITHOUT_SENSITIVITY if knows_unit else WITHOUT_SIZE
 
     def python(self) -> str:
         """Lines of Python that read the file and make what is drawn."""
         measured, results = self.measured, self._results
         if measured is None or results is None:
-            return f"# {NOTHING}\n"
+            return f"# {self.why_nothing or NOTHING}\n"
         return measured_lines(self, results, measured)
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -9,14 +9,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import panel as pn
 import param
+from bokeh.models import LinearAxis
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute.excerpt import least_and_greatest
+from bearing_explorer.export.measured_lines import column_name
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import ROOM, StickyRange
+from bearing_explorer.measurement.form import SIZES, USUAL_SENSITIVITY
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.server.bokeh_private import send_message
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
+AS_IN_FILE = style.AxisQuantity("Numbers of the file, unit not known", "", "")
 TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 HEIGHT = 230
 DRAWN_PARTS = 700
@@ -72,6 +76,7 @@ class MeasurementPanel(JSComponent):
             "refused": state.refused,
             "reasons": state.reasons,
             "open": state.open,
+            "proposed": state.proposed,
             "said": state.said,
             "load": state.load,
             "scaled": state.scaled,
@@ -92,12 +97,15 @@ class MeasuredSignal(MeasuredView):
         "to your machine: bearing, load, support."
     )
     needs = frozenset()
+    without_size = True
 
     def build(self, packed: PackedSource) -> Any:
         self.form = MeasurementPanel(self._asked, spec=spec())
         self.form.show(MeasurementState())
         self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
+        self._sized = [plot.yaxis[0] for plot in plots]
+        self._unsized = [_axis_without_unit(plot) for plot in plots]
         self._mark_events(packed, plots[1])
         wide: dict[str, Any] = {
             "sizing_mode": "stretch_width",
@@ -139,6 +147,16 @@ class MeasuredSignal(MeasuredView):
             self.measurement.asked(message)
 
     # The picture
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        measured = self.measured
+        for axes, shown in (
+            (self._sized, measured is None or measured.in_si),
+            (self._unsized, measured is not None and not measured.in_si),
+        ):
+            for axis in axes:
+                axis.visible = shown
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         measured = self.measured
@@ -187,18 +205,23 @@ class MeasuredSignal(MeasuredView):
     def sentence(self, results: Results) -> str:
         measured = self.measured
         if measured is None:
-            return "There is nothing to draw yet."
+            return self.why_nothing
         recording = measured.recording
         sizes = []
         for index, dof in enumerate(recording.directions):
             signal = recording.acceleration[:, index]
             middle = float(signal.mean())
             root = math.sqrt(float(np.mean((signal - middle) ** 2)))
-            sizes.append(
-                f"{style.with_prefix(root, 'm/s²')} along {dof} about a mean of "
-                f"{style.with_prefix(middle, 'm/s²', 2)}"
-            )
-        return f"Root mean square of the acceleration: {style.list_words(sizes)}."
+            if measured.in_si:
+                level, mean = (
+                    style.with_prefix(root, "m/s²"),
+                    style.with_prefix(middle, "m/s²", 2),
+                )
+            else:
+                level, mean = style.number(root, 3), style.number(middle, 2)
+            sizes.append(f"{level} along {dof} about a mean of {mean}")
+        of = "the acceleration" if measured.in_si else "the numbers of the file"
+        return f"Root mean square of {of}: {style.list_words(sizes)}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         measured = self.measured
@@ -208,8 +231,17 @@ class MeasuredSignal(MeasuredView):
         first, last = close_view(measured, measured.scene(results.scene))
         table = {"time_s": np.arange(first, last) / recording.sample_rate}
         for index, dof in enumerate(recording.directions):
-            table[f"acceleration_{dof}_m_per_s2"] = recording.acceleration[first:last, index]
+            table[column_name(dof, measured.in_si)] = recording.acceleration[first:last, index]
         return table
+
+
+def _axis_without_unit(plot: figure) -> LinearAxis:
+    """A second axis of a figure for numbers whose unit nobody knows; hidden until there are any."""
+    axis = LinearAxis(visible=False)
+    style.style_axis(axis)
+    style.write_units(axis, AS_IN_FILE, plot.y_range)
+    plot.add_layout(axis, "left")
+    return axis
 
 
 def spec() -> dict[str, Any]:
@@ -229,6 +261,8 @@ def spec() -> dict[str, Any]:
             for name, length in PITS.items()
         ],
         "units": [[unit, unit] for unit in UNITS],
+        "sizes": list(SIZES),
+        "usual_sensitivity": USUAL_SENSITIVITY,
     }
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, LinearColorMapper
+from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -18,17 +19,21 @@ from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-    from bearingcore import Modes
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
 LABEL_PIXELS = 16.0  # height that a label needs
 
-BAND_WORDS = """
+_BAND_NAME = """
 const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
+"""
+_BAND_SPAN = """
 const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
+BAND_WORDS = _BAND_NAME + _BAND_SPAN
+SHORT_BAND_WORDS = f"{_BAND_NAME}\nif (narrow) return name\n{_BAND_SPAN}"
+"""The same for `style.fitting_words`."""
 
 
 def direction_mapper() -> LinearColorMapper:
@@ -48,7 +53,7 @@ class NaturalFrequencies(View):
         " direction that moves most. Shaded: the band in which it moves. Grey: {grey}. "
         "Black: now."
     )
-    needs = frozenset({"modes", "healthy_modes"})
+    needs = frozenset({"modes", "healthy_modes", "bands", "healthy_bands"})
     plans = ("modes",)
 
     def build(self, packed: PackedSource) -> Any:
@@ -60,11 +65,9 @@ class NaturalFrequencies(View):
             self._angle_range,
             packed.range("modes_frequency", 0.0, 2000.0),
             height=HEIGHT,
-            right=128,
+            right=148,
         )
-        bands = packed.source(
-            "modes_bands", "low", "high", "direction", "number", "end", "label_at"
-        )
+        bands = packed.source("modes_bands", "low", "high", "direction", "number", "label_at")
         colors = direction_mapper()
         plot.hstrip(
             "low",
@@ -95,9 +98,12 @@ class NaturalFrequencies(View):
         return plot
 
     def _label(self, plot: figure, bands: ColumnDataSource, colors: LinearColorMapper) -> None:
+        # at the right edge also of who has zoomed in
+        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
         plot.text(
-            "end",
+            1.0,
             "label_at",
+            x_range_name="shares",
             text=style.words_of(bands, BAND_WORDS),
             source=bands,
             level="annotation",  # beside the frame, not cut off by it
@@ -110,12 +116,11 @@ class NaturalFrequencies(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes, healthy = results.modes, results.healthy_modes
-        shown = self._range.fit(modes.frequency, healthy.frequency)
+        bands = band_rows(results.bands)
+        shown = self._range.fit(modes.frequency, healthy.frequency, bands["low"], bands["high"])
         angle = results.along(modes.cage_angles)
-        bands = band_rows(modes)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
         middle = 0.5 * (bands["low"] + bands["high"])
-        bands["end"] = np.full(middle.size, angle[-1])
         bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
         sources: Sources = {
             "modes_bands": bands,
@@ -132,7 +137,7 @@ class NaturalFrequencies(View):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, healthy = results.modes.bands(), results.healthy_modes.bands()
+        bands, healthy = results.bands, results.healthy_bands
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             return "There is no static state to take natural frequencies from."
@@ -165,11 +170,11 @@ def _from_to(band: tuple[float, float]) -> str:
     return f"from {words}" if " to " in words else f"at {words}"
 
 
-def band_rows(modes: Modes) -> dict[str, np.ndarray]:
+def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:
     """Bands as columns: low and high [Hz], index of the direction, number of the mode."""
     rows = [
         (low, high, style.DIRECTIONS.index(label[:-1]), int(label[-1]))
-        for label, (low, high) in modes.bands().items()
+        for label, (low, high) in bands.items()
         if np.isfinite(low)
     ]
     low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T

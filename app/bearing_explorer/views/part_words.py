@@ -118,6 +118,8 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
             f"{style.number(1e3 * bearing.pitch_diameter, 4)} mm, contact angle {angle}",
         ],
     ]
+    if not question.measured.in_si:
+        rows.append(["Unit", "not known; the part does not depend on it"])
     if found.spectrum is not None:
         low, high = found.spectrum.band
         rows.append(["Heard in", f"{band(low, high)}, along {found.spectrum.direction}"])

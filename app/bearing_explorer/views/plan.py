@@ -11,6 +11,7 @@ import param
 from bokeh.models import CustomJSTickFormatter, FixedTicker, Range1d
 
 from bearing_explorer.assets import asset_path, asset_text
+from bearing_explorer.compute import compiling
 from bearing_explorer.figures import style
 from bearing_explorer.server.live_component import LiveComponent
 from bearing_explorer.server.packed_source import PackedSource
@@ -105,7 +106,10 @@ class PlanInFull(View):
 
     def sentence(self, results: Results) -> str:
         if not results.plans:
-            return "While something moves, curves are drawn at equally spaced cage angles."
+            return (
+                "It is planned as soon as the hand rests; until then curves are drawn at equally "
+                "spaced cage angles."
+            )
         unmet = [TITLES[view].lower() for view, made in results.plans.items() if not made.met]
         words = (
             "Below the table: the cage angles of each kind of curve, close where balls meet edges, "
@@ -113,6 +117,8 @@ class PlanInFull(View):
         )
         if unmet:
             words += f". What is allowed is not met for {style.list_words(unmet)}"
+        if SETTLED not in results.plans and not compiling.ready():
+            words += ". Motions are planned as soon as all is compiled, which is done once"
         return words + "."
 
     def say(self, results: Results | None, sentence: str) -> None:

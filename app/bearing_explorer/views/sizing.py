@@ -28,7 +28,7 @@ from bearing_explorer.views.frequency_lines import FAMILIES
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
-from bearing_explorer.views.modes import BAND_WORDS, spread
+from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
     FREQUENCY,
@@ -36,7 +36,7 @@ from bearing_explorer.views.vibration_spectrum import (
     SHOWN,
     decibels,
 )
-from bearing_explorer.widgets.candidates import CandidateList, in_degrees, rows
+from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
 from bearingcore.common.numbers import with_deviation
@@ -183,7 +183,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         measured = self.measured
         if measured is None:
-            raise ValueError(NOTHING)
+            raise ValueError(self.why_nothing or NOTHING)
         scene = measured.scene(focused(editor.scene, editor.selected))
         fault = given.get("fault") or None
         if fault not in (None, OUTER):
@@ -310,11 +310,14 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     def sentence(self, results: Results) -> str:
         if self.measured is None:
-            return NOTHING
+            return self.why_nothing
         sized = self.sized
         if sized is None:
             return self._not_yet(results)
-        words = sized.sizing.status
+        sizing = sized.sizing
+        words = sizing.status
+        if sizing.conclusive:
+            words += f" Along the race that is {along_race(sizing.best.extent, sized.scene)}."
         truth = sized.measured.true_extent
         if truth is not None:
             words += f" The signal is simulated: the true extent is {in_degrees(truth)}."
@@ -422,7 +425,8 @@ def status(sized: Sized) -> dict[str, Any]:
     if not sizing.conclusive:
         return {"mood": "bad", "words": "The signal cannot tell", "details": details}
     size = with_deviation(math.degrees(best.extent), math.degrees(sizing.extent_uncertainty), "°")
-    return {"mood": "good", "words": f"The defect extends over {size}", "details": details}
+    words = f"The defect extends over {size}, {along_race(best.extent, scene)}"
+    return {"mood": "good", "words": words, "details": details}
 
 
 def same_machine(one: Scene, other: Scene) -> bool:
@@ -484,11 +488,6 @@ def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> 
 
 def bands_of(candidate: Candidate, dof: str, top: float) -> dict[str, NDArray[np.float64]]:
     """A candidate's natural-frequency bands along a direction, with places for their names."""
-    found = [
-        (low, high, style.DIRECTIONS.index(dof), int(label[-1]))
-        for label, (low, high) in candidate.bands.items()
-        if label[:-1] == dof and math.isfinite(low)
-    ]
-    low, high, direction, number = np.array(found, dtype=float).reshape(-1, 4).T
-    place = spread(0.5 * (low + high), NAME_WIDTH * top, 0.0, top)
-    return {"low": low, "high": high, "direction": direction, "number": number, "label_at": place}
+    bands = band_rows({label: ends for label, ends in candidate.bands.items() if label[:-1] == dof})
+    middle = 0.5 * (bands["low"] + bands["high"])
+    return {**bands, "label_at": spread(middle, NAME_WIDTH * top, 0.0, top)}

@@ -40,7 +40,7 @@ from bearing_explorer.state.value_range import (
 )
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.modes import BAND_WORDS, spread
+from bearing_explorer.views.modes import SHORT_BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
 
@@ -59,7 +59,8 @@ HEIGHT = 520
 
 _SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABLE[SPEED])}
 _SAY = "return isNaN(cell[0]) ? 'not computed' : `${cell[0].toFixed(1).replace('-', '\\u2212')} dB`"
-_HARMONIC_WORDS = "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
+_HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
+_HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
 _SWITCH = """
 const shown = cb_obj.active
 parts.forEach((own, which) => { for (const part of own) part.visible = which == shown })
@@ -190,7 +191,8 @@ class SpeedRunSpectra(JobView[Found]):
             line_alpha=0.9, line_width=1.0,
         )  # fmt: skip
         names = plot.text(
-            "label_at", 0.965, y_range_name="rows", text=style.words_of(bands, BAND_WORDS),
+            "label_at", 0.965, y_range_name="rows",
+            text=style.fitting_words(plot, bands, SHORT_BAND_WORDS),
             source=bands, text_align="center", text_baseline="middle",
             text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
             text_color=style.LIGHT, background_fill_color=style.SHADE,
@@ -206,7 +208,7 @@ class SpeedRunSpectra(JobView[Found]):
             line_width=1.0, line_dash=[5, 4],
         )  # fmt: skip
         names = plot.text(
-            "frequency", "speed", text=style.words_of(self._names, _HARMONIC_WORDS),
+            "frequency", "speed", text=style.fitting_words(plot, self._names, _HARMONIC_WORDS),
             source=self._names, text_align="center", text_baseline="top", y_offset=36,
             text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
             text_color=style.LIGHT, background_fill_color=style.SHADE,
@@ -400,17 +402,9 @@ def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> t
 
 def band_columns(run: SpeedRun, dof: str, top: float) -> dict[str, np.ndarray]:
     """Bands of the modes of one direction as columns, with the places of their labels."""
-    rows = [
-        (low, high, style.DIRECTIONS.index(dof), int(label[-1]))
-        for label, (low, high) in run.bands.items()
-        if label[:-1] == dof and np.isfinite(low)
-    ]
-    low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T
-    middle = 0.5 * (low + high)
-    places = spread(middle, LABEL_WIDTH * top, 0.0, top)
-    return {
-        "low": low, "high": high, "direction": direction, "number": number, "label_at": places,
-    }  # fmt: skip
+    bands = band_rows({label: ends for label, ends in run.bands.items() if label[:-1] == dof})
+    middle = 0.5 * (bands["low"] + bands["high"])
+    return {**bands, "label_at": spread(middle, LABEL_WIDTH * top, 0.0, top)}
 
 
 def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:

@@ -20,6 +20,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.compute.chain import over_turn
 from bearing_explorer.compute.results import Results
+from bearing_explorer.figures.cell_axes import axes_when_zoomed
 from bearing_explorer.figures.element_words import elements
 from bearing_explorer.figures.matrix_cells import (
     PLACES,
@@ -40,6 +41,7 @@ from bearing_explorer.figures.style import (
     INK,
     STEEL_EDGE,
     bare_figure,
+    fitting_words,
     in_degrees,
     with_prefix,
     words_of,
@@ -48,6 +50,9 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.statics.equilibrium import TERM_UNITS
+
+NARROWEST = 700
+"""[px] width from which a cell has room for its symbol and its value."""
 
 
 def _cell(row: int, column: int) -> Cell:
@@ -85,7 +90,7 @@ class Stiffness(View):
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
-        plot = bare_figure(Range1d(-0.02, 5.03), Range1d(-5.08, 0.0), height=524)
+        plot = bare_figure(Range1d(-0.05, 5.03), Range1d(-5.08, 0.0), height=524)
         # Fifteen cells need some width; on a phone they scroll inside their card. (As a
         # property of the figure, Panel would hand the width on to the whole card.)
         plot.min_width = None
@@ -111,6 +116,8 @@ class Stiffness(View):
         plot.line("x", "y", source=healthy, line_color=HEALTHY, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
+        names = [*SYMBOLS, "Loaded balls"]
+        axes_when_zoomed(plot, _FRAMES, names, _SCALE_OF, [cells, axis], units=[*UNITS, ""])
         scroll = ":host { overflow-x: auto; max-width: 100%; }"
         return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
 
@@ -221,6 +228,16 @@ class Stiffness(View):
         return columns
 
 
+_SCALE_OF = """
+const [{data: rows}, {data: axis}] = sources
+const unit = units[rows.unit[k]], [low, high] = [rows.low[k], rows.high[k]]
+const e = unit ? power(Math.max(Math.abs(low), Math.abs(high))) : 0
+const words = axis.shaft[0] ? 'Shaft angle φs' : 'Cage angle φc'
+return {
+  x: {first: 0, last: Math.max(...rows.foot), factor: 1, unit: '°', words},
+  y: {first: low, last: high, factor: 10**e, unit: unit ? names[e] + unit : '', words: ''},
+}
+"""
 _GAP = np.array([np.nan])
 _AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
 
@@ -284,6 +301,7 @@ const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
 return minus(String(Number((row.%s/10**e).toPrecision(4))))
 """
     now = """
+if (narrow) return ''  // it would lie on the symbol
 if (isNaN(row.now)) return 'no value'
 if (!unit) return rounded(row.now, 3)
 const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
@@ -298,7 +316,7 @@ return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
         cells,
         x="right",
         y="top",
-        text=words_of(cells, names + now),
+        text=fitting_words(plot, cells, names + now, NARROWEST),
         y_offset=-6,
         text_align="right",
     )

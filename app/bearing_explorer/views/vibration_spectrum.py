@@ -55,7 +55,7 @@ class VibrationSpectra(View):
         "density along x and y, 32 Hz resolution. Grey: {grey}. Shaded: the bands of "
         "the natural frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "band_modes"})
+    needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
     plans = (SETTLED,)
     #: whether it goes up to half the sample rate, on a logarithmic frequency axis
     wide = False
@@ -188,7 +188,7 @@ class VibrationSpectra(View):
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        bands = band_rows(results.band_modes)
+        bands = band_rows(results.bands)
         top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
         drawn = drawn_levels(results.late_spectra, top)
         in_view = np.concatenate([drawn[dof] for dof in SHOWN])

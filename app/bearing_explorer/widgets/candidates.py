@@ -10,8 +10,9 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.figures import style
 from bearing_explorer.measurement.session import Sized
-from bearingcore import Candidate
+from bearingcore import Candidate, Scene
 from bearingcore.common.numbers import probability
 
 
@@ -40,6 +41,7 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
     return [
         {
             "extent": in_degrees(candidate.extent),
+            "length": along_race(candidate.extent, sized.scene),
             "extent_deg": round(math.degrees(candidate.extent), 2),
             "made_of": made_of(candidate, spacing),
             "probability": candidate.probability,
@@ -69,6 +71,11 @@ def fitted(candidate: Candidate) -> str:
         if abs(factor - 1.0) >= 0.005
     ]
     return ", ".join(parts) if parts else "the scene's numbers as they are"
+
+
+def along_race(extent: float, scene: Scene) -> str:
+    """How long an extent [rad] is on the outer race, in mm."""
+    return style.with_prefix(extent * scene.bearing.outer_raceway_radius, "m")
 
 
 def in_degrees(angle: float) -> str:

@@ -49,7 +49,7 @@ from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.diagnosis.size.supports import SupportTrial, dependence, other_supports
 from bearingcore.diagnosis.size.synthesis import Band, comparison_band
 from bearingcore.diagnosis.size.variants import PathTolerances, Tolerances
-from bearingcore.dynamics.modes import modes
+from bearingcore.dynamics.modes import frequency_bands
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import MASSLESS, Scene
@@ -158,7 +158,7 @@ class Candidate:
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest natural frequency [Hz] of each mode, by label."""
-        return modes(self.scene).bands()
+        return frequency_bands(self.scene)
 
     def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
         """The simulated mean pass (n, d), laid over the measured one."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import number
 from bearingcore.signals.files import facts
 from bearingcore.signals.files.channels import (
     OTHER,
@@ -32,6 +33,9 @@ USUAL_LEVEL = 5.0
 
 GRAVITY_SHARE = 0.1
 """How near a mean comes to gravity where it is that."""
+
+NOTHING_SAYS = "nothing says"
+"""So begins the reason of a unit that is not even a guess."""
 
 
 MOST_NUMBERS = 16_000_000
@@ -244,9 +248,9 @@ def _unit(
     if known.unit is not None:
         return known.unit
     if not picked:
-        return Finding("m/s²", "nothing says it", False)
+        return Finding("m/s²", f"{NOTHING_SAYS} it", False)
     if table.full_scale_known is False:
-        return Finding("m/s²", "nothing says what full scale is", False)
+        return Finding("m/s²", f"{NOTHING_SAYS} what full scale is", False)
     return _unit_by_level(table.columns[:, list(picked)])
 
 
@@ -258,16 +262,16 @@ def _unit_by_level(signals: NDArray[np.float64]) -> Finding[str]:
         level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
     for unit, gravity in (("g", 1.0), ("m/s²", STANDARD_GRAVITY)):
         if np.any((np.abs(means / gravity - 1.0) < GRAVITY_SHARE) & (level < gravity)):
-            return Finding(unit, f"a mean of {means.max():.3g} is gravity in {unit}", False)
+            return Finding(unit, f"a mean of {number(means.max())} is gravity in {unit}", False)
     if not 0.0 < level < np.inf:
-        return Finding("m/s²", "nothing says it", False)
+        return Finding("m/s²", f"{NOTHING_SAYS} it", False)
     strays = {
         unit: abs(float(np.log(level * ACCELERATIONS[unit] / USUAL_LEVEL)))
         for unit in ("g", "m/s²")
     }
     best = min(strays, key=lambda unit: strays[unit])
     other = "g" if best == "m/s²" else "m/s²"
-    why = f"a root mean square of {level:.2g} is more usual in {best} than in {other}"
+    why = f"a root mean square of {number(level, 2)} is more usual in {best} than in {other}"
     return Finding(best, why, False)
 
 

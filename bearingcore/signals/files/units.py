@@ -16,6 +16,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.numbers import number
+
 STANDARD_GRAVITY = 9.80665
 """[m/s²]"""
 
@@ -186,7 +188,7 @@ def level_doubt(level: float) -> str:
     >>> level_doubt(3.0)
     ''
     """
-    words = f"{level:.2g} m/s² ({level / STANDARD_GRAVITY:.2g} g)"
+    words = f"{number(level, 2)} m/s² ({number(level / STANDARD_GRAVITY, 2)} g)"
     if level > GREATEST_LEVEL:
         return f"A root mean square of {words} is more than bearings give: the unit may be another."
     if level < LEAST_LEVEL:

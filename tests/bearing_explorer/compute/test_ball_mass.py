@@ -45,16 +45,22 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
         sentence = lambda: explorer._views["one"][0]._sentence.text  # noqa: E731
         await until(lambda: "one" in explorer._views and sentence())
         waiting = sentence()
+        # in the view itself, in the place of axes without lines; the foot says no error
+        assert not explorer._views["one"][0]._picture.visible
+        assert explorer._views["one"][0]._caption.empty
+        assert explorer.status.line["mood"] == "busy"
         ready[0] = True
         await until(lambda: "mass" in sentence() and "compiled" not in sentence())
         drawn = sentence()
+        assert explorer._views["one"][0]._picture.visible, drawn
         await until(lambda: details and "massless: " in details[-1])
         await until(lambda: explorer._worker.idle and explorer._idle_task.idle)
         explorer.stop()
         return waiting, drawn
 
     waiting, drawn = run(live())
-    assert "still being compiled" in waiting
+    assert waiting.startswith("Balls with mass are still being compiled")
+    assert "drawn by itself" in waiting
     assert "up the mass of the balls gives most of the power" in drawn
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import io
 import math
+import re
 import struct
 import zlib
 
@@ -98,8 +99,8 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     truth, content = file_from_elsewhere()
     made = brought("rig.csv", content)
     assert not made.state.bad
-    assert made.state.values["unit"] == "g"  # the headings do not tell it, the level lets guess
-    assert "A guess: a root mean square" in made.state.reasons["unit"]
+    assert made.state.values["unit"] == ""  # the headings do not tell it: it is asked, not guessed
+    assert "g is likely: a root mean square" in made.state.reasons["unit"]
     assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
     measured = made.measured
     assert measured is not None
@@ -118,7 +119,7 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     assert made.measured.shaft_speed == pytest.approx(truth.shaft_speed)
     assert made.measured.recording.shaft_speed == made.measured.shaft_speed
     ratio = measured.recording.acceleration / made.measured.recording.acceleration
-    np.testing.assert_allclose(ratio, 9.80665)
+    np.testing.assert_allclose(ratio, 1.0)
 
 
 def test_large_files_come_in_pieces_that_the_websocket_takes():
@@ -130,6 +131,13 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
     np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
     assert made.state.scaled
     assert made.state.values["sample_rate"] == "51200"
+    assert made.state.open == ["unit"]
+    assert made.state.proposed == ""  # what full scale stands for may be anything
+    answer(made, unit="g", full_scale="50")
+    assert not made.state.open
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration, 50.0 * 9.80665 * columns, rtol=1e-6
+    )
 
 
 @pytest.mark.parametrize(
@@ -138,17 +146,18 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
         ("a.csv", csv_of(NOISE, "time [s],ax [g],ay [g]"), ("1", "2", "g", "10000", "7 Hz")),
         ("a.csv", csv_of(NOISE, "t,vertical (m/s^2),hor"), ("2", "1", "m/s²", "10000", "7 Hz")),
         ("a.csv", csv_of(NOISE[:, :1], "time,sensor_g"), ("", "1", "g", "10000", "7 Hz")),
-        ("a.wav", wav_of(NOISE), ("0", "1", "m/s²", "8000", "7 Hz")),
-        ("a.wav", wav_of(NOISE[:, 0]), ("", "0", "m/s²", "8000", "7 Hz")),
+        ("a.csv", csv_of(NOISE, "time,ax,ay"), ("1", "2", "", "10000", "7 Hz")),
+        ("a.wav", wav_of(NOISE), ("0", "1", "", "8000", "7 Hz")),
+        ("a.wav", wav_of(NOISE[:, 0]), ("", "0", "", "8000", "7 Hz")),
         (
             "a.mat",
             mat_of(X097_DE_time=NOISE[:, :1], X097RPM=np.array([[1797.0]]), fs=np.array([[12e3]])),
-            ("", "0", "g", "12000", "1797 rpm"),
+            ("", "0", "", "12000", "1797 rpm"),
         ),
         (
             "a.mat",
             mat_of(DE=NOISE[:, :1], FE=NOISE[:, 1:], BA=NOISE[:, :1], sr=np.array([[12e3]])),
-            ("", "", "g", "12000", "7 Hz"),  # three places: asked
+            ("", "", "", "12000", "7 Hz"),  # three places: asked
         ),
     ],
 )
@@ -156,6 +165,53 @@ def test_guesses(name, content, expected):
     form = guess(read_table(name, content), 7.0)
     keys = ("x", "y", "unit", "sample_rate", "shaft_speed")
     assert tuple(form[key] for key in keys) == expected
+
+
+def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
+    """Its numbers are taken as they stand, for what does not depend on it, until it is answered."""
+    made = brought("a.csv", csv_of(0.3 * NOISE, "time,x,y"), signal())
+    assert made.measured is not None
+    assert not made.measured.in_si
+    assert not made.state.bad
+    np.testing.assert_allclose(made.measured.recording.acceleration, 0.3 * NOISE, rtol=1e-5)
+    assert made.state.open == ["unit"]
+    assert made.state.values["unit"] == ""
+    assert made.state.proposed == "g"
+    assert "g is likely: a root mean square of 0.3" in made.state.reasons["unit"]
+    assert made.state.reasons["unit"] in made.state.words
+    assert "Which part is damaged does not depend on it" in made.state.words
+    answer(made, sure="yes")  # agreeing to guesses is no answer to this
+    assert made.state.open == ["unit"]
+    assert not made.measured.in_si
+    answer(made, unit="g")
+    assert made.measured.in_si
+    assert not made.state.open
+    assert "likely" not in made.state.words + made.state.reasons["unit"]
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration, 0.3 * 9.80665 * NOISE, rtol=1e-5
+    )
+    answer(made, unit="")  # taken back
+    assert not made.measured.in_si
+    assert made.state.open == ["unit"]
+
+
+def test_a_unit_that_the_file_says_is_not_asked():
+    made = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))
+    assert made.measured is not None
+    assert made.measured.in_si
+    assert made.state.proposed is None
+    assert not made.state.open
+    answer(made, unit="")
+    assert "one of m/s²" in made.state.refused["unit"]
+
+
+def test_a_size_that_nobody_knows_is_not_doubted():
+    made = brought("much.csv", csv_of(3e5 * NOISE, "time,x,y"))
+    assert made.measured is not None
+    assert "more than bearings give" not in made.state.words
+    assert not made.measured.recording.notes
+    answer(made, unit="g")
+    assert "more than bearings give" in made.state.words
 
 
 def test_what_the_file_does_not_tell_is_asked_for():
@@ -176,6 +232,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
     assert made.measured.recording.sample_rate == 12_800.0
     assert not made.state.bad
     assert not made.state.refused
+    assert made.state.open == ["unit"]
 
 
 @pytest.mark.parametrize(
@@ -262,7 +319,7 @@ def test_sensors_at_several_places_are_asked_about_and_never_mixed():
     made = brought("12k_IR_105.mat", case_western(), signal())
     assert made.measured is None
     assert not made.state.bad
-    assert set(made.state.open) == {"y", "sample_rate"}
+    assert set(made.state.open) == {"y", "sample_rate", "unit"}
     assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
     assert "Is 12000 Hz the sample rate? A guess: “12k”" in made.state.reasons["sample_rate"]
     assert "X105RPM" in made.state.reasons["shaft_speed"]
@@ -272,8 +329,8 @@ def test_sensors_at_several_places_are_asked_about_and_never_mixed():
     assert "two places (drive end and fan end)" in made.state.refused["x"]
     answer(made, x="", y="0")
     assert made.measured is None  # the rate is still only a guess
-    assert made.state.open == ["sample_rate"]
-    answer(made, y="0", sure="yes")
+    assert made.state.open == ["sample_rate", "unit"]
+    answer(made, y="0", unit="g", sure="yes")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_000.0
     assert made.measured.recording.shaft_speed == pytest.approx(1797 * math.pi / 30.0)
@@ -301,6 +358,11 @@ def test_voltages_need_their_sensor():
     made = brought("v.csv", csv_of(NOISE[:, :1], "time [s],ch1 [mV]"))
     assert made.measured is not None
     assert made.state.values["unit"] == "mV"
+    assert made.state.open == ["sensitivity"]  # a voltage says nothing without it
+    assert "100 mV/g is usual" in made.state.words
+    assert not made.measured.in_si
+    answer(made, sensitivity="100")
+    assert made.measured.in_si
     level = made.measured.recording.acceleration.std()
     assert level == pytest.approx(NOISE[:, 0].std() / 100.0 * 9.80665, rel=1e-4)
     answer(made, sensitivity="10 mV/g")
@@ -337,16 +399,18 @@ def test_a_gap_is_told_and_a_rounded_time_asks_for_its_rate():
     lines = [f"{row / 1e4:.3f},{NOISE[row, 0]:.6g}" for row in range(2000)]
     made = brought("rounded.csv", ("time,y\n" + "\n".join(lines)).encode())
     assert made.measured is None
-    assert made.state.open == ["sample_rate"]
+    assert made.state.open == ["sample_rate", "unit"]
     assert "rounded to 0.001 s" in made.state.words
     assert made.state.values["sample_rate"] == "10000"
     answer(made, sure="yes")
     assert made.measured is not None
+    assert made.state.open == ["unit"]
 
 
 def test_a_level_that_no_bearing_gives_is_doubted():
     made = brought("much.csv", csv_of(NOISE[:, :1] * 3e4, "time,y [g]"))
     assert "more than bearings give" in made.state.words
+    assert not re.search(r"\de[+-]\d", made.state.words)
 
 
 # -- bad files -------------------------------------------------------------------------------------

@@ -94,7 +94,7 @@ def first_warned() -> float:
 @cache
 def on_the_page(extent_deg: float) -> dict[str, tuple[float, float]]:
     """Bands of the natural frequencies as the page shows them when the hand rests."""
-    return Results(fan(extent_deg), planned=NaturalFrequencies.plans).modes.bands()
+    return Results(fan(extent_deg), planned=NaturalFrequencies.plans).bands
 
 
 def below(scene: Scene, beside: int = 0) -> float:

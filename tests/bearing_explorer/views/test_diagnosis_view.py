@@ -339,7 +339,10 @@ def test_the_lines_of_python_make_the_same_diagnosis(speed, tmp_path, monkeypatc
     wavfile.write(file, 25_600, signal.astype(np.float32))
     (tmp_path / "motor.wav").write_bytes(file.getvalue())
     read_back = read_file("motor.wav", file.getvalue(), 29.95).asked
-    measured = Measured(read_back.recording, read_back.shaft_speed, origin=read_back.origin)
+    assert not read_back.in_si  # nothing says what full scale is
+    measured = Measured(
+        read_back.recording, read_back.shaft_speed, origin=read_back.origin, in_si=False
+    )
     view = view_of(measured)
     view.speed = speed
     question = view.question(MOTOR.bearing)
@@ -354,6 +357,31 @@ def test_the_lines_of_python_make_the_same_diagnosis(speed, tmp_path, monkeypatc
     assert namespace["found"].status == found.status
     np.testing.assert_allclose(namespace["columns"]["frequency_hz"],
                                view.table(RESULTS)["frequency_hz"])  # fmt: skip
+
+
+def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_known():
+    """Of an acceleration in any unit, nor of a velocity: what is whitened has no slope left."""
+    truth = heard("inner race")
+    recording = truth.recording
+    velocity = np.cumsum(recording.acceleration, axis=0)
+    velocity -= velocity.mean(axis=0)
+    found = [
+        answered(
+            dataclasses.replace(
+                asked("inner race"),
+                measured=Measured(
+                    dataclasses.replace(recording, acceleration=signal), truth.shaft_speed
+                ),
+            )
+        )
+        for signal in (1e-3 * recording.acceleration, velocity)
+    ]
+    assert [one.fault for one in found] == ["inner race", "inner race"]
+    assert found[0].status == diagnosed("inner race").status
+    unknown = dataclasses.replace(truth, in_si=False)
+    rests = dict(panel_state(Question.about(unknown, MOTOR.bearing), found[0])["facts"])
+    assert rests["Unit"] == "not known; the part does not depend on it"
+    assert "Unit" not in dict(panel_state(asked("inner race"), found[0])["facts"])
 
 
 # -- in the background -----------------------------------------------------------------------------

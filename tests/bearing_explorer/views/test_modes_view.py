@@ -17,7 +17,7 @@ FAN_RIG = presets["fan-rig"]
 
 
 @pytest.mark.parametrize("name", list(presets))
-def test_each_band_is_least_and_greatest_of_a_curve_that_is_drawn(name: str) -> None:
+def test_each_band_holds_a_curve_that_is_drawn_and_little_more(name: str) -> None:
     results = Results(presets[name])
     sources, ranges = NaturalFrequencies(PackedSource()).data(results)
     bands = sources["modes_bands"]
@@ -29,7 +29,10 @@ def test_each_band_is_least_and_greatest_of_a_curve_that_is_drawn(name: str) -> 
             known = curve[np.isfinite(curve)]
             if known.size:
                 drawn.append((known.min(), known.max()))
-    assert sorted(drawn) == sorted(zip(bands["low"], bands["high"], strict=True))
+    least, most = np.sort(np.array(drawn), axis=0).T
+    low, high = np.sort(bands["low"]), np.sort(bands["high"])
+    assert np.all(((1.0 - 1e-9) * low <= least) & (least <= 1.02 * low))
+    assert np.all((0.98 * high <= most) & (most <= (1.0 + 1e-9) * high))
     assert len(drawn) == len(results.modes.label)
     low, high = ranges["modes_frequency"]
     assert low <= bands["low"].min()
@@ -37,7 +40,7 @@ def test_each_band_is_least_and_greatest_of_a_curve_that_is_drawn(name: str) -> 
 
 
 def test_bands_are_those_of_the_paper() -> None:
-    bands = band_rows(Results(FAN_RIG).modes)
+    bands = band_rows(Results(FAN_RIG).bands)
     at = {
         f"{style.DIRECTIONS[int(d)]}{int(n)}": (low, high)
         for low, high, d, n in zip(*(bands[k] for k in bands), strict=True)

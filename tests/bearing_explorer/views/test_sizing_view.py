@@ -15,10 +15,12 @@ import pytest
 from bearing_explorer.compute.jobs import Jobs, JobState, Work
 from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.diagnoses import Question, answered
+from bearing_explorer.measurement.form import understood
 from bearing_explorer.measurement.session import Sized, read_file
-from bearing_explorer.measurement.signal import Measured, Simulated
+from bearing_explorer.measurement.signal import Measured, Origin, Simulated
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.frequency_lines import (
     FAMILIES,
     NAME_WIDTH,
@@ -241,7 +243,8 @@ def test_a_file_from_elsewhere_is_sized_on_the_page():
     """Read, asked about and sized as the page does; its clock is 0.1 % off."""
     truth, content = file_from_elsewhere()
     read = read_file("rig.csv", content, 12.0)
-    measured = Measured(read.asked.recording, read.asked.shaft_speed)
+    asked = understood(read.table, {**read.form, "unit": "g"})
+    measured = Measured(asked.recording, asked.shaft_speed)
     work = worked()
     compute(work, measured, measured.scene(truth.replace(extent=0.2)))
     (found,) = work.taken()
@@ -260,6 +263,9 @@ def test_candidates_are_listed_with_the_truth_at_the_nearest(sized):
     assert [row["truth"] for row in listed].count("12.9°") == 1
     best = max(listed, key=lambda row: row["probability"])
     assert best["truth"] == "12.9°"
+    # 12.9° on a race of 26.5 mm or so: sizes are given in mm too
+    assert re.fullmatch(r"[56]\.\d+ mm", best["length"])
+    assert best["length"] in status(sized)["words"]
     assert re.fullmatch(r"0 × 25\.7° \+ 12\.[89]°|0 × 25\.7° \+ 13\.0°", best["made_of"])
 
 
@@ -453,7 +459,8 @@ def test_the_lines_beside_a_figure_run_without_the_page(kind, from_file, tmp_pat
         file = io.BytesIO()
         wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
         (tmp_path / name).write_bytes(file.getvalue())
-        asked = read_file(name, file.getvalue(), 7.0).asked
+        read = read_file(name, file.getvalue(), 7.0)
+        asked = understood(read.table, {**read.form, "unit": "m/s²"})
         measured = Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
     view = view_of(kind, measured)
     view.say(RESULTS, "")
@@ -476,6 +483,52 @@ def test_the_lines_beside_a_figure_run_without_the_page(kind, from_file, tmp_pat
 
 def test_without_a_signal_there_are_no_lines():
     assert view_of(MeasuredSpectrum).python().startswith("# There is no signal yet")
+
+
+# -- before a signal, and before its unit is known -------------------------------------------------
+
+WAITING = (DefectSize, MeasuredSpectrum, MeasuredEnvelope)
+
+
+@pytest.mark.parametrize("kind", [MeasuredSignal, PartDiagnosis, *WAITING])
+def test_that_there_is_no_signal_is_said_once_by_what_asks_for_it(kind):
+    view = view_of(kind)
+    assert view.sentence(RESULTS) == ""
+    assert not view.hidden.visible
+    assert view.is_empty
+
+
+@pytest.mark.parametrize("kind", WAITING)
+@pytest.mark.parametrize(("unit", "asked"), [("", "unit"), ("V", "sensitivity")])
+def test_what_needs_sizes_waits_for_the_answer(kind, unit, asked):
+    origin = Origin("a.csv", (1,), unit, 1.0)
+    view = view_of(kind, dataclasses.replace(signal(), in_si=False, origin=origin))
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert view._sentence.text.startswith(f"This waits for the {asked}")
+    assert not view.hidden.visible
+    assert all(not column.size for columns in view.data(RESULTS)[0].values()
+               for column in columns.values())  # fmt: skip
+    assert view.table(RESULTS) == {}
+    assert "waits for" in view.python()
+
+
+def test_a_signal_without_a_unit_is_drawn_on_an_axis_without_one():
+    origin = Origin("a.csv", (1, 2), "", 1.0)
+    view = view_of(MeasuredSignal, dataclasses.replace(signal(), in_si=False, origin=origin))
+    sentence = view.sentence(RESULTS)
+    view.say(RESULTS, sentence)
+    assert "m/s²" not in sentence
+    for plot in view.figures:
+        shown = [axis for axis in plot.left if axis.visible]
+        assert [axis.axis_label for axis in shown] == ["Numbers of the file, unit not known"]
+    assert list(view.table(RESULTS)) == ["time_s", "signal_x", "signal_y"]
+    assert 'table.recording([1, 2], ["x", "y"], "m/s²"' in view.python()
+    assert "# the unit of the file is not known" in view.python()
+    view.measure(measuring(signal()))
+    view.say(RESULTS, view.sentence(RESULTS))
+    for plot in view.figures:
+        shown = [axis for axis in plot.left if axis.visible]
+        assert ["m/s²" in axis.axis_label for axis in shown] == [True]
 
 
 def test_the_time_from_entry_to_exit_is_that_of_the_answer(sized):

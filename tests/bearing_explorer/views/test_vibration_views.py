@@ -92,7 +92,7 @@ def test_levels_and_shifts_are_the_published_ones(results: Results) -> None:
 
 def test_bands_of_a_direction_stand_in_its_figure(results: Results) -> None:
     sources, _ = VibrationSpectra(PackedSource()).data(results)
-    bands = results.band_modes.bands()
+    bands = results.bands
     assert sources["spectrum_bands_x"]["low"] == pytest.approx([bands["x1"][0], bands["x2"][0]])
     assert sources["spectrum_bands_y"]["high"] == pytest.approx([bands["y1"][1], bands["y2"][1]])
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
@@ -12,13 +13,16 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, FREQUENCY, band_rows, direction_mapper
 from bearing_explorer.views.vibration_spectrum import HIGHEST
+from bearingcore.dynamics.modes import bands_table
 from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
-    from bearingcore import Modes
 
 _LABEL_FROM = 0.8  # of the width: further right a label would be cut off
+_LABEL_WIDTH = 0.26  # of the width, of a narrow card
+_MOST_ROWS = 5
+"""Modes that have a row each; of more those of a direction share one, or nobody could read them."""
 
 
 class OverviewBands(View):
@@ -31,7 +35,7 @@ class OverviewBands(View):
         "{grey}. Black: where it is at this cage angle. The axis is that of the "
         "spectrum below."
     )
-    needs = frozenset({"band_modes", "healthy_modes"})
+    needs = frozenset({"band_modes", "bands", "healthy_bands"})
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "modes"
@@ -78,27 +82,27 @@ class OverviewBands(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        modes = results.band_modes
-        bands, usual = band_rows(modes), band_rows(results.healthy_modes)
+        bands, usual = band_rows(results.bands), band_rows(results.healthy_bands)
         top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         order = np.argsort(bands["low"], kind="stable")
         bands = {name: column[order] for name, column in bands.items()}
-        rows = {
-            key: -float(i)
-            for i, key in enumerate(zip(bands["direction"], bands["number"], strict=True))
-        }
+        keys = list(zip(bands["direction"], bands["number"], strict=True))
+        each = keys if len(keys) <= _MOST_ROWS else [(direction, 0) for direction, _ in keys]
+        places = {key: -float(i) for i, key in enumerate(dict.fromkeys(each))}
+        rows = {key: places[own] for key, own in zip(keys, each, strict=True)}
         row = [
             rows.get(key, np.nan) for key in zip(usual["direction"], usual["number"], strict=True)
         ]
-        near_edge = bands["high"] > _LABEL_FROM * top
+        own_row = np.array([rows[key] for key in keys])
+        left = _left_of(bands, own_row, top)
         return {
             "overview_bands": {
                 **bands,
-                "row": -np.arange(float(order.size)),
-                "now": _now(modes, results)[order],
+                "row": own_row,
+                "now": _now(results)[order],
                 # beside the band where there is room: right of it, else left
-                "right": np.where(near_edge, np.nan, bands["high"]),
-                "left": np.where(near_edge, bands["low"], np.nan),
+                "right": np.where(left, np.nan, bands["high"]),
+                "left": np.where(left, bands["low"], np.nan),
             },
             "overview_healthy_bands": {
                 "low": usual["low"],
@@ -107,13 +111,11 @@ class OverviewBands(View):
             },
         }, {
             "overview_band_frequency": (0.0, top),
-            "overview_band_rows": (0.4 - max(order.size, 1), 0.6),
+            "overview_band_rows": (0.4 - max(len(places), 1), 0.6),
         }
 
     def sentence(self, results: Results) -> str:
-        bands = {
-            label: band for label, band in results.band_modes.bands().items() if band[0] == band[0]
-        }
+        bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
         words = [
             f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
             for label, (low, high) in bands.items()
@@ -123,24 +125,36 @@ class OverviewBands(View):
         return f"The natural frequencies move within: {style.list_words(words)}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        return results.band_modes.bands_table().named()
+        return bands_table(results.bands).named()
+
+
+def _left_of(bands: dict[str, np.ndarray], row: np.ndarray, top: float) -> NDArray[np.bool_]:
+    """Which bands have their names on the left: near the edge, or before another of their row."""
+    left = bands["high"] > _LABEL_FROM * top
+    for i in range(row.size):
+        follows = (row == row[i]) & (bands["low"] > bands["low"][i])
+        room = np.min(bands["low"][follows], initial=np.inf) - bands["high"][i]
+        names = _LABEL_WIDTH * (1.0 + np.any(left & follows)) * top
+        left[i] |= room < names and bands["low"][i] > _LABEL_WIDTH * top
+    return np.asarray(left, dtype=np.bool_)
 
 
 def highest_band(results: Results) -> float:
     """Up to where [Hz] the cards of the overview reach, for the bands that they share."""
-    ends = [band_rows(modes)["high"] for modes in (results.band_modes, results.healthy_modes)]
+    ends = [band_rows(bands)["high"] for bands in (results.bands, results.healthy_bands)]
     return float(1.05 * np.max(np.concatenate(ends), initial=0.0))
 
 
-def _now(modes: Modes, results: Results) -> np.ndarray:
+def _now(results: Results) -> np.ndarray:
     """Frequency [Hz] of each mode that `band_rows` lists at the cage angle shown."""
+    modes = results.band_modes
     angles = modes.cage_angles
     first, last, _ = results.stretch
     at = first + (results.cage_angle - first) % (last - first)
     return np.array(
         [
-            np.interp(at, angles, modes.frequency[:, i])
-            for i, label in enumerate(modes.label)
-            if np.isfinite(modes.bands()[label][0])
+            np.interp(at, angles, modes.frequency[:, modes.label.index(label)])
+            for label, (low, _) in results.bands.items()
+            if np.isfinite(low)
         ]
     )

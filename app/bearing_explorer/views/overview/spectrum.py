@@ -38,7 +38,7 @@ class OverviewSpectrum(View):
         "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
-    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs | {"healthy_modes"}
+    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs | {"healthy_bands"}
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "vibration"
@@ -71,7 +71,7 @@ class OverviewSpectrum(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        bands = band_rows(results.band_modes)
+        bands = band_rows(results.bands)
         top = self._frequency.fit(HIGHEST, highest_band(results))[1]
         drawn = drawn_levels(results.late_spectra, top)
         healthy = drawn_levels(results.healthy_late_spectra, top)

@@ -46,6 +46,7 @@ _TOP = np.array([cell.top for cell in _CELLS])
 _UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
 _GAP = np.array([np.nan])
 _VALUE_WORDS = f"""
+if (narrow) return ''  // it would lie on the symbol
 const unit = {list(UNITS)}[row.unit]
 return row.lively ? (isNaN(row.now) ? 'no value' : si(row.now, unit)) : ''
 """
@@ -99,7 +100,7 @@ class OverviewStiffness(View):
         plot.text(
             "right",
             "top",
-            text=style.words_of(terms, _VALUE_WORDS),
+            text=style.fitting_words(plot, terms, _VALUE_WORDS),
             source=terms,
             text_align="right",
             text_font={"value": style.FONT},

@@ -63,6 +63,9 @@ _PATIENCE = 0.25
 #: the limits of the model are looked at when the hand rests, and while it moves this often [s]
 _LIMITS_EVERY = 1.0
 
+#: processor time [s] after which a section that is put on screen lets others be heard
+_SLICE = 0.05
+
 _BROKEN = "This could not be computed; what is shown belongs to an earlier position."
 _DRAWN_LATER = "This is drawn by itself as soon as that is done."
 
@@ -570,18 +573,29 @@ class Explorer:
         """The views of a section. For any thread: they are in no document yet."""
         return [view(self.packed) for view in self._sections[name].views]
 
-    def _bring(self, name: str) -> None:
+    async def _bring(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first asked for.
 
         Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before it hears of its numbers.
+        must know a figure before it hears of its numbers. A section with much in it comes in
+        several messages, between which all others are heard.
         """
+        if name not in self._views:
+            self._views[name] = await in_thread(self._make, name, slow=True)
+        while self._on_screen != name:
+            new = name not in self._containers or not self._is_whole(name)
+            await one_message(self._doc, lambda: self._put_up(name), new_models=new)
+            await asyncio.sleep(0.0)
+
+    def _is_whole(self, name: str) -> bool:
+        """Whether all views of a section are in its container."""
+        return len(self._containers[name]) == len(self._views[name])
+
+    def _put_up(self, name: str) -> None:
+        """Put a section on screen, with as many of its views as a message has time for."""
+        views = self._views[name]
         if name not in self._containers:
-            views = self._views[name]
-            for view in views:
-                view.attach(self._parts)
             self._containers[name] = pn.Column(
-                *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],
                 sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
                 margin=0,
@@ -593,8 +607,15 @@ class Explorer:
             if other != name:
                 for view in self._views[other]:
                     view.put_away()
-        self.packed.introduce()
-        self.tabs.active = self._on_screen = name
+        end = time.thread_time() + _SLICE
+        for view in views[len(self._containers[name]) :]:
+            view.attach(self._parts)
+            self._containers[name].append(view.panel)
+            if time.thread_time() > end:
+                break
+        if self._is_whole(name):
+            self.packed.introduce()
+            self.tabs.active = self._on_screen = name
 
     # Drawing: off the event loop to compute, on it to assign.
 
@@ -602,10 +623,7 @@ class Explorer:
         started = time.perf_counter()
         self._scheduler.worked = 0.0
         if self._on_screen != self._shown:
-            shown = self._shown
-            if shown not in self._views:
-                self._views[shown] = await in_thread(self._make, shown, slow=True)
-            await one_message(self._doc, lambda: self._bring(shown), new_models=True)
+            await self._bring(self._shown)
         views = self._views[self._on_screen]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]

@@ -68,7 +68,6 @@ def _names() -> Iterator[PrivateName]:
     for module, name in (
         (bokeh_session, "_needs_document_lock"),
         (model_util, "visit_immediate_value_references"),
-        (model_util, "visit_value_and_its_immediate_references"),
     ):
         yield PrivateName("bokeh", f"{module.__name__}.{name}", hasattr(module, name))
     for kind, name in (
@@ -289,7 +288,8 @@ def visit_quickly() -> None:
     It walks all models whenever one is added, and asks each for the value of every property that
     might hold another, making up defaults that never hold one. That is most of what a session
     costs. Here defaults are asked for only where they are made anew for each model; and what
-    Bokeh works out about a class for each of its models is worked out once.
+    Bokeh works out about a class for each of its models is worked out once. Values are walked
+    without an import for each of them.
     """
     if getattr(model_util, "visit_immediate_value_references", None) is _visit:
         return
@@ -318,7 +318,7 @@ def _has_unstable_default(self: PropertyDescriptor, obj: HasProps) -> bool:
     return bool(found)
 
 
-_walk = getattr(model_util, "visit_value_and_its_immediate_references", None)
+_PLAIN = frozenset({int, float, str, bool, bytes, type(None)})
 _places: dict[type, list[tuple[str, bool]]] = {}
 
 
@@ -338,8 +338,29 @@ def _places_of(kind: type[HasProps]) -> list[tuple[str, bool]]:
     return found
 
 
+def _walk(value: Any, visitor: Callable[[Any], None]) -> None:
+    """Give `visitor` the models that a value is or holds."""
+    kind = type(value)
+    if kind in _PLAIN:
+        return
+    if issubclass(kind, Model):
+        visitor(value)
+    elif issubclass(kind, list | tuple):
+        for item in value:
+            if type(item) not in _PLAIN:
+                _walk(item, visitor)
+    elif issubclass(kind, dict):
+        for name, item in value.items():
+            _walk(name, visitor)
+            _walk(item, visitor)
+    elif issubclass(kind, HasProps):
+        _visit(value, visitor)
+    else:
+        for name in getattr(kind, "__dataclass_fields__", ()):
+            _walk(getattr(value, name), visitor)
+
+
 def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
-    assert _walk is not None
     if not isinstance(value, HasProps):
         _walk(value, visitor)
         return

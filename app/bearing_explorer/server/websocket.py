@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -19,6 +20,8 @@ from bearing_explorer.server import log as write
 from bearing_explorer.server.allowed_messages import ById, by_name, message_of, welcome
 from bearing_explorer.server.small_pages import tell, tell_error
 
+_WRITER = ThreadPoolExecutor(1, "document")
+"""Where whole documents are written, one after the other."""
 _PULL = 50.0
 """Messages that count as much as one that asks for the whole document."""
 
@@ -136,11 +139,27 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
                 message.content["events"] = kept
                 await self._patch(message)
         elif kind == "PULL-DOC-REQ":
-            reply = await self.handler.handle(message, self.connection)
-            if reply is not None:  # from 3.10 on Bokeh sends it itself
-                await self.send_message(reply)
+            await self._send_document(message.header["msgid"])
         else:
             self._refuse("it is of a kind that the page does not send")
+
+    async def _send_document(self, asked: str) -> None:
+        """Send the whole document: written in a thread, which takes a second with all tabs in it.
+
+        Nobody changes it meanwhile, and nothing that is changed later is sent before it.
+        """
+        connection = self.connection
+
+        async def send(document: Any) -> None:
+            def written() -> Any:
+                reply = connection.protocol.create("PULL-DOC-REPLY", asked, document)
+                _ = reply.content_json  # the text of it, which is kept
+                return reply
+
+            loop = asyncio.get_running_loop()
+            await self.send_message(await loop.run_in_executor(_WRITER, written))
+
+        await live.locked(connection.session, send)
 
     async def _patch(self, message: Any) -> None:
         """Apply a patch on the event loop: from 3.10 on Bokeh does it in a thread.

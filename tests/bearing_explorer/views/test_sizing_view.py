@@ -98,7 +98,7 @@ def test_rows_of_names_lie_within_their_head_room():
     view = view_of(MeasuredEnvelope, signal())
     names = [family.name for family in FAMILIES]
     for shown in (names, names[:2], names[3:], []):
-        columns = view._lines.columns(fundamentals(RIG), shown, 350.0)
+        columns = view._lines.columns([fundamentals(RIG)], shown, 350.0)
         used = [columns[f"measured_envelope_{name}_names"]["row"] for name in shown]
         rows_of = [float(row[0]) for row in used]
         assert rows_of == sorted(rows_of, reverse=True)

@@ -52,61 +52,76 @@ function bearing_picture(pointed) {
   // Half of the section through the shaft, to scale: radii are heights above its middle, all rows
   // beside each other.
   const section = (n) => {
-    const rim = n.outer_raceway_radius + 0.42 * n.ball_diameter
+    const rim = Math.max(...n.rows.map((row) => row.outer_raceway_radius + 0.42 * row.ball_diameter))
+    const hole = Math.min(...n.rows.map((row) => row.inner_raceway_radius - 0.42 * row.ball_diameter))
+    const largest = Math.max(...n.rows.map((row) => row.ball_diameter))
     const places = n.rows.map(({ place }) => place)
     const span = Math.max(...places) - Math.min(...places)
-    const scale = Math.min(325 / rim, 84 / n.ball_diameter, 150 / (span + 1.6 * n.ball_diameter))
+    const scale = Math.min(325 / rim, 84 / largest, 150 / (span + 1.6 * largest))
     const axis = 372, middle = 155
     const up = (radius) => axis - scale * radius
     const ball = 0.5 * scale * n.ball_diameter
     const rollers = n.kind === "rollers", sphere = n.kind === "self-aligning"
     const long = rollers ? 0.5 * scale * n.roller_length : ball
     const centre = up(0.5 * n.pitch_diameter)
-    const half = 0.5 * scale * span + (rollers ? long + 0.6 * ball : 1.6 * ball)
+    const half = 0.5 * scale * (span + (rollers ? n.roller_length + 0.6 * largest : 1.6 * largest))
     const left = middle - half, right = middle + half
-    const at = places.map((place) => middle + scale * place).sort((a, b) => b - a)
-    const top = up(rim), bore = Math.min(up(Math.max(n.inner_raceway_radius - 0.42 * n.ball_diameter, 0)), axis - 6)
+    // rows from the right to the left
+    const at = n.rows.map((row, number) => ({ number, x: middle + scale * row.place,
+      ball: 0.5 * scale * row.ball_diameter, centre: up(0.5 * row.pitch_diameter),
+      outer: up(row.outer_raceway_radius), inner: up(row.inner_raceway_radius) })).sort((a, b) => b.x - a.x)
+    const top = up(rim), bore = Math.min(up(Math.max(hole, 0)), axis - 6)
     const outer = up(n.outer_raceway_radius), inner = up(n.inner_raceway_radius)
-    const lip = 0.42 * ball, wide = 0.8 * ball
-    const groove = (x, level, side) => rollers
-      ? `H${x + long + 1}V${level}H${x - long - 1}V${level + side * lip}`
-      : `H${x + wide}Q${x} ${level - side * lip} ${x - wide} ${level + side * lip}`
+    const groove = (row, level, side) => {
+      const edge = level + side * 0.42 * row.ball, wide = 0.8 * row.ball
+      return `V${edge}` + (rollers ? `H${row.x + long + 1}V${level}H${row.x - long - 1}V${edge}`
+        : `H${row.x + wide}Q${row.x} ${level - side * 0.42 * row.ball} ${row.x - wide} ${edge}`)
+    }
     const arc = () => {  // the sphere, about the middle of the shaft
       const radius = scale * n.outer_raceway_radius
       const edge = axis - Math.sqrt(Math.max(radius * radius - half * half, 0))
       return `V${edge}A${radius} ${radius} 0 0 0 ${left} ${edge}`
     }
     const flat = `V${inner}H${left}`  // rollers run on an inner ring without shoulders
-    const line = (row) => {  // the line of contact, on to the middle of the shaft
-      const x = middle + scale * row.place, lean = row.facing * Math.tan(row.contact_angle)
-      const over = 1.5 * ball
+    const line = ({ number, x, ball, centre }) => {  // of contact, on to the middle of the shaft
+      const row = n.rows[number], lean = row.facing * Math.tan(row.contact_angle), over = 1.5 * ball
       return shape("path", { class: "line dashed",
         d: `M${x + over * lean} ${centre - over}L${x - (axis - centre) * lean} ${axis}` })
     }
     const paired = n.rows.length > 1 && !sphere && n.rows.some((row) => row.contact_angle > 0)
     const parts = [
       shape("path", { class: "steel", d: `M${left} ${top}H${right}` + (sphere ? arc()
-        : `V${outer + lip}` + at.map((x) => groove(x, outer, 1)).join("") + `H${left}`) + "Z" }),
+        : at.map((row) => groove(row, row.outer, 1)).join("") + `H${left}`) + "Z" }),
       shape("path", { class: "steel", d: `M${left} ${bore}H${right}` + (rollers ? flat
-        : `V${inner - lip}` + at.map((x) => groove(x, inner, -1)).join("") + `H${left}`) + "Z" }),
-      ...at.map((x) => rollers
+        : at.map((row) => groove(row, row.inner, -1)).join("") + `H${left}`) + "Z" }),
+      ...at.map(({ x, ball, centre }) => rollers
         ? shape("rect", { class: "ball", x: x - long, y: centre - ball, width: 2 * long, height: 2 * ball, rx: 2 })
         : shape("circle", { class: "ball", cx: x, cy: centre, r: ball })),
-      ...(paired ? n.rows.map(line) : []),
+      ...(paired ? at.map(line) : []),
       shape("path", { class: "axis", d: `M14 ${axis}H296` }),
     ]
     const height = (name, x, from, level, text) => dimension(name,
       witness(from, level, x - 5 * Math.sign(from - x), level), ...arrow(x, axis, x, level),
       label(x + (x < middle ? -5 : 5), axis - 0.45 * (axis - level), text, x < middle ? "end" : "start"))
-    const first = at[0]
+    // of rows that are not alike the second has names of its own
+    const second = at.find(({ number }) => number === 1)
+    const unlike = second && (n.second_ball_diameter !== null || n.second_pitch_diameter !== null)
+    const { x: first } = unlike ? at.find(({ number }) => number === 0) : at[0]
     if (rollers)
       parts.push(dimension("roller_length_mm", ...arrow(first - long, centre + 0.45 * ball, first + long, centre + 0.45 * ball),
         label(first, centre + 0.45 * ball - 4, ["l"])))
     if (n.rows.length > 1) {
       const under = up(0) + 14
-      parts.push(dimension("row_distance_mm", witness(at[1], centre, at[1], under - 6),
-        witness(at[0], centre, at[0], under - 6), ...arrow(at[1], under - 8, at[0], under - 8),
+      parts.push(dimension("row_distance_mm", witness(at[1].x, at[1].centre, at[1].x, under - 6),
+        witness(at[0].x, at[0].centre, at[0].x, under - 6), ...arrow(at[1].x, under - 8, at[0].x, under - 8),
         label(middle, under - 12, ["a"])))
+    }
+    if (unlike) {
+      const { x, ball, centre } = second
+      parts.push(dimension("second_ball_diameter_mm", ...arrow(x - ball, centre, x + ball, centre),
+        label(x, centre - 5, ["D", "b2"])),
+        dimension("second_pitch_diameter_mm", ...arrow(x - 0.6 * ball, axis, x - 0.6 * ball, centre),
+          label(x - 0.6 * ball - 5, axis - 0.3 * (axis - centre), ["D", "p2", "/2"], "end")))
     }
     return [...parts,
       ...(rollers || sphere ? [] : [height("groove_center_radius_mm", 26, left, up(n.groove_center_radius), ["r", "d"])]),
@@ -116,7 +131,7 @@ function bearing_picture(pointed) {
       dimension("ball_diameter_mm", ...(rollers ? arrow(first + 0.6 * long, centre - ball, first + 0.6 * long, centre + ball)
         : arrow(first - ball, centre, first + ball, centre)),
         rollers ? label(first + 0.6 * long - 5, centre + 3, ["D", "b"], "end") : label(first, centre - 5, ["D", "b"])),
-      ...at.map((x) => dot(x, centre)),
+      ...at.map(({ x, centre }) => dot(x, centre)),
       label(155, 396, ["to scale, above the middle of the shaft"]),
     ]
   }
@@ -206,7 +221,8 @@ function bearing_picture(pointed) {
     const circle = (radius) => shape("circle", { class: "ring", cx: x, cy: y, r: scale * radius })
     return [circle(n.outer_raceway_radius), circle(n.inner_raceway_radius),
       dimension("n_balls", ...balls, label(x, y + 5, ["N", "b",
-        ` = ${n.rows.length > 1 ? `${n.rows.length} · ` : ""}${n.n_balls}`]))]
+        ` = ${n.second_n_balls !== null ? n.rows.map((row) => row.n_balls).join(" + ")
+          : `${n.rows.length > 1 ? `${n.rows.length} · ` : ""}${n.n_balls}`}`]))]
   }
 
   // What a ball carries when it is pressed: the curve that K stands for.

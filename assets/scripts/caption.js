@@ -159,8 +159,8 @@ export function render({ model }) {
   const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
                                      "aria-label": `Export “${model.title}”` }, "Export")
   // where there is nothing yet, there is nothing to take along
-  const has_anything = () => { opener.hidden = model.empty && !drawn() }
-  for (const name of ["empty", "figures"]) model.on(name, has_anything)
+  const has_anything = () => { opener.hidden = model.nothing && !drawn() }
+  for (const name of ["nothing", "figures"]) model.on(name, has_anything)
   has_anything()
   const menu = menu_of([...pictures, numbers, table, python], { class: "menu", "aria-label": `Export “${model.title}”` })
   opens_below(opener, menu, 190)

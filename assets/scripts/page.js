@@ -109,12 +109,28 @@
     if (mark(marked)) requestAnimationFrame(then)
     else if (tries > 0) setTimeout(() => mark_as_they_come(then, tries - 1), 50)
   }
+  // A card that had nothing to show grows by its answer: then it is brought into view again.
+  const GROWN = 150  // px
+  let followed = null, height = 0
+  const growth = new ResizeObserver(([{ contentRect: now }]) => {
+    const answered = height > 0 && now.height > height + GROWN
+    height = now.height
+    if (answered) show_marked()
+  })
+  const follow_growth = (element) => {
+    if (element === followed) return
+    growth.disconnect()
+    growth.observe(element)
+    followed = element
+    height = 0
+  }
   // The first of the marked figures is brought into view where it is not: its head, if not all of it.
   const show_marked = () => {
     const main = document.querySelector("main")
     const [first] = marked
     for (const element of inside(main)) {
       if (!first || !element.classList.contains(`view-${first}`)) continue
+      follow_growth(element)
       const box = element.getBoundingClientRect(), room = main.getBoundingClientRect()
       if (box.height && (box.top < room.top || box.bottom > room.bottom))
         element.scrollIntoView({ block: box.height < room.height ? "nearest" : "start" })

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.dynamics.modes import contact_damping
 from bearingcore.model import packing
+from bearingcore.model.bearing import Bearing
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.ball_positions import static_balls
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
@@ -92,13 +93,21 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
     return np.concatenate([rings.ravel(), kept.ravel(), np.zeros(kept.size)])
 
 
-def contact_stiffness(scene: Scene, load: float) -> tuple[float, float]:
+def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
     """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
-    n = scene.bearing.contact_exponent
+    n = bearing.contact_exponent
     inner, outer = (
-        n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in scene.bearing.race_factors
+        n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in bearing.race_factors
     )
     return inner, outer
+
+
+def resonances(scene: Scene, load: float) -> list[float]:
+    """sqrt((k_i + k_e)/m_b)/2π [Hz] of a ball that carries a load [N], of each unlike row."""
+    return [
+        math.sqrt(sum(contact_stiffness(own, load)) / own.ball_mass) / (2.0 * math.pi)
+        for own, _ in scene.bearing.unlike_rows
+    ]
 
 
 @lru_cache(maxsize=512)
@@ -110,9 +119,11 @@ def heaviest_load(scene: Scene) -> float:
 
 
 def contact_resonance(scene: Scene) -> float:
-    """Frequency sqrt((k_i + k_e)/m_b)/2π [Hz] of the heaviest loaded ball between its contacts."""
-    stiffness = sum(contact_stiffness(scene, heaviest_load(scene)))
-    return math.sqrt(stiffness / scene.bearing.ball_mass) / (2.0 * math.pi)
+    """Frequency sqrt((k_i + k_e)/m_b)/2π [Hz] of the heaviest loaded ball between its contacts.
+
+    Of rows that are unlike the highest at that load, whichever row it is that carries it.
+    """
+    return max(resonances(scene, heaviest_load(scene)))
 
 
 @lru_cache(maxsize=512)
@@ -123,17 +134,13 @@ def contact_resonance_band(scene: Scene) -> tuple[float, float]:
     loads are not. 0 for both where no ball is known to carry load.
     """
     heaviest = heaviest_load(scene)
-    low, high = (
-        math.sqrt(sum(contact_stiffness(scene, load)) / scene.bearing.ball_mass) / (2.0 * math.pi)
-        for load in (LIGHTLY * heaviest, heaviest)
-    )
-    return low, high
+    return min(resonances(scene, LIGHTLY * heaviest)), max(resonances(scene, heaviest))
 
 
 def fastest_decay(scene: Scene) -> float:
     """The fastest decay [1/s] of a ball's motion between its contacts, 0 where it is undamped."""
-    damping = float(packing.races(scene, contact_damping(scene), weight=False).damping[:, 0].sum())
-    return damping / scene.bearing.ball_mass
+    races = packing.races(scene, contact_damping(scene), weight=False)
+    return float((races.damping.sum(axis=0) / races.mass).max())
 
 
 def ball_step_rate(scene: Scene, sample_rate: float) -> float:

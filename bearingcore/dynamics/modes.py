@@ -359,8 +359,8 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=512)
 def _mean_stiffness_a_ball(healthy: Scene) -> float:
-    """mean(k_xx + k_yy) / mean(loaded balls) [N/m] of a scene, over one ball spacing."""
-    angles = np.arange(120) * (healthy.bearing.ball_spacing / 120)
+    """mean(k_xx + k_yy) / mean(loaded balls) [N/m] of a scene, over one period of its curves."""
+    angles = np.arange(120) * (healthy.bearing.period / 120)
     state = equilibrium(healthy, angles)
     good = state.converged & (state.loaded_balls > 0)
     if not good.any():

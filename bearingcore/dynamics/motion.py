@@ -25,7 +25,7 @@ from bearingcore.dynamics.modes import contact_damping, highest_natural_frequenc
 from bearingcore.model import packing
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
-from bearingcore.statics.passes import STEPS_A_PASSAGE
+from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 
 STEPS_A_CYCLE = 16.0
 """Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
@@ -422,9 +422,7 @@ def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float
     Where balls have mass a multiple, see `ball_step_rate`.
     """
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
-    for defect in scene.defects:
-        across = defect.extent / abs(1.0 - defect.turn_ratio(scene.bearing))
-        needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / across)
+    needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
     if scene.balls == WITH_MASS:
         needed = max(needed, ball_step_rate(scene, sample_rate))
     if needed <= sample_rate:

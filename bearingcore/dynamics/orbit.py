@@ -295,17 +295,26 @@ def least_steps(scene: Scene, ball_passes: int | None = None) -> int:
 def common_ball_passes(scene: Scene) -> int | None:
     """Ball passes after which everything that acts on the rings repeats; None where it never does.
 
-    The balls are alike after one. A defect of the inner race has turned
-    (2π/N_b)·ω_s/ω_c for each of them, and must have come round by whole turns.
+    The balls of a row are alike after one of its own passes: for each pass of the bearing's balls
+    those of a row with a number or a cage of its own have made another part of one, and must have
+    come round by whole ones. So must a defect of the inner race, by whole turns: it has turned
+    (2π/N_b)·ω_s/ω_c for each.
     """
-    if all(defect.race == "outer" for defect in scene.defects):
-        return 1
-    turns = 1.0 / (scene.bearing.cage_ratio * scene.bearing.n_balls)
-    fraction = Fraction(turns).limit_denominator(MOST_BALL_PASSES)
-    # what is left over in the longest period must be below any step: 1e-9 of a turn
-    if abs(float(fraction) - turns) * fraction.denominator > 1e-9:
-        return None
-    return fraction.denominator
+    bearing = scene.bearing
+    rounds = {
+        bearing.pace(k) * bearing.of_row(k).n_balls / bearing.n_balls
+        for k in range(len(bearing.all_rows))
+    }
+    if any(defect.race == "inner" for defect in scene.defects):
+        rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
+    passes = 1
+    for turned in rounds:
+        fraction = Fraction(turned).limit_denominator(MOST_BALL_PASSES)
+        # what is left over in the longest period must be below any step: 1e-9 of a turn
+        if abs(float(fraction) - turned) * fraction.denominator > 1e-9:
+            return None
+        passes = math.lcm(passes, fraction.denominator)
+    return passes if passes <= MOST_BALL_PASSES else None
 
 
 class _Shooting:

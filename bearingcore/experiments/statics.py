@@ -26,7 +26,7 @@ from bearingcore.model import packing
 from bearingcore.model.scene import Scene
 from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
-from bearingcore.statics.passes import ball_drop, path_kinks
+from bearingcore.statics.passes import drops_at, path_kinks
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ class StaticProblem:
 def static_problem(scene: Scene, angles: Array) -> StaticProblem:
     """The numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
     packed = packing.contacts(scene.bearing)
-    phi = angles[:, None] + packed.angle
+    phi = packing.ball_angles(scene.bearing, angles)
     force, active = packing.static_load(scene, scene.active_dofs)
     guess = np.zeros(5)
     load = float(np.linalg.norm(force[active]))
@@ -89,7 +89,7 @@ def static_problem(scene: Scene, angles: Array) -> StaticProblem:
         reach = packed.clearance[0] / packed.line_r[0]
         reach += packing.typical_compression(scene.bearing, load)
         guess[active] = reach * force[active] / load
-    drop = ball_drop(scene, phi, angles[:, None])
+    drop = drops_at(scene, angles)
     return StaticProblem(
         scene, angles, np.cos(phi), np.sin(phi), drop, force, active, packed, guess
     )

@@ -100,7 +100,8 @@ def carried(x, place, j, contacts):
 def seen_from_the_cage(x, v, cage_speed):
     """Velocity of the inner ring against balls that stand still: their turning moved to the ring.
 
-    x and v (5,) are displacement and velocity against the outer ring; a tuple of five.
+    cage_speed is that of the balls' row. x and v (5,) are displacement and velocity against the
+    outer ring; a tuple of five.
     """
     return (
         v[0] + cage_speed * x[1],

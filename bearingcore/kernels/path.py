@@ -73,8 +73,9 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
 
 @borrowing
 def path_drop(angle, cage_angle, row, path):
-    """Drop [m] of a ball of a row at `angle`, and its derivative with the cage's turning [m/rad].
+    """Drop [m] of a ball of a row at `angle`, and its derivative with its cage's turning [m/rad].
 
+    `cage_angle` is that of the row's own cage, as is what a defect's `turn_ratio` is against.
     Defects of one race do not overlap here (those that do share a table); drops into both races
     add.
     """
@@ -116,7 +117,7 @@ def path_drop(angle, cage_angle, row, path):
 
 @compiled
 def ball_path(ball_angles, cage_angles, row, path):
-    """Drop [m] of a ball of a row at every angle, the cage at the angle of the same index; (n,)."""
+    """Drop [m] of a ball of a row at every angle, its cage at the angle of the same index; (n,)."""
     drops = np.empty(ball_angles.size)
     for i in range(ball_angles.size):
         drops[i], _ = path_drop(ball_angles[i], cage_angles[i], row, path)
@@ -170,12 +171,23 @@ def ball_circle(angle):
 
 
 @inlined
-def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s):
-    """Cosine and sine of each ball into c and s (n,), those of the cage being cage_c and cage_s.
+def place_balls(cage, contacts, circle_c, circle_s, c, s):
+    """Cosine and sine of each ball into c and s (n,), at a cage angle [rad]."""
+    rows = contacts.rows
+    for row in range(rows.shape[0]):
+        first = rows[row, 0]
+        turned = contacts.pace[first] * cage
+        last = first + rows[row, 1]
+        turn_balls(math.cos(turned), math.sin(turned), circle_c, circle_s, c, s, first, last)
+
+
+@inlined
+def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last):
+    """Cosine and sine of a row's balls into c and s (n,), of its cage being cage_c and cage_s.
 
     A rotation instead of a sine and a cosine for each ball.
     """
-    for j in range(c.size):
+    for j in range(first, last):
         c[j] = cage_c * circle_c[j] - cage_s * circle_s[j]
         s[j] = cage_s * circle_c[j] + cage_c * circle_s[j]
 
@@ -201,13 +213,16 @@ def drops_of_balls(cage, contacts, path, d, slope):
             first = rows[row, 0]
             n = rows[row, 1]
             spacing = 2.0 * math.pi / n
-            start = cage + contacts.angle[first]
-            begin = (defects[k, CENTER] + turn * cage - half - start) / spacing
+            pace = contacts.pace[first]
+            turned = pace * cage
+            start = turned + contacts.angle[first]
+            begin = (defects[k, CENTER] + turn * turned - half - start) / spacing
             ball = math.ceil(begin - 1e-9)
             end = min(begin + 2.0 * half / spacing + 1e-9, ball + n - 0.5)
             while ball <= end:
                 j = first + int(ball) % n
-                d[j], slope[j] = path_drop(start + spacing * ball, cage, row, path)
+                d[j], rise = path_drop(start + spacing * ball, turned, row, path)
+                slope[j] = pace * rise
                 ball += 1.0
 
 
@@ -228,7 +243,7 @@ def new_passage(instants, n):
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
     """Where the balls are at `count` cage angles start + i·turn [rad], into a passage.
 
-    The cage is turned by recurrence and each ball stands at a fixed angle to it.
+    Cages are turned by recurrence and each ball stands at a fixed angle to its own.
     """
     circle_c, circle_s = ball_circle(contacts.angle)
     fill_passage((start, turn, count, cage_speed), circle_c, circle_s, contacts, path, passage)
@@ -238,13 +253,20 @@ def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
 def fill_passage(turning, circle_c, circle_s, contacts, path, passage):
     """What `lay_out_balls` does: turning is (start, turn, count, cage_speed)."""
     start, turn, count, cage_speed = turning
-    turn_c = math.cos(turn)
-    turn_s = math.sin(turn)
-    cage_c = math.cos(start)
-    cage_s = math.sin(start)
-    for i in range(count):
-        turn_balls(cage_c, cage_s, circle_c, circle_s, passage.c[i], passage.s[i])
-        cage_c, cage_s = cage_c * turn_c - cage_s * turn_s, cage_s * turn_c + cage_c * turn_s
+    rows = contacts.rows
+    for row in range(rows.shape[0]):
+        first = rows[row, 0]
+        last = first + rows[row, 1]
+        pace = contacts.pace[first]
+        turn_c = math.cos(pace * turn)
+        turn_s = math.sin(pace * turn)
+        cage_c = math.cos(pace * start)
+        cage_s = math.sin(pace * start)
+        for i in range(count):
+            c = passage.c[i]
+            s = passage.s[i]
+            turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last)
+            cage_c, cage_s = cage_c * turn_c - cage_s * turn_s, cage_s * turn_c + cage_c * turn_s
     if path.defects.shape[0] == 0:
         return
     for i in range(count):

@@ -15,7 +15,7 @@ from bearingcore.kernels.contact import (
     tilting,
     touch,
 )
-from bearingcore.kernels.path import ball_circle, lay_out_drops, turn_balls
+from bearingcore.kernels.path import ball_circle, lay_out_drops, place_balls
 from bearingcore.kernels.structs import Contacts, Descent, Path, Place
 
 CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
@@ -228,6 +228,7 @@ def with_factors(contacts, factor):
     """The same contacts with other load-deflection factors (n,)."""
     return Contacts(
         contacts.angle,
+        contacts.pace,
         contacts.arm,
         contacts.reach,
         contacts.line_r,
@@ -572,7 +573,7 @@ def static_states(cage_angles, contacts, path, load):
     guess = state.copy()
     for k in range(n):
         cage = cage_angles[k]
-        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, place.c, place.s)
+        place_balls(cage, contacts, circle_c, circle_s, place.c, place.s)
         lay_out_drops(cage, contacts, path, place.d, slope)
         if k > 0 and status[k - 1] >= NOT_CARRIED:
             for i in active:
@@ -625,7 +626,7 @@ def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers
     circle_c, circle_s = ball_circle(contacts.angle)
     for k in range(n):
         cage = cage_angles[k]
-        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, c[k], s[k])
+        place_balls(cage, contacts, circle_c, circle_s, c[k], s[k])
     work = new_descent(n_contacts)
     state = np.zeros(5)
     guess = np.zeros(5)
@@ -698,7 +699,7 @@ def contact_angles(cage_angles, q, contacts, path):
     circle_c, circle_s = ball_circle(contacts.angle)
     for k in range(cage_angles.size):
         cage = cage_angles[k]
-        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, place.c, place.s)
+        place_balls(cage, contacts, circle_c, circle_s, place.c, place.s)
         lay_out_drops(cage, contacts, path, place.d, slope)
         x = components(q[k])
         for j in range(n_contacts):

@@ -37,7 +37,10 @@ class Contacts(NamedTuple):
     Attributes
     ----------
     angle [rad]
-        from the first ball to the contact's.
+        from the first ball to the contact's, at cage angle 0.
+    pace
+        cage speed of the row over that of the bearing: at cage angle φ a ball is at
+        angle + pace φ. The same for all of a row.
     arm
         axial place z_k of the row over r_d.
     reach
@@ -57,6 +60,7 @@ class Contacts(NamedTuple):
     """
 
     angle: Array
+    pace: Array
     arm: Array
     reach: Array
     line_r: Array
@@ -186,6 +190,7 @@ class Rotor(NamedTuple):
     active : (n,)
         numbers of the directions.
     cage_speed [rad/s]
+        of the bearing; that of a row is `Contacts.pace` times it.
     contact_damping [N·s/m]
         c of Eq. 18.
     variables

@@ -22,6 +22,7 @@ import dataclasses
 import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from itertools import accumulate
 from typing import Any, Self, cast
 
 from bearingcore.common import checks
@@ -29,7 +30,7 @@ from bearingcore.model import scene_file
 from bearingcore.model.bearings import drawing
 from bearingcore.model.contacts.hertz import RaceContact, in_series, race_contact, spherical_contact
 from bearingcore.model.contacts.line import RollerContact, palmgren_factor, roller_contact
-from bearingcore.model.rows import MOST_ROWS, Row, arrangement_of, pair, spaced
+from bearingcore.model.rows import LENGTHS, MOST_ROWS, Row, arrangement_of, pair, spaced
 
 STEEL_DENSITY = 7800.0
 """Density [kg/m³] of balls of bearing steel."""
@@ -62,7 +63,8 @@ class Bearing:
         r_i, r_o [m], E [Pa] and ν where the drawing is known, all four of them: contact pressure
         needs them. `from_drawing` derives K, A0, r_d, R_o and R_i from them, `replace` again.
     rows
-        none for one row at the middle of the bearing; else each `Row`. `n_balls` are those of one.
+        none for one row at the middle of the bearing; else each `Row`. `n_balls` and dimensions are
+        those of every row that has none of its own.
     roller_length
         [m] of cylindrical rollers, which stand in place of balls: line contact, K in N/m^(10/9),
         radial directions only. None for balls.
@@ -149,15 +151,6 @@ class Bearing:
         object.__setattr__(self, "rows", tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
-        if any(row.contact_angle == self.contact_angle for row in self.rows):
-            # one way to say it, so that equal bearings are equal
-            keep_rows = (
-                dataclasses.replace(row, contact_angle=None)
-                if row.contact_angle == self.contact_angle
-                else row
-                for row in self.rows
-            )
-            object.__setattr__(self, "rows", tuple(keep_rows))
         if self.roller_length is not None:
             keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
             if self.contact_angle != 0.0 or self.rows or self.is_drawn:
@@ -166,6 +159,8 @@ class Bearing:
                     self.roller_length,
                     "None, unless contact_angle is 0 with one row and no groove radii",
                 )
+        for k in range(len(self.rows)):
+            self.of_row(k)  # refuses dimensions that do not fit each other
 
     @classmethod
     def cylindrical(
@@ -315,17 +310,76 @@ class Bearing:
         return self.rows or (Row(),)
 
     def of_row(self, row: int) -> Bearing:
-        """The bearing with the contact angle of a row and what follows from it, without rows.
+        """The bearing with the numbers of a row and what follows from them, without rows.
 
-        The bearing itself where the row has no contact angle of its own.
+        The bearing itself where all rows are alike.
+
+        Raises
+        ------
+        ValueError
+            for dimensions of the row that do not fit each other, or that nothing follows from as
+            the bearing does not carry its drawing.
         """
-        angle = self.all_rows[row].contact_angle
-        return self if angle is None else _with_contact_angle(self, angle)
+        if self.rows_are_alike:
+            return self
+        try:
+            return _with_own(self, tuple(self._unlike(self.rows[row]).items()))
+        except ValueError as refused:
+            raise ValueError(f"row {row + 1}: {refused}") from None
 
     @property
-    def has_one_contact_angle(self) -> bool:
-        """True where no row has a contact angle of its own: all then share one cage speed."""
-        return all(row.contact_angle is None for row in self.rows)
+    def rows_are_alike(self) -> bool:
+        """True where no row has balls or dimensions of its own; places and turns may differ."""
+        return not any(self._unlike(row) for row in self.rows)
+
+    def _unlike(self, row: Row) -> dict[str, float]:
+        """What a row has of its own that is not the bearing's."""
+        return {name: held for name, held in row.own.items() if held != getattr(self, name)}
+
+    @property
+    def unlike_rows(self) -> tuple[tuple[Bearing, slice], ...]:
+        """The bearing of each row, see `of_row`, and where its balls stand among all of them.
+
+        Rows that are alike are told once: the bearing with all balls.
+        """
+        if self.rows_are_alike:
+            return ((self, slice(0, self.total_balls)),)
+        return tuple((self.of_row(k), own) for k, own in enumerate(self.balls_of_rows))
+
+    @property
+    def balls_of_rows(self) -> tuple[slice, ...]:
+        """Where the balls of each row stand among all of them: row after row."""
+        ends = list(accumulate(row.n_balls or self.n_balls for row in self.all_rows))
+        return tuple(slice(a, b) for a, b in zip([0, *ends[:-1]], ends, strict=True))
+
+    def row_of_ball(self, ball: int) -> tuple[int, int]:
+        """Row of a ball out of all of them, and its number in the row, both counted from 0."""
+        for row, own in enumerate(self.balls_of_rows):
+            if own.start <= ball < own.stop:
+                return row, ball - own.start
+        raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
+
+    def pace(self, row: int) -> float:
+        """How fast the cage of a row turns, over that of the bearing's own numbers."""
+        own = self.of_row(row)
+        return 1.0 if own._ratio == self._ratio else own.cage_ratio / self.cage_ratio
+
+    @property
+    def has_one_cage_speed(self) -> bool:
+        """True where the cages of all rows turn at one speed."""
+        return len({self.pace(k) for k in range(len(self.all_rows))}) == 1
+
+    @property
+    def period(self) -> float:
+        """Cage angle [rad] after which balls stand where balls stood.
+
+        A ball spacing where all rows have as many balls; else what the spacings of the rows have in
+        common. Cages that turn at speeds of their own come back at no angle: then a whole turn.
+        """
+        if not self.has_one_cage_speed:
+            return 2.0 * math.pi
+        counts = (row.n_balls or self.n_balls for row in self.all_rows)
+        return 2.0 * math.pi / math.gcd(*counts) / self.pace(0)
 
     @property
     def is_roller(self) -> bool:
@@ -341,7 +395,7 @@ class Bearing:
     def is_flat(self) -> bool:
         """True where a radial load moves nothing out of the plane of the balls."""
         return self.contact_angle == 0.0 and all(
-            row.place == 0.0 and row.contact_angle is None for row in self.all_rows
+            row.place == 0.0 and not self._unlike(row) for row in self.all_rows
         )
 
     @classmethod
@@ -488,7 +542,7 @@ class Bearing:
         radius = self.groove_center_distance * math.cos(self.contact_angle)
         place = self.groove_center_distance * math.sin(self.contact_angle)
         return math.isclose(self.groove_center_radius, radius, rel_tol=1e-9) and all(
-            row.contact_angle is None and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
+            not self._unlike(row) and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
             for row in self.rows
         )
 
@@ -500,7 +554,7 @@ class Bearing:
     @property
     def total_balls(self) -> int:
         """Balls or rollers of all rows."""
-        return self.n_balls * len(self.all_rows)
+        return self.balls_of_rows[-1].stop
 
     @property
     def knows_contacts(self) -> bool:
@@ -654,7 +708,10 @@ class Bearing:
 
     @property
     def ball_spacing(self) -> float:
-        """Angle between neighbouring balls, 2π/N_b [rad] (Eq. 4)."""
+        """Angle between neighbouring balls, 2π/N_b [rad] (Eq. 4).
+
+        Of the rows that have no number of balls of their own: see `period`.
+        """
         return 2.0 * math.pi / self.n_balls
 
     @cached_property
@@ -664,7 +721,11 @@ class Bearing:
 
     @property
     def cage_ratio(self) -> float:
-        """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3)."""
+        """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3).
+
+        Of the bearing's own numbers, as all speeds and frequencies: those of a row that has numbers
+        of its own are `of_row(k)`'s.
+        """
         return 0.5 * (1.0 - self._ratio)
 
     def cage_speed(self, shaft_speed: float) -> float:
@@ -691,5 +752,17 @@ class Bearing:
 
 
 @lru_cache(maxsize=256)
-def _with_contact_angle(bearing: Bearing, contact_angle: float) -> Bearing:
-    return dataclasses.replace(bearing, rows=()).replace(contact_angle=contact_angle)
+def _with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
+    """The bearing without rows and with what one of them has of its own."""
+    values: dict[str, Any] = dict(own)
+    if not bearing.is_drawn:
+        for name in LENGTHS:
+            if name in values:
+                raise checks.refuse(
+                    f"{name} of a row", values[name], "None, unless the bearing has groove radii"
+                )
+    elif "ball_diameter" in values:
+        larger = values["ball_diameter"] / bearing.ball_diameter
+        for name in drawing.GROOVES:
+            values.setdefault(name, larger * getattr(bearing, name))
+    return dataclasses.replace(bearing, rows=()).replace(**values)

@@ -126,12 +126,13 @@ class Defect:
 
     def check_depth(self, bearing: Bearing) -> None:
         """Raise ValueError where the floor is deeper than a ball of `bearing` could roll over."""
-        if self.depth > bearing.ball_radius:
+        rows = range(len(bearing.all_rows)) if self.row is None else [self.row]
+        least = min(bearing.of_row(row).ball_radius for row in rows)
+        if self.depth > least:
             raise checks.refuse(
                 "depth",
                 self.depth,
-                f"at most the ball radius of {bearing.ball_radius:g} m, or no ball rolls over "
-                "the edge",
+                f"at most the ball radius of {least:g} m, or no ball rolls over the edge",
             )
 
     def check_row(self, bearing: Bearing) -> None:
@@ -248,7 +249,7 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     ValueError
         where defects that run into one another differ in edge model or have floors of their own.
     """
-    if not bearing.has_one_contact_angle:
+    if not bearing.rows_are_alike:
         return _paths_of_rows(defects, bearing)
     rows: list[NDArray[np.float64]] = []
     tables: list[NDArray[np.float64]] = []
@@ -274,10 +275,7 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
 
 
 def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
-    """The same, row by row: each row's balls run on raceways of their own radius.
-
-    The shaft turns as it does for the cage of the bearing's contact angle.
-    """
+    """The same, row by row: each row's balls run on raceways of their own radius."""
     found, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
         there = tuple(
@@ -286,17 +284,13 @@ def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Pat
         own = path_tables(there, dataclasses.replace(bearing.of_row(row), rows=()))
         lines = own.defects.copy()
         lines[:, _TABLE_START] += size
-        turning = lines[:, _TURN_RATIO] != 0.0
-        lines[turning, _TURN_RATIO] = 1.0 / bearing.cage_ratio
         found.append(lines)
         tables.append(own.tables)
         size += own.tables.size
     return kernels.Path(np.concatenate(found), np.concatenate(tables))
 
 
-_TURN_RATIO, _TABLE_START = (
-    kernels.PATH_COLUMNS.index(name) for name in ("turn_ratio", "table_start")
-)
+_TABLE_START = kernels.PATH_COLUMNS.index("table_start")
 
 
 def drop_into(
@@ -313,6 +307,7 @@ def drop_into(
     """
     angles = np.asarray(ball_angle, dtype=float) + np.zeros_like(cage_angle, dtype=float)
     cage = np.asarray(cage_angle, dtype=float) + np.zeros_like(angles)
+    cage = bearing.pace(row) * cage
     drop = kernels.ball_path(angles.ravel(), cage.ravel(), row, path_tables(defects, bearing))
     return drop.reshape(angles.shape)
 

@@ -41,32 +41,42 @@ class BodyNumbers(NamedTuple):
 @lru_cache(maxsize=256)
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """All contacts of a bearing."""
-    n, rows = bearing.n_balls, bearing.all_rows
+    rows = bearing.all_rows
     owns = [bearing.of_row(k) for k in range(len(rows))]
+    counts = [own.n_balls for own in owns]
     lever = bearing.groove_center_radius
 
     def each(*values: float) -> Array:
         """The values of the rows, once for each of their contacts."""
-        return np.repeat(np.array(values, dtype=float), n)
-
-    def alike(value: float) -> Array:
-        return np.full(n * len(rows), float(value))
+        return np.repeat(np.array(values, dtype=float), counts)
 
     return kernels.Contacts(
-        angle=np.concatenate([row.turn + bearing.ball_spacing * np.arange(n) for row in rows]),
+        angle=np.concatenate(
+            [
+                row.turn + own.ball_spacing * np.arange(own.n_balls)
+                for row, own in zip(rows, owns, strict=True)
+            ]
+        ),
+        pace=each(*(bearing.pace(k) for k in range(len(rows)))),
         arm=each(*(row.place / lever for row in rows)),
         reach=each(*(own.groove_center_radius / lever for own in owns)),
         line_r=each(*(math.cos(own.contact_angle) for own in owns)),
         line_z=each(
             *(row.facing * math.sin(own.contact_angle) for row, own in zip(rows, owns, strict=True))
         ),
-        distance=alike(bearing.groove_center_distance),
+        distance=each(*(own.groove_center_distance for own in owns)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
         factor=each(*(own.load_deflection_factor for own in owns)),
-        exponent=alike(bearing.contact_exponent),
-        rows=np.array([[k * n, n] for k in range(len(rows))]),
+        exponent=each(*(own.contact_exponent for own in owns)),
+        rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
     )
+
+
+def ball_angles(bearing: Bearing, cage_angles: Array) -> Array:
+    """Angles (n, balls) [rad] of all balls at cage angles (n,), row after row."""
+    one = contacts(bearing)
+    return cage_angles[:, None] * one.pace + one.angle
 
 
 def path(scene: Scene, race: str | None = None) -> kernels.Path:
@@ -83,14 +93,13 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
     bearing = scene.bearing
-    mass = bearing.ball_mass
     owns = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
     softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.contact_exponent)
               for own in owns]  # fmt: skip
 
     def each(values: Iterable[float]) -> Array:
         """The values of the rows, once for each of their balls."""
-        return np.repeat(np.array(list(values), dtype=float), bearing.n_balls)
+        return np.repeat(np.array(list(values), dtype=float), [own.n_balls for own in owns])
 
     def both(values: Iterable[tuple[float, float]]) -> Array:
         """The same of pairs of values, for the inner and the outer race."""
@@ -103,10 +112,10 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
         damping=both(
             (contact_damping * (1.0 + one), contact_damping * (1.0 + 1.0 / one)) for one in softer
         ),
-        mass=each(mass for _ in owns),
-        inverse_mass=each(1.0 / mass for _ in owns),
+        mass=each(own.ball_mass for own in owns),
+        inverse_mass=each(1.0 / own.ball_mass for own in owns),
         centrifugal=each(own.centrifugal_load(scene.shaft_speed) for own in owns),
-        weight=each(mass * STANDARD_GRAVITY if weight else 0.0 for _ in owns),
+        weight=each(own.ball_mass * STANDARD_GRAVITY if weight else 0.0 for own in owns),
     )
 
 
@@ -158,18 +167,7 @@ def rotor(
     That is variables without jumps where the contact law has them, with the shorter sums of
     contacts that stay in the plane where they do; `velocities` asks for these as they are, which
     adaptive steps and general-purpose integrators take. contact_damping: c [N·s/m] of Eq. 18.
-
-    ValueError for rows that have contact angles of their own.
     """
-    if not scene.bearing.has_one_contact_angle:
-        own = [scene.bearing.of_row(k) for k in range(len(scene.bearing.all_rows))]
-        angles = " and ".join(f"{math.degrees(one.contact_angle):.4g}°" for one in own)
-        ratios = " and ".join(f"{one.cage_ratio:.4g}" for one in own)
-        raise ValueError(
-            f"contact angles of the rows are {angles}; allowed: one for all rows, where things "
-            f"move: else each row's cage turns at a speed of its own, here {ratios} of the "
-            "shaft's, and nothing repeats"
-        )
     published = scene.contact_law == "published"
     variables = kernels.VELOCITIES
     if published and not velocities:

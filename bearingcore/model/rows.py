@@ -18,15 +18,18 @@ ARRANGEMENTS = ("back-to-back", "face-to-face", "tandem")
 
 MOST_ROWS = 8
 
+LENGTHS = ("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius")
+OWN = ("n_balls", "contact_angle", *LENGTHS)
+"""Fields of a `Bearing` that a row may have of its own."""
+
 
 @dataclass(frozen=True)
 class Row:
-    """One row of balls. All rows of a bearing have balls alike in number and size.
+    """One row of balls. What it does not give of its own is the bearing's.
 
-    Rows whose contact angles differ by more than their sign have cages that turn at speeds of their
-    own. What stands still is solved all the same, with the rows turned to each other as `turn` says
-    at every cage angle; motion, which never repeats, is refused. Rows of unlike balls would have no
-    ball spacing in common either, by which curves, maps and orbits are laid out.
+    The cage of a row with dimensions of its own may turn at another speed than the bearing's. A
+    cage angle φ is that of the bearing's own numbers; the cage of a row stands at φ times its speed
+    over the bearing's, and at φ = 0 as `turn` says (`Bearing.pace`).
 
     Parameters
     ----------
@@ -39,9 +42,15 @@ class Row:
     offset
         [m] how far the inner groove stands up the shaft from where it would without preload.
     turn
-        [rad] from the first ball of the bearing to the first of this row.
+        [rad] from the first ball of the bearing to the first of this row, at cage angle 0.
     contact_angle
         unloaded contact angle [rad] of this row, 0 to 80°; None: that of the bearing.
+    n_balls
+        balls of this row; None: as many as the bearing has.
+    ball_diameter, pitch_diameter
+        [m] of this row; None: those of the bearing.
+    inner_groove_radius, outer_groove_radius
+        [m] of this row; None: those of the bearing, as much wider or closer as its balls are.
 
     Raises
     ------
@@ -55,6 +64,11 @@ class Row:
     offset: float = 0.0
     turn: float = 0.0
     contact_angle: float | None = None
+    n_balls: int | None = None
+    ball_diameter: float | None = None
+    pitch_diameter: float | None = None
+    inner_groove_radius: float | None = None
+    outer_groove_radius: float | None = None
 
     def __post_init__(self) -> None:
         if self.contact_angle is not None:
@@ -62,6 +76,13 @@ class Row:
                 "contact_angle of a row", self.contact_angle, at_least=0.0, unit="rad"
             )
             object.__setattr__(self, "contact_angle", check_contact_angle(angle))
+        if self.n_balls is not None:
+            count = checks.whole_number("n_balls of a row", self.n_balls, at_least=1, at_most=500)
+            object.__setattr__(self, "n_balls", count)
+        for name in LENGTHS:
+            if (length := getattr(self, name)) is not None:
+                length = checks.number(f"{name} of a row", length, above=0.0, unit="m")
+                object.__setattr__(self, name, length)
         if self.facing not in (-1, 1) or isinstance(self.facing, bool):
             raise checks.refuse("facing of a row", self.facing, "1 or -1")
         object.__setattr__(self, "facing", int(self.facing))
@@ -75,6 +96,11 @@ class Row:
                 f"{name} of a row", getattr(self, name), at_least=-most, at_most=most, unit=unit
             )
             object.__setattr__(self, name, value)
+
+    @property
+    def own(self) -> dict[str, float]:
+        """What the row has of its own, by the names of the fields of `Bearing`."""
+        return {name: held for name in OWN if (held := getattr(self, name)) is not None}
 
 
 def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, Row]:

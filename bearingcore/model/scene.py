@@ -140,7 +140,7 @@ class Scene:
 
     @property
     def cage_speed(self) -> float:
-        """Cage speed ω_c [rad/s] (Eq. 3)."""
+        """Cage speed ω_c [rad/s] of the bearing's own numbers (Eq. 3)."""
         return self.bearing.cage_speed(self.shaft_speed)
 
     def healthy(self) -> Scene:

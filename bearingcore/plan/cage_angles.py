@@ -19,7 +19,7 @@ from bearingcore.dynamics.modes import two_body_matrix
 from bearingcore.model.packing import contacts, typical_compression
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
-from bearingcore.statics.passes import ball_drop, path_kinks
+from bearingcore.statics.passes import drops_at, path_kinks
 
 Array = NDArray[np.float64]
 
@@ -160,8 +160,8 @@ class _Nodes:
         c, s = np.cos(phi), np.sin(phi)
         x, y, z, rx, ry = (state.state[:, i, None] for i in range(5))
         radial = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
-        axial = z + one.reach * (rx * s - ry * c)
-        drop = ball_drop(self.scene, phi, angles[:, None])
+        axial = z + one.reach * (rx * s - ry * c) + one.offset
+        drop = drops_at(self.scene, angles)
         along = A0 + radial * ca + axial * sa - drop
         distance = np.hypot(np.maximum(along, 0.0), axial * ca - radial * sa)
         gaps: Array = np.stack([distance - A0, along], axis=1)

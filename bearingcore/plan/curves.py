@@ -67,7 +67,7 @@ def _equal_error(scene: Scene, view: str, state: Equilibrium, equal: Array) -> f
 
 
 def _static_offers(scene: Scene, view: str, seconds: float) -> tuple[Offer, ...]:
-    angles = np.linspace(0.0, scene.bearing.ball_spacing, 13)
+    angles = np.linspace(0.0, scene.bearing.period, 13)
     truth = equilibrium(scene, angles)
     offers = []
     for fewer in fewer_directions(scene.active_dofs):

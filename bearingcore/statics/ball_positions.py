@@ -45,7 +45,7 @@ class BallPositions:
     scene, dofs, cage_angles : (n,) [rad]
         what was solved, along which free directions.
     centrifugal_load
-        F_c [N] of each ball.
+        F_c [N] of each ball of the first row.
     displacement : (n, 5) [m, rad]
         of the inner ring.
     load : (2, n, N_b) [N]
@@ -273,7 +273,7 @@ class CentrifugalEffect:
     Attributes
     ----------
     force [N]
-        F_c of a ball.
+        F_c of a ball of the first row.
     load
         change of a load at the outer race over the heaviest load.
     contact_angle [rad]
@@ -335,7 +335,7 @@ def _unbalanced(
 
     Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
     """
-    phi = cage_angles[:, None] + packing.contacts(scene.bearing).angle
+    phi = packing.ball_angles(scene.bearing, cage_angles)
     known = np.nan_to_num(angle)
     radial, axial = load * np.cos(known), load * np.sin(known)
     outwards = radial[0] - radial[1] + races.centrifugal - races.weight * np.sin(phi)

@@ -113,8 +113,7 @@ class Equilibrium:
     @cached_property
     def ball_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""
-        offsets = packing.contacts(self.scene.bearing).angle
-        return (self.cage_angles[:, None] + offsets) % (2.0 * math.pi)
+        return packing.ball_angles(self.scene.bearing, self.cage_angles) % (2.0 * math.pi)
 
     @cached_property
     def contact_angle(self) -> NDArray[np.float64]:
@@ -167,12 +166,20 @@ class Equilibrium:
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
     """N equally spaced cage angles [rad] over one period of the scene's curves, ends included.
 
-    The period is a ball spacing, as the balls are alike. A defect of the inner race turns with the
-    shaft and breaks it: its curves are given over the cage angle in which the shaft turns once.
+    The period is a ball spacing, as the balls are alike; where rows are not, `Bearing.period`, with
+    eight times as many angles. A defect of the inner race turns with the shaft and breaks it: its
+    curves are given over the cage angle in which the shaft turns once.
     """
+    period = scene.bearing.period
     if any(defect.race == "inner" for defect in scene.defects):
-        return np.linspace(0.0, 2.0 * math.pi * scene.bearing.cage_ratio, 8 * (n - 1) + 1)
-    return np.linspace(0.0, scene.bearing.ball_spacing, n)
+        period = 2.0 * math.pi * scene.bearing.cage_ratio
+    return np.linspace(0.0, period, 8 * (n - 1) + 1 if has_long_period(scene) else n)
+
+
+def has_long_period(scene: Scene) -> bool:
+    """True where a ball spacing is not the period of the scene's curves."""
+    turning = any(defect.race == "inner" for defect in scene.defects)
+    return turning or scene.bearing.period != scene.bearing.ball_spacing
 
 
 def equilibrium(

@@ -41,6 +41,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
@@ -49,7 +51,7 @@ from bearingcore.model.contacts.line import RollerContact
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.limit import Limit
-from bearingcore.statics.pressure import RACES, heaviest_ball
+from bearingcore.statics.pressure import RACES, HeaviestBall, heaviest_balls
 
 TOUCHING, PARTED = 1.0, 3.0
 """Film parameter below which peaks of the surfaces touch all the time, and above which they hardly
@@ -227,6 +229,8 @@ def film(
 ) -> Film:
     """Least film thickness and film parameter at each race, where a ball or roller carries most.
 
+    Of rows that are unlike, that of the row where the film is thinnest against the roughness.
+
     Parameters
     ----------
     scene
@@ -265,8 +269,17 @@ def film(
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
-    heaviest = heaviest_ball(state)
-    load, own = heaviest.load, scene.bearing.of_row(heaviest.row)
+    films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
+    # one that is not known is not the thinnest, unless none is known
+    return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))
+
+
+def _film_of(
+    scene: Scene, ball: HeaviestBall, oil: tuple[float, float], sigma: dict[str, float]
+) -> Film:
+    """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
+    eta, xi = oil
+    load, own = ball.load, scene.bearing.of_row(ball.row)
     contacts = {race: own.race_contact(race) for race in RACES}
     u = rolling_speed(own, scene.shaft_speed)
     films = {}

@@ -14,7 +14,14 @@ D_b cos α0 / D_p                              | γ      |                      
 
     L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e),
 
-p = 3, e = 10/9 for balls, p = 4, e = 9/8 for rollers.
+p = 3, e = 10/9 for balls, p = 4, e = 9/8 for rollers. Of several rows the sum is over all their
+races, each row with its own ratings Q_ci, Q_ce, as all of them have to live.
+
+C_r is the rating of all i rows together. Of rows alike each counts as C_r/i^0.7 alone (i^(7/9) of
+rollers), so that rows that carry equal parts of the load last as C_r says. The standard goes no
+further; here rows that are unlike share C_r in proportion to what ISO 281 rates each of them, so
+that rows which carry parts of the load in that proportion last as C_r says: alone, row k counts as
+C_r i^0.3 C_k/Σ C, and all rows together have C_r = i^(−0.3) Σ C_k.
 
 Which loads are averaged, and how: `bearingcore.statics.race_loads`.
 
@@ -32,6 +39,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -102,9 +110,12 @@ class Life:
     scene, dynamic_load_rating [N], positions, turning_race
         what was asked.
     inner_rating, outer_rating [N]
-        Q_ci, Q_ce: the ball load under which each race lasts 10⁶ turns.
+        Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns.
     inner_load, outer_load [N]
-        Q_ei, Q_ee: the load of a ball that tires each race as all of its loads do.
+        Q_ei, Q_ee: the load of a ball that tires each race as all loads of all rows do, theirs as
+        much larger as their ratings are smaller than those of the first row.
+    rows
+        L_10r [10⁶ turns] of each row on its own, under what it carries in the bearing.
     heaviest_load [N]
         greatest load of a ball.
     million_revolutions
@@ -136,6 +147,7 @@ class Life:
     healthy_million_revolutions: float
     status: int
     sentence: str
+    rows: tuple[float, ...] = ()
 
     @property
     def known(self) -> bool:
@@ -170,6 +182,10 @@ class Life:
             ("outer_rating", "N", self.outer_rating, of_ball.format("outer")),
             ("inner_load", "N", self.inner_load, as_tiring.format("inner")),
             ("outer_load", "N", self.outer_load, as_tiring.format("outer")),
+            *(
+                (f"million_revolutions_of_row_{k + 1}", "", L, "L_10r of that row alone")
+                for k, L in enumerate(self.rows if len(self.rows) > 1 else ())
+            ),
             ("sentence", "", [self.sentence]),
         )
 
@@ -193,8 +209,8 @@ def life(
     positions
         "load line": loads with a ball on the line of the radial load (cage angle 0 without a radial
         load), as the standard's examples and commercial codes take them; for a healthy bearing
-        only. "all": averaged over all cage angles, and over all shaft angles where a defect turns
-        with the shaft. None: the first for a healthy bearing, the second for a damaged one. The two
+        of rows alike only. "all": averaged over all cage angles, and over all shaft angles where a
+        defect turns with the shaft. None: the first where it may be, else the second. The two
         differ by up to some 3 % with seven balls; take "all" where lives are compared.
     turning_race
         the race that turns against the load: "inner", as in a scene with a defect; "outer" for a
@@ -209,8 +225,9 @@ def life(
     Raises
     ------
     ValueError
-        for a rating that is not positive, a bearing without groove radii, and for "load line" or a
-        turning outer race with a damaged bearing.
+        for a rating that is not positive, a bearing without groove radii, for "load line" with
+        rows that are not alike, for that or a turning outer race with a damaged bearing, and for a
+        damaged inner race of rows that are not alike.
 
     Examples
     --------
@@ -221,23 +238,34 @@ def life(
     """
     C = checks.number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
     damaged = bool(scene.defects)
+    alike = scene.bearing.rows_are_alike
     if positions is None:
-        positions = "all" if damaged else "load line"
+        positions = "all" if damaged or not alike else "load line"
     checks.choice("positions", positions, POSITIONS)
     checks.choice("turning_race", turning_race, TURNING)
     if damaged and positions != "all":
         raise checks.refuse("positions", positions, '"all" for a damaged bearing')
+    if not alike and positions != "all":
+        raise checks.refuse("positions", positions, '"all" for rows that are not alike')
     if damaged and turning_race != "inner":
         raise checks.refuse(
             "turning_race", turning_race, '"inner" for a damaged bearing: its load stands still'
         )
     contact = LINE_CONTACT if scene.bearing.is_roller else POINT_CONTACT
-    Q_ci, Q_ce = ratings = race_ratings(scene.bearing, C)
+    rows = range(len(scene.bearing.all_rows))
+    ratings = [race_ratings(scene.bearing, C, k) for k in rows]
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
     healthy = _loads(healthy_scene, positions, turning_race)
     loads = _loads(scene, positions, turning_race) if damaged else healthy
-    L = million_revolutions(contact, ratings, (loads.inner, loads.outer))
-    L_healthy = million_revolutions(contact, ratings, (healthy.inner, healthy.outer))
+    L_healthy = million_revolutions(contact, *_races(ratings, healthy))
+    rated, carried = _races(ratings, loads)
+    L = million_revolutions(contact, rated, carried)
+    Q_ci, Q_ce = ratings[0]
+    # what all rows together do to a race, as a load on that of the first row
+    Q_ei, Q_ee = (
+        rating * _together(contact, rated[race::2], carried[race::2])
+        for race, rating in enumerate(ratings[0])
+    )
     turns_an_hour = scene.shaft_speed / (2.0 * math.pi) * 3600.0
     hours = 1e6 * L / turns_an_hour if turns_an_hour else math.nan
     P = 0.0 if math.isinf(L) else C * L ** (-1.0 / contact.load_exponent)
@@ -248,8 +276,8 @@ def life(
         turning_race=turning_race,
         inner_rating=Q_ci,
         outer_rating=Q_ce,
-        inner_load=loads.inner,
-        outer_load=loads.outer,
+        inner_load=Q_ei,
+        outer_load=Q_ee,
         heaviest_load=loads.heaviest,
         million_revolutions=L,
         hours=hours,
@@ -257,32 +285,60 @@ def life(
         healthy_million_revolutions=L_healthy,
         status=loads.status,
         sentence=_sentence(scene, loads.reason, L, hours, L_healthy, P / C),
+        rows=tuple(
+            million_revolutions(contact, rated[2 * k : 2 * k + 2], carried[2 * k : 2 * k + 2])
+            for k in rows
+        ),
     )
 
 
-def race_ratings(bearing: Bearing, dynamic_load_rating: float) -> tuple[float, float]:
+def _races(
+    ratings: Sequence[tuple[float, float]], loads: RaceLoads
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Ratings and loads [N] of all races: inner and outer one of the first row, of the second."""
+    rated = tuple(rating for row in ratings for rating in row)
+    carried = tuple(load for row in zip(loads.inner, loads.outer, strict=True) for load in row)
+    return rated, carried
+
+
+def _together(contact: ContactLife, ratings: Sequence[float], loads: Sequence[float]) -> float:
+    """Load over rating that tires one race as much as these tire several."""
+    power = contact.load_exponent * contact.scatter
+    parts = [load / rating for load, rating in zip(loads, ratings, strict=True)]
+    size = max(parts)
+    if len(parts) == 1 or not size > 0.0:
+        return size
+    return float(size * sum((part / size) ** power for part in parts) ** (1.0 / power))
+
+
+def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> tuple[float, float]:
     """Q_ci, Q_ce [N]: the loads of a ball under which inner and outer race last 10⁶ turns.
 
     Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
     carry its groove radii.
     """
-    _check_one_contact_angle(bearing)
-    cosine = math.cos(bearing.contact_angle)
+    own = bearing.of_row(row)
+    cosine = math.cos(own.contact_angle)
     return ratings_of_races(
         LINE_CONTACT if bearing.is_roller else POINT_CONTACT,
-        dynamic_load_rating / (bearing.n_balls * cosine),
-        bearing.ball_diameter * cosine / bearing.pitch_diameter,
-        1.0 if bearing.is_roller else _groove_ratio(*_conformities(bearing)),
+        dynamic_load_rating * _part_of_rating(bearing, row) / (own.n_balls * cosine),
+        own.ball_diameter * cosine / own.pitch_diameter,
+        1.0 if bearing.is_roller else _groove_ratio(*_conformities(own)),
         len(bearing.all_rows),
     )
 
 
-def _check_one_contact_angle(bearing: Bearing) -> None:
-    """Refuse rows whose ratings differ: that of all together does not say what each is rated."""
-    if not bearing.has_one_contact_angle:
-        raise checks.refuse(
-            "rows", "of contact angles of their own", "rows alike, where a rating is of all of them"
-        )
+def _part_of_rating(bearing: Bearing, row: int) -> float:
+    """Rating of a row over the mean of all rows."""
+    if bearing.rows_are_alike:
+        return 1.0
+    each = _ratings_alone(bearing)
+    return each[row] * len(each) / sum(each)
+
+
+def _ratings_alone(bearing: Bearing) -> list[float]:
+    """C_r [N] of each of unlike rows as if it were a bearing; see `dynamic_load_rating`."""
+    return [dynamic_load_rating(bearing.of_row(k)) for k in range(len(bearing.rows))]
 
 
 def _conformities(bearing: Bearing) -> tuple[float, float]:
@@ -344,7 +400,8 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     roller's chamfers. f_c are the standard's tables as formulas, 0.2 % from each of their numbers:
     that of balls holds for grooves of 0.52 (inner) and 0.53 (outer) ball diameters and is not
     raised for closer ones; wider ones lower it, and a bearing whose grooves are not known counts as
-    one with those. Catalogues give more where a maker vouches for better steel.
+    one with those. Catalogues give more where a maker vouches for better steel. Of rows that are
+    unlike it is i^(−0.3) Σ C_k: see the head of the module.
 
     ValueError for self-aligning bearings, whose factors the standard tabulates apart: their rating
     comes from the catalogue.
@@ -357,7 +414,9 @@ def dynamic_load_rating(bearing: Bearing) -> float:
         )
     if bearing.roller_length is not None:
         return _roller_rating(bearing, bearing.roller_length)
-    _check_one_contact_angle(bearing)
+    if not bearing.rows_are_alike:
+        each = _ratings_alone(bearing)
+        return float(sum(each) * len(each) ** (POINT_CONTACT.row_power - 1.0))
     D, Z, rows = bearing.ball_diameter * 1e3, bearing.n_balls, len(bearing.all_rows)
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
@@ -409,11 +468,11 @@ def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
 
 
 def million_revolutions(
-    contact: ContactLife, ratings: tuple[float, float], loads: tuple[float, float]
+    contact: ContactLife, ratings: Sequence[float], loads: Sequence[float]
 ) -> float:
     """L_10r [10⁶ turns] from Q_ci, Q_ce and Q_ei, Q_ee [N] (ISO 16281); infinite under no load.
 
-    L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e).
+    Of several rows those of all of them. L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e).
     """
     p, e = contact.load_exponent, contact.scatter
     failing = sum((load / rating) ** (p * e) for load, rating in zip(loads, ratings, strict=True))

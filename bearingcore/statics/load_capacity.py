@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.kernels import RESIDUAL_LIMIT
-from bearingcore.model.packing import contacts
+from bearingcore.model.packing import ball_angles, contacts
 from bearingcore.model.scene import Scene
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ def way_out(
     if not load.any():
         return nothing
     every = contacts(scene.bearing)
-    phi = cage_angle + every.angle
+    phi = ball_angles(scene.bearing, np.array([cage_angle]))[0]
     c, s, zero, one = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
     radial = np.stack([c, s, zero, -every.arm * s, every.arm * c], axis=1)[:, active]
     axial = np.stack([zero, zero, one, every.reach * s, -every.reach * c], axis=1)[:, active]

@@ -267,7 +267,7 @@ def _paths(
     """
     sizes = np.array(extents)
     columns = len(kernels.PATH_COLUMNS)
-    if not others and first.floor is None and bearing.has_one_contact_angle:
+    if not others and first.floor is None and bearing.rows_are_alike:
         # one row of numbers fits all: only the extent differs
         row = dataclasses.replace(first, extent=math.pi).edge_row(bearing)
         rows = np.tile(row, (sizes.size, 1, 1))

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.model.defect import RACES, drop_into
-from bearingcore.model.packing import contacts
+from bearingcore.model.defect import RACES, Defect, drop_into
+from bearingcore.model.packing import ball_angles, contacts
 from bearingcore.model.scene import Scene
 
 TWO_PI = 2.0 * math.pi
@@ -55,13 +56,20 @@ def ball_drop(
 
 def drops_now(scene: Scene, cage_angle: float, race: str | None = None) -> NDArray[np.float64]:
     """Drop [m] of each ball of the bearing with the cage at an angle [rad], row after row."""
-    n = scene.bearing.n_balls
-    angles = cage_angle + contacts(scene.bearing).angle
+    return drops_at(scene, np.array([cage_angle]), race)[0]
+
+
+def drops_at(
+    scene: Scene, cage_angles: NDArray[np.float64], race: str | None = None
+) -> NDArray[np.float64]:
+    """Drop (n, balls) [m] of each ball at cage angles (n,) [rad], row after row."""
+    angles = ball_angles(scene.bearing, cage_angles)
     return np.concatenate(
         [
-            ball_drop(scene, angles[k * n : (k + 1) * n], cage_angle, race, k)
-            for k in range(len(scene.bearing.all_rows))
-        ]
+            ball_drop(scene, angles[:, own], cage_angles[:, None], race, row)
+            for row, own in enumerate(scene.bearing.balls_of_rows)
+        ],
+        axis=1,
     )
 
 
@@ -71,17 +79,18 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
     A defect around the whole race has no edges and gives none.
     """
     found = []
-    angles = contacts(scene.bearing).angle.tolist()
-    for index, defect in enumerate(scene.defects):
-        if defect.extent >= TWO_PI:
+    bearing = scene.bearing
+    angles = contacts(bearing).angle.tolist()
+    for index, row in product(range(len(scene.defects)), range(len(bearing.all_rows))):
+        defect = scene.defects[index]
+        if defect.extent >= TWO_PI or defect.row not in (None, row):
             continue
         # Balls pass the defect with the cage, or, as an inner race overtakes the cage, against it.
-        rate = 1.0 - defect.turn_ratio(scene.bearing)
+        rate = passing_rate(scene, defect, row)
+        own = bearing.balls_of_rows[row]
         for enters in (True, False):
             edge = defect.center - math.copysign(0.5 * defect.extent, rate) * (1 if enters else -1)
-            for ball, angle in enumerate(angles):
-                if defect.row not in (None, ball // scene.bearing.n_balls):
-                    continue
+            for ball, angle in enumerate(angles[own], own.start):
                 # cage_angle·rate + angle of the ball = edge + 2π k
                 start = (edge - angle) / rate
                 period = TWO_PI / abs(rate)
@@ -90,6 +99,26 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
                     found.append(Crossing(at, ball, index, enters))
                     at += period
     return sorted(found)
+
+
+def passing_rate(scene: Scene, defect: Defect, row: int) -> float:
+    """How far a ball of a row turns past a defect for each unit of cage angle; the race may pass it
+    instead, which is below 0.
+    """
+    own = scene.bearing.of_row(row)
+    return scene.bearing.pace(row) * (1.0 - defect.turn_ratio(own))
+
+
+def shortest_passage(scene: Scene) -> float:
+    """Cage angle [rad] in which a ball passes a defect, the least of all; infinite without one."""
+    rows = range(len(scene.bearing.all_rows))
+    passages = [
+        defect.extent / abs(passing_rate(scene, defect, row))
+        for defect in scene.defects
+        for row in rows
+        if defect.row in (None, row)
+    ]
+    return min(passages, default=math.inf)
 
 
 def path_kinks(scene: Scene, first: float, last: float) -> NDArray[np.float64]:
@@ -101,12 +130,14 @@ def path_kinks(scene: Scene, first: float, last: float) -> NDArray[np.float64]:
     found = []
     for crossing in crossings(scene, first - math.pi, last + math.pi):
         defect = scene.defects[crossing.defect]
-        rate = abs(1.0 - defect.turn_ratio(scene.bearing))
+        row, _ = scene.bearing.row_of_ball(crossing.ball)
+        rate = abs(passing_rate(scene, defect, row))
         inwards = 1.0 if crossing.enters else -1.0
         at = crossing.cage_angle
         found.append(at)
         # too short for the floor, it turns up again in the middle
-        s_floor = min(float(defect.edge_row(scene.bearing)[4]), 0.5 * defect.extent)
+        own = scene.bearing.of_row(row)
+        s_floor = min(float(defect.edge_row(own)[4]), 0.5 * defect.extent)
         found.append(at + inwards * s_floor / rate)
     angles = np.array(sorted(found))
     angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]

@@ -19,6 +19,7 @@ import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.model.bearing import Bearing
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
@@ -45,17 +46,25 @@ class HeaviestBall:
     row: int = 0
 
 
-def heaviest_ball(state: Equilibrium) -> HeaviestBall:
-    """The heaviest loaded ball of all cage angles whose loads are known."""
-    loads = np.where(np.isfinite(state.ball_load), state.ball_load, -math.inf)
+def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
+    """The heaviest loaded ball of each row that is unlike the others; one where all are alike.
+
+    Over all cage angles whose loads are known.
+    """
+    return tuple(_heaviest(state, balls) for _, balls in state.scene.bearing.unlike_rows)
+
+
+def _heaviest(state: Equilibrium, balls: slice) -> HeaviestBall:
+    loads = np.where(np.isfinite(state.ball_load), state.ball_load, -math.inf)[:, balls]
     if not loads.size or np.isneginf(loads).all():
         return HeaviestBall(math.nan, math.nan, math.nan)
     i, j = np.unravel_index(int(np.argmax(loads)), loads.shape)
+    ball = balls.start + int(j)
     return HeaviestBall(
         float(loads[i, j]),
         float(state.cage_angles[i]),
-        float(state.ball_angle[i, j]),
-        int(j) // state.scene.bearing.n_balls,
+        float(state.ball_angle[i, ball]),
+        state.scene.bearing.row_of_ball(ball)[0],
     )
 
 
@@ -129,6 +138,8 @@ class ContactPressures:
 def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:
     """Ellipse and pressure at each race, where a ball carries most over all cage angles.
 
+    Of rows that are unlike, that of the row whose heaviest ball presses hardest.
+
     Parameters
     ----------
     scene
@@ -145,11 +156,14 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
         state = equilibrium(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
-    ball = heaviest_ball(state)
-    own = scene.bearing.of_row(ball.row)
-    contacts = {race: own.race_contact(race) for race in RACES}
+    found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    return max(found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure))
+
+
+def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:
     found = {}
-    for race, contact in contacts.items():
+    for race in RACES:
+        contact = bearing.race_contact(race)
         a, b = contact.semi_axes(ball.load)
         p = contact.greatest_pressure(ball.load)
         found[race] = RacePressure(race, ball.load, float(a), float(b), float(p))

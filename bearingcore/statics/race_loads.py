@@ -25,8 +25,12 @@ other: the two means of ISO 16281. A defect breaks this up, as it stands in one 
 - in the inner race it turns against the load, so that every place of either race sees varying
   loads, and places of one race differ: both averages are needed for both races.
 
-Each row has races of its own. They all have to live, so that their lives combine as those of places
-do: a bearing of several rows lives as under (Σ over rows Q_e^(p e))^(1/(p e)).
+Each row has races of its own, which all have to live: their lives combine as those of places do.
+
+Rows whose cages turn at speeds of their own come to stand to each other everywhere in the long run:
+loads are then averaged over a whole turn of the cage, and over TURNS_OF_ROWS ways in which the rows
+are turned to each other, spread evenly. What passes a standing place then varies a little; that is
+counted by the second average too, which is on the safe side.
 
 The integrals are taken over panels that end where a ball meets an edge or a floor.
 """
@@ -36,12 +40,15 @@ from __future__ import annotations
 import dataclasses
 import math
 from functools import lru_cache
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import kernels
+from bearingcore.common import checks
+from bearingcore.model.bearing import Bearing
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
@@ -63,6 +70,11 @@ SHAFT_ANGLES, SHAFT_ANGLES_BOTH = 61, 361
 the balls at every place of the inner race, so no panel can end there. Odd, so that no wave of a
 series is its own mirror image."""
 
+TURNS_OF_ROWS = 16
+SPREAD = (0, 1, 5, 7, 3, 11, 13, 9)
+"""Ways in which rows are turned to each other, and how many of their parts of a spacing each cage
+speed takes from one to the next: odd ones, so that every part is met once (a lattice rule)."""
+
 FINER = 4
 """Places of the outer race for each shaft angle."""
 
@@ -70,12 +82,12 @@ FINER = 4
 class RaceLoads(NamedTuple):
     """The load [N] that tires each race as much as all that it carries, and the greatest of all.
 
-    NaN where the loads of some cage angle are not known; `status` (a code of `kernels`) and
-    `reason` then say why, and are CONVERGED and empty otherwise.
+    Of inner and outer race one for each row. NaN where the loads of some cage angle are not known;
+    `status` (a code of `kernels`) and `reason` then say why, and are CONVERGED and empty otherwise.
     """
 
-    inner: float
-    outer: float
+    inner: tuple[float, ...]
+    outer: tuple[float, ...]
     heaviest: float
     status: int = kernels.CONVERGED
     reason: str = ""
@@ -86,8 +98,8 @@ def snapshot_loads(
 ) -> RaceLoads:
     """The means over the balls at one cage angle [rad], as a standard takes them.
 
-    Right for a healthy bearing alone. Half a ball spacing on is looked at too: where the bearing
-    carries nothing there, it has no life.
+    Right for a healthy bearing with rows alike. Half a ball spacing on is looked at too: where the
+    bearing carries nothing there, it has no life.
     """
     state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     if unknown := _unknown(state):
@@ -100,14 +112,45 @@ def snapshot_loads(
 def race_loads(
     scene: Scene, load_exponent: float, scatter: float, turning_race: str = "inner"
 ) -> RaceLoads:
-    """The means over all cage angles, and over all shaft angles where a defect turns."""
+    """The means over all cage angles, and over all shaft angles where a defect turns.
+
+    ValueError for a defect of the inner race of a bearing whose rows are not alike.
+    """
     if any(defect.race == "inner" for defect in scene.defects):
         return _with_turning_defects(scene, load_exponent, scatter)
-    places, weights = _panels(scene, "outer")
-    state = equilibrium(scene, places)
-    if unknown := _unknown(state):
-        return unknown
-    return _averaged(scene, state.ball_load, weights, load_exponent, scatter, turning_race)
+    loads, weights = [], []
+    turned = _rows_turned(scene)
+    for one in turned:
+        places, weight = _panels(one, "outer")
+        state = equilibrium(one, places)
+        if unknown := _unknown(state):
+            return unknown
+        loads.append(state.ball_load)
+        weights.append(weight / len(turned))
+    all_loads, all_weights = np.concatenate(loads), np.concatenate(weights)
+    return _averaged(scene, all_loads, all_weights, load_exponent, scatter, turning_race)
+
+
+def _rows_turned(scene: Scene) -> list[Scene]:
+    """The scene with its rows turned to each other as they come to be; itself where they stay."""
+    bearing = scene.bearing
+    if bearing.has_one_cage_speed:
+        return [scene]
+    paces = [bearing.pace(k) for k in range(len(bearing.rows))]
+    kinds = sorted(set(paces))
+    scenes = []
+    for i in range(TURNS_OF_ROWS):
+        rows = []
+        for k, row in enumerate(bearing.rows):
+            alike = [bearing.of_row(other).n_balls for other, pace in enumerate(paces)
+                     if pace == paces[k]]  # fmt: skip
+            part = (i * SPREAD[kinds.index(paces[k])] / TURNS_OF_ROWS) % 1.0
+            turn = math.remainder(row.turn + part * 2.0 * math.pi / math.gcd(*alike), 2.0 * math.pi)
+            rows.append(dataclasses.replace(row, turn=turn))
+        scenes.append(
+            dataclasses.replace(scene, bearing=dataclasses.replace(bearing, rows=tuple(rows)))
+        )
+    return scenes
 
 
 def _averaged(
@@ -119,20 +162,11 @@ def _averaged(
     turning_race: str,
 ) -> RaceLoads:
     """Both races under loads (n, balls) with weights (n,) where nothing turns against the load."""
-    rows = np.split(loads, len(scene.bearing.all_rows), axis=1)
-    power = load_exponent * scatter
-    turning = _together([_mean(row, weights, load_exponent) for row in rows], power)
-    standing = _together([_mean(row, weights, power) for row in rows], power)
+    rows = [loads[:, own] for own in scene.bearing.balls_of_rows]
+    turning = tuple(_mean(row, weights, load_exponent) for row in rows)
+    standing = tuple(_mean(row, weights, load_exponent * scatter) for row in rows)
     inner, outer = (turning, standing) if turning_race == "inner" else (standing, turning)
     return RaceLoads(inner, outer, float(loads.max()))
-
-
-def _together(loads: list[float], power: float) -> float:
-    """The one load that tires a row as much as each of these its own: (Σ Q^power)^(1/power)."""
-    size = max(loads)
-    if len(loads) == 1 or size == 0.0:
-        return size
-    return float(size * sum((load / size) ** power for load in loads) ** (1.0 / power))
 
 
 def _mean(loads: Array, weights: Array, power: float) -> float:
@@ -149,28 +183,30 @@ def _unknown(state: Equilibrium) -> RaceLoads | None:
     if not failed.size:
         return None
     first = int(failed[0])
-    return RaceLoads(math.nan, math.nan, math.nan, int(state.status[first]), state.reason(first))
+    nothing = (math.nan,) * len(state.scene.bearing.all_rows)
+    return RaceLoads(nothing, nothing, math.nan, int(state.status[first]), state.reason(first))
 
 
 def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
-    """Places [rad] of a ball over one spacing of a race, and weights that sum to 1."""
-    spacing = scene.bearing.ball_spacing
+    """Places [rad] of a ball over the bearing's period, and weights that sum to 1."""
+    bearing, period = scene.bearing, scene.bearing.period
+    spacings = max(round(period / bearing.ball_spacing), 1)
     defects = [defect for defect in scene.defects if defect.race == race]
     rough = any(defect.floor is not None for defect in defects)
-    even = np.linspace(0.0, spacing, (PANELS_ON_A_FLOOR if rough else PANELS) + 1)
-    turns = {row.turn for row in scene.bearing.all_rows}
-    corners = [
-        (corner - turn) % spacing
-        for defect in defects
-        for corner in _corners(defect, scene)
-        for turn in turns
-    ]
+    even = np.linspace(0.0, period, (PANELS_ON_A_FLOOR if rough else PANELS) * spacings + 1)
+    corners = []
+    for defect, (k, row) in product(defects, enumerate(bearing.all_rows)):
+        own = bearing.of_row(k)
+        spacing = own.ball_spacing / bearing.pace(k)
+        for corner in _corners(defect, own):
+            at = (corner - row.turn) / bearing.pace(k) % spacing
+            corners += np.arange(at, period, spacing).tolist()
     ends = np.unique(np.concatenate([even, corners]))
     ends = ends[np.diff(ends, prepend=-1.0) > 1e-12]
     x, w = _gauss(POINTS)
     half, middle = 0.5 * np.diff(ends), 0.5 * (ends[1:] + ends[:-1])
     places = middle[:, None] + half[:, None] * x
-    weights = half[:, None] * w / spacing
+    weights = half[:, None] * w / period
     return places.ravel(), weights.ravel()
 
 
@@ -179,10 +215,10 @@ def _gauss(n: int) -> tuple[Array, Array]:
     return np.polynomial.legendre.leggauss(n)
 
 
-def _corners(defect: Defect, scene: Scene) -> list[float]:
+def _corners(defect: Defect, bearing: Bearing) -> list[float]:
     """Angles [rad] of the defect's edges, of where a ball meets its floor, and some between."""
     half = 0.5 * defect.extent
-    to_floor = min(float(defect.edge_row(scene.bearing)[4]), half)
+    to_floor = min(float(defect.edge_row(bearing)[4]), half)
     away = half - to_floor * np.linspace(0.0, 1.0, PANELS_ON_AN_EDGE + 1)
     return [defect.center + side * a for side in (-1.0, 1.0) for a in away.tolist()]
 
@@ -194,6 +230,10 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     shaft turns with them: ψ in equal steps, as nothing has edges there.
     """
     bearing, ratio = scene.bearing, scene.bearing.cage_ratio
+    if not bearing.rows_are_alike:
+        raise checks.refuse(
+            "race of a defect", "inner", "outer, where life is asked of rows that are not alike"
+        )
     both = any(defect.race == "outer" for defect in scene.defects)
     n = SHAFT_ANGLES_BOTH if both else SHAFT_ANGLES
     places, weights = _panels(scene, "inner")
@@ -209,23 +249,24 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
         loads[k] = state.ball_load
     size = float(loads.max())
     if size == 0.0:
-        return RaceLoads(0.0, 0.0, 0.0)
-    inner = outer = 0.0
+        nothing = (0.0,) * len(bearing.all_rows)
+        return RaceLoads(nothing, nothing, 0.0)
+    inner, outer = [], []
+    root = 1.0 / (load_exponent * scatter)
     order = np.arange(n // 2 + 1)[:, None, None]
     for row, own in zip(
         bearing.all_rows, np.split(loads, len(bearing.all_rows), axis=2), strict=True
     ):
         used = (own / size) ** load_exponent
-        inner += float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
+        along = float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
+        inner.append(size * along**root)
         # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between
         theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
         series = np.fft.rfft(used, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
-        along = np.mean(shifted, axis=2) @ weights
-        passing = np.fft.irfft(along, FINER * n) * (FINER * n)
-        outer += float(np.mean(np.maximum(passing, 0.0) ** scatter))
-    root = 1.0 / (load_exponent * scatter)
-    return RaceLoads(size * inner**root, size * outer**root, size)
+        passing = np.fft.irfft(np.mean(shifted, axis=2) @ weights, FINER * n) * (FINER * n)
+        outer.append(size * float(np.mean(np.maximum(passing, 0.0) ** scatter)) ** root)
+    return RaceLoads(tuple(inner), tuple(outer), size)
 
 
 def _turned(scene: Scene, angle: float) -> tuple[Defect, ...]:

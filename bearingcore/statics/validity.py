@@ -31,6 +31,7 @@ the kernels tell them apart exactly.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,11 +43,16 @@ from bearingcore.model.contacts.hertz import in_series
 from bearingcore.model.packing import typical_compression
 from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
-from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
+from bearingcore.statics.equilibrium import (
+    Equilibrium,
+    default_cage_angles,
+    equilibrium,
+    has_long_period,
+)
 from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.limit import Limit, unknown
-from bearingcore.statics.passes import STEPS_A_PASSAGE
-from bearingcore.statics.pressure import heaviest_ball
+from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
+from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
 
 ANGLES = 361
 """Cage angles in a ball spacing at which a scene is looked at."""
@@ -87,11 +93,11 @@ def usual_shoulder_height(contact_angle: float) -> float:
 def looked_at(scene: Scene) -> NDArray[np.float64]:
     """Cage angles [rad] at which `limits` looks: fine, and the same for everybody who asks.
 
-    A verdict must not depend on how finely somebody draws. A defect that turns with the shaft has
-    a period eight times as long, or more, and a third of the angles for each part of it.
+    A verdict must not depend on how finely somebody draws. A defect that turns with the shaft, and
+    rows of unlike balls, have a period eight times as long, or more, and a third of the angles for
+    each part of it.
     """
-    turning = any(defect.race == "inner" for defect in scene.defects)
-    return default_cage_angles(scene, (ANGLES - 1) // 3 + 1 if turning else ANGLES)
+    return default_cage_angles(scene, (ANGLES - 1) // 3 + 1 if has_long_period(scene) else ANGLES)
 
 
 def limits(
@@ -144,15 +150,14 @@ def limits(
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     if film is not None and film.scene != scene:
         raise checks.refuse("film", "the film of another scene", "that of this scene")
-    ball = heaviest_ball(state)
-    heaviest, own = ball.load, scene.bearing.of_row(ball.row)
+    heaviest = heaviest_balls(state)
     in_motion = None
     if dynamic_load is not None:
         in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
     roller = scene.bearing.is_roller
     found: list[Limit | None] = [
-        _pressure(own, "inner", heaviest),
-        _pressure(own, "outer", heaviest),
+        _pressure(scene.bearing, "inner", heaviest),
+        _pressure(scene.bearing, "outer", heaviest),
         _pressure_in_motion(scene, in_motion),
         # the sphere of a self-aligning bearing has no shoulders, its inner grooves have
         _askew() if roller else _shoulder(scene, state, shoulder_height),
@@ -160,7 +165,7 @@ def limits(
     ]
     if not roller:
         found += [
-            _compression(scene, heaviest),
+            _compression(scene.bearing, heaviest),
             _compression_in_motion(scene, in_motion),
             _stiffness(scene),
         ]
@@ -208,15 +213,18 @@ NO_MOTION = "no motion of this scene has been simulated yet"
 NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not given"
 
 
-def _pressure(bearing: Bearing, race: str, load: float) -> Limit:
-    """Greatest pressure between the most loaded ball and a race."""
+def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -> Limit:
+    """Greatest pressure between a most loaded ball, of each row that is unlike, and a race."""
     name = f"contact pressure, {race} race"
     allowed = static_pressure(bearing)
     if not bearing.knows_contacts:
         return unknown(name, allowed, "Pa", NO_DRAWING)
-    if math.isnan(load):
+    if any(math.isnan(ball.load) for ball in heaviest):
         return unknown(name, allowed, "Pa", NO_STATE)
-    p = float(bearing.race_contact(race).greatest_pressure(load))
+    p, load = max(
+        (float(bearing.of_row(ball.row).race_contact(race).greatest_pressure(ball.load)), ball.load)
+        for ball in heaviest
+    )
     crossed = p > allowed
     sentence = (
         f"The most loaded {_element(bearing)} presses on the {race} race with "
@@ -241,8 +249,10 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
         return unknown(name, allowed, "Pa", NO_DRAWING)
     if load is None:
         return unknown(name, allowed, "Pa", NO_MOTION)
+    # which row it was is not known: the one on which it presses hardest counts
     p, race = max(
-        (float(scene.bearing.race_contact(race).greatest_pressure(load)), race)
+        (float(own.race_contact(race).greatest_pressure(load)), race)
+        for own, _ in scene.bearing.unlike_rows
         for race in ("inner", "outer")
     )
     crossed = p > allowed
@@ -258,15 +268,15 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     """`_shoulder_of` all rows, or of the one that is nearest to its shoulder where they differ."""
     bearing, kept = scene.bearing, _known(state)
     loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
-    if bearing.has_one_contact_angle:
-        return _shoulder_of(bearing, loads, angles, height)
-    found = [
-        _shoulder_of(bearing.of_row(row), load, angle, height)
-        for row, (load, angle) in enumerate(
-            zip(*(np.split(one, len(bearing.rows), axis=1) for one in (loads, angles)), strict=True)
-        )
-    ]
-    return max(found, key=lambda one: np.nan_to_num(one.value - one.limit, nan=-math.inf))
+    return _worst(
+        _shoulder_of(own, loads[:, balls], angles[:, balls], height)
+        for own, balls in bearing.unlike_rows
+    )
+
+
+def _worst(found: Iterable[Limit]) -> Limit:
+    """The one that is nearest to its limit, or farthest beyond it."""
+    return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
 
 
 def _shoulder_of(
@@ -320,26 +330,34 @@ def _centrifugal(scene: Scene, state: Equilibrium) -> tuple[Limit, Limit]:
     """What centrifugal force changes, and its size against the load of the least loaded ball.
 
     Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
-    the second takes the least loaded of those that carry, at the median cage angle.
+    the second takes the least loaded of those that carry, at the median cage angle. Of rows that
+    are unlike the one counts where it matters most.
     """
-    force = centrifugal_force(scene)
-    loads = state.ball_load[_known(state)]
+    least = _worst(
+        _centrifugal_share(own, balls, scene, state) for own, balls in scene.bearing.unlike_rows
+    )
+    return _centrifugal_change(scene), least
+
+
+def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equilibrium) -> Limit:
+    """Centrifugal force against the load of the least loaded of some balls."""
+    loads = state.ball_load[_known(state), balls]
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
     lightest = lightest[np.isfinite(lightest)]
     median = float(np.median(lightest)) if lightest.size else math.nan
-    element = _element(scene.bearing)
-    least = _share(
+    element = _element(bearing)
+    return _share(
         f"least loaded {element}",
-        force,
+        bearing.centrifugal_load(scene.shaft_speed),
         median,
         CENTRIFUGAL_SHARE["least"],
         f"it lifts that {element} off the inner race, and the {element} may skid",
     )
-    return _centrifugal_change(scene, force), least
 
 
-def _centrifugal_change(scene: Scene, force: float) -> Limit:
+def _centrifugal_change(scene: Scene) -> Limit:
     """What centrifugal load changes of loads and stiffness, found by solving with it."""
+    force = centrifugal_force(scene)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))
     if not effect.converged:
@@ -375,12 +393,15 @@ def _share(which: str, force: float, load: float, limit: float, so_what: str) ->
     return Limit(name, share, limit, "", crossed, sentence)
 
 
-def _compression(scene: Scene, load: float) -> Limit:
+def _compression(bearing: Bearing, heaviest: tuple[HeaviestBall, ...]) -> Limit:
     """Compression of the most loaded ball against the distance of the groove centres."""
     name = "compression against groove centre distance"
-    if math.isnan(load):
+    if any(math.isnan(ball.load) for ball in heaviest):
         return unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
-    return _compressed(scene, name, load, "The most loaded ball is")
+    return _worst(
+        _compressed(bearing.of_row(ball.row), name, ball.load, "The most loaded ball is")
+        for ball in heaviest
+    )
 
 
 def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
@@ -390,11 +411,13 @@ def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
     name = "compression in motion"
     if load is None:
         return unknown(name, GREATEST_COMPRESSION, "", NO_MOTION)
-    return _compressed(scene, name, load, "In the simulated motion a ball is")
+    return _worst(
+        _compressed(own, name, load, "In the simulated motion a ball is")
+        for own, _ in scene.bearing.unlike_rows
+    )
 
 
-def _compressed(scene: Scene, name: str, load: float, who: str) -> Limit:
-    bearing = scene.bearing
+def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
     compression = typical_compression(bearing, load)
     share = compression / bearing.groove_center_distance
     crossed = share > GREATEST_COMPRESSION
@@ -449,10 +472,7 @@ def _steps(scene: Scene, step_rate: float) -> Limit | None:
     """Time steps while a ball passes the shortest defect; None where none is passed."""
     if not scene.defects or scene.cage_speed == 0.0:
         return None
-    across = min(
-        defect.extent / abs(1.0 - defect.turn_ratio(scene.bearing)) for defect in scene.defects
-    )
-    passing = across / scene.cage_speed
+    passing = shortest_passage(scene) / scene.cage_speed
     steps = passing * step_rate
     crossed = steps < STEPS_A_PASSAGE * (1.0 - 1e-9)
     sentence = (

@@ -315,7 +315,7 @@ def test_a_crossed_limit_is_said_and_all_are_listed(
     type_in(page, "fy_n", "-20000")
     expect(strip.locator(".warnings p").first).to_contain_text("GPa")
     expect(button).to_contain_text("crossed")
-    foot = page.locator("footer").bounding_box()
+    foot = page.locator(".page > footer").bounding_box()
     assert foot is not None
     assert foot["height"] < 75, "one line for all that is crossed"
     button.focus()

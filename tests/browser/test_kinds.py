@@ -36,6 +36,10 @@ _BLANK = """all => {
 }"""
 
 
+#: of eleven balls of 10 mm at 40° in the second row
+UNLIKE = "7208-back-to-back&rows=-0.009_1_0_4e-06_0~0.009_-1_0_-4e-06_0_0.7_11_0.01_0.055"
+
+
 def open_scene(page: Page, server: Server, preset: str, tab: str = "load") -> None:
     page.goto(f"{server.url}?v=1&preset={preset}&tab={tab}")
     page.wait_for_function("window.__frames >= 1")
@@ -43,7 +47,9 @@ def open_scene(page: Page, server: Server, preset: str, tab: str = "load") -> No
 
 
 @pytest.mark.proof
-@pytest.mark.parametrize("preset", ["7208-back-to-back", "nu208"])
+@pytest.mark.parametrize(
+    "preset", ["7208-back-to-back", "nu208", UNLIKE], ids=["pair", "rollers", "unlike rows"]
+)
 def test_every_tab_shows_it(watch: tuple[Page, Watch], explorer: Server, preset: str) -> None:
     page, _ = watch
     open_scene(page, explorer, preset)

@@ -248,7 +248,8 @@ def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explore
         found && [found[0], found[1].data.words])
     }"""
     assert page.evaluate(axes) == [False, False]
-    page.mouse.move(*place(page, "maps_drawing", 1.3, -4.0))
+    x, y = place(page, "maps_drawing", 1.3, -4.0)
+    page.mouse.move(x, y)
     page.keyboard.down("Control")
     for _ in range(8):
         page.mouse.wheel(0, -200)
@@ -259,11 +260,11 @@ def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explore
     assert below[0] == "Loaded balls over cage angle φc (°)"
     for _, numbers in (left, below):
         degrees = [float(number) for number in numbers]
-        assert len(degrees) >= 3
+        assert len(degrees) >= 2
         assert degrees == sorted(degrees)
         assert 0.0 <= degrees[0] < degrees[-1] <= 91.0
     page.wait_for_timeout(500)
-    page.mouse.dblclick(*place(page, "maps_drawing", 1.3, -4.0))
+    page.mouse.dblclick(x, y)
     painted(page)
     assert page.evaluate(axes) == [False, False]
 

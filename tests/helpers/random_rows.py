@@ -34,12 +34,13 @@ from bearingcore import (
     kernels,
     presets,
 )
-from bearingcore.model.rows import ARRANGEMENTS
+from bearingcore.model.rows import ARRANGEMENTS, Row
 from bearingcore.statics.passes import drops_now
 
 Long = np.longdouble
 OWN_ANGLES = "rows with angles of their own"
-KINDS = (*ARRANGEMENTS, "self-aligning", "rollers", OWN_ANGLES)
+UNLIKE = "rows of unlike balls"
+KINDS = (*ARRANGEMENTS, "self-aligning", "rollers", OWN_ANGLES, UNLIKE)
 
 RESIDUAL = 1e-9
 STEP = 1e-10
@@ -97,7 +98,7 @@ def _bearing(rng: np.random.Generator, kind: str, decades: Any) -> Bearing:
         radial_clearance=clearance,
         load_deflection_factor=one.load_deflection_factor * decades(0.1, 10.0),
     )
-    arrangement = str(rng.choice(ARRANGEMENTS)) if kind == OWN_ANGLES else kind
+    arrangement = kind if kind in ARRANGEMENTS else str(rng.choice(ARRANGEMENTS))
     preload = 0.0 if arrangement == "tandem" else float(rng.choice([0.0, decades(1e-7, 3e-5)]))
     pair = one.paired(pitch * float(rng.uniform(0.0, 2.0)), arrangement, preload)
     low, high = pair.rows
@@ -105,30 +106,58 @@ def _bearing(rng: np.random.Generator, kind: str, decades: Any) -> Bearing:
         own = [math.radians(float(rng.uniform(0.0, 60.0))) for _ in "12"]
         low = dataclasses.replace(low, contact_angle=own[0] if rng.random() < 0.5 else None)
         high = dataclasses.replace(high, contact_angle=own[1])
+    if kind == UNLIKE:
+        low, high = (_unlike(rng, row, one) for row in (low, high))
     high = dataclasses.replace(high, turn=float(rng.choice([0.0, 0.5 * pair.ball_spacing])))
     return dataclasses.replace(pair, rows=(low, high))
 
 
-def _of_rows(b: Bearing) -> list[tuple[float, float, float]]:
-    """Contact angle, load-deflection factor and radius of the inner groove's centres, by row."""
+def _unlike(rng: np.random.Generator, row: Row, one: Bearing) -> Row:
+    """A row with some numbers of its own, near those of the bearing, that fit each other."""
+    assert one.inner_groove_radius is not None
+    ball, pitch = (
+        d * float(rng.uniform(0.8, 1.2)) for d in (one.ball_diameter, one.pitch_diameter)
+    )
+    own: dict[str, Any] = {"ball_diameter": ball, "pitch_diameter": pitch}
+    most = math.floor(math.pi / math.asin(ball / pitch))
+    if most < 2:
+        return row
+    own["n_balls"] = int(rng.integers(2, min(most, 2 * one.n_balls) + 1))
+    if rng.random() < 0.5:
+        own["contact_angle"] = math.radians(float(rng.uniform(0.0, 60.0)))
+    if rng.random() < 0.5:
+        own["inner_groove_radius"] = ball * float(rng.uniform(0.505, 0.56))
+    return dataclasses.replace(row, **own)
+
+
+def _of_rows(b: Bearing) -> list[dict[str, float]]:
+    """What the contacts of each row are made of, written out from its dimensions."""
     found = []
     for row in b.all_rows:
-        if row.contact_angle is None:
-            found.append((b.contact_angle, b.load_deflection_factor, b.groove_center_radius))
+        n = b.n_balls if row.n_balls is None else row.n_balls
+        angle = b.contact_angle if row.contact_angle is None else row.contact_angle
+        each = {
+            "n": n, "angle": angle, "K": b.load_deflection_factor, "pace": 1.0,
+            "reach": b.groove_center_radius, "A0": b.groove_center_distance,
+        }  # fmt: skip
+        found.append(each)
+        if not row.own:
             continue
         assert b.inner_groove_radius is not None
         assert b.outer_groove_radius is not None
-
-        def drawn(angle: float) -> float:
-            return Bearing.from_drawing(
-                b.n_balls, b.ball_diameter, b.pitch_diameter, b.inner_groove_radius,
-                b.outer_groove_radius, contact_angle=angle,
-            ).load_deflection_factor  # fmt: skip
-
-        angle = row.contact_angle
-        K = b.load_deflection_factor * drawn(angle) / drawn(b.contact_angle)
-        reach = b.inner_groove_radius - 0.5 * b.ball_diameter
-        found.append((angle, K, 0.5 * b.pitch_diameter + reach * math.cos(angle)))
+        D, pitch = row.ball_diameter or b.ball_diameter, row.pitch_diameter or b.pitch_diameter
+        r_i = row.inner_groove_radius or b.inner_groove_radius * D / b.ball_diameter
+        r_o = row.outer_groove_radius or b.outer_groove_radius * D / b.ball_diameter
+        drawn = Bearing.from_drawing(n, D, pitch, r_i, r_o, contact_angle=angle)
+        base = Bearing.from_drawing(
+            b.n_balls, b.ball_diameter, b.pitch_diameter, b.inner_groove_radius,
+            b.outer_groove_radius, contact_angle=b.contact_angle,
+        )  # fmt: skip
+        each["K"] *= drawn.load_deflection_factor / base.load_deflection_factor
+        each["reach"] = 0.5 * pitch + (r_i - 0.5 * D) * math.cos(angle)
+        each["A0"] = r_i + r_o - D
+        slow = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
+        each["pace"] = (1.0 - D * math.cos(angle) / pitch) / (1.0 - slow)
     return found
 
 
@@ -137,23 +166,28 @@ class Contacts:
 
     def __init__(self, scene: Scene, cage_angle: float) -> None:
         b = scene.bearing
-        n, rows = b.n_balls, b.all_rows
+        rows, own = b.all_rows, _of_rows(b)
+        n = [int(each["n"]) for each in own]
+
+        def of(name: str) -> Any:
+            return np.repeat([each[name] for each in own], n).astype(Long)
+
         turn = np.repeat([row.turn for row in rows], n).astype(Long)
-        angle = cage_angle + turn + np.tile(2.0 * math.pi / n * np.arange(n), len(rows))
+        around = np.concatenate([2.0 * math.pi / each * np.arange(each) for each in n])
+        angle = of("pace") * cage_angle + turn + around
         place = np.repeat([row.place for row in rows], n).astype(Long) / b.groove_center_radius
         facing = np.repeat([row.facing for row in rows], n).astype(Long)
         c, s = np.cos(angle), np.sin(angle)
         zero, one = np.zeros_like(c), np.ones_like(c)
-        alpha, factor, radius = (np.repeat(each, n) for each in np.array(_of_rows(b)).T)
-        reach = radius.astype(Long) / b.groove_center_radius
+        reach, alpha = of("reach") / b.groove_center_radius, of("angle")
         self.radial = np.stack([c, s, zero, -place * s, place * c], 1)
         self.axial = np.stack([zero, zero, one, reach * s, -reach * c], 1)
-        self.ca = np.cos(alpha).astype(Long)
-        self.sa = facing * np.sin(alpha).astype(Long)
+        self.ca = np.cos(alpha)
+        self.sa = facing * np.sin(alpha)
         drop = drops_now(scene, cage_angle).astype(Long)
         slack = np.repeat([b.radial_clearance + row.clearance for row in rows], n).astype(Long)
         offset = np.repeat([row.offset for row in rows], n).astype(Long)
-        self.A0, self.K = Long(b.groove_center_distance), factor.astype(Long)
+        self.A0, self.K = of("A0"), of("K")
         self.exponent = Long(10) / Long(9) if b.is_roller else Long(1.5)
         self.r0 = self.A0 * self.ca - slack - drop * self.ca
         self.z0 = self.A0 * self.sa + offset - drop * self.sa
@@ -213,7 +247,8 @@ def verdict(found: Equilibrium, i: int, rng: np.random.Generator) -> str:
     left = np.abs(contacts.push(q) - contacts.load)[free].max() / size
     # what the digits of a displacement in double precision leave is not the solver's
     K = found.stiffness[i] / np.outer(units, units).astype(float)
-    digits = 1e-15 * np.abs(K).max() * max(float(np.abs(q).max()), float(contacts.A0)) / float(size)
+    far = max(float(np.abs(q).max()), float(contacts.A0.max()))
+    digits = 1e-15 * np.abs(K).max() * far / float(size)
     if left > RESIDUAL + 10.0 * digits:
         return f"residual {float(left):.1e}"
     if np.abs(K - K.T).max() > 1e-12 * np.abs(K).max():
@@ -222,7 +257,7 @@ def verdict(found: Equilibrium, i: int, rng: np.random.Generator) -> str:
     if least < -1e-10 * np.abs(K).max():
         return f"the stiffness has an eigenvalue of {least:.1e} of {np.abs(K).max():.1e}"
     for _ in range(2):
-        d = rng.normal(size=5).astype(Long) * contacts.A0 * Long(10.0 ** rng.uniform(-4, 0))
+        d = rng.normal(size=5).astype(Long) * contacts.A0[0] * Long(10.0 ** rng.uniform(-4, 0))
         bend = contacts.energy(q + d) + contacts.energy(q - d) - 2 * contacts.energy(q)
         scale = abs(contacts.energy(q + d)) + abs(contacts.energy(q - d)) + abs(contacts.energy(q))
         if bend < -1e-15 * scale:

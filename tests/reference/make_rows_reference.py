@@ -1,4 +1,4 @@
-"""Static equilibrium of pairs, double-row, self-aligning and roller bearings at 40 digits.
+"""Static equilibrium of pairs, unlike rows, self-aligning and roller bearings at 40 digits.
 
 Writes `rows_reference.json` beside this file. The contact of a ball of any row is written out here
 from the geometry alone, and imports nothing of bearingcore; the drop into a defect is that of
@@ -12,6 +12,9 @@ its radial and axial way in q, row k at z_k along the shaft:
     G_r = (cos φ, sin φ, 0, −z_k sin φ, z_k cos φ),   G_z = (0, 0, 1, r_d sin φ, −r_d cos φ),
     load  = Σ Q (e_r G_r + e_z G_z),
     K     = Σ n Q/δ w w' + Q/A v v',   w = e_r G_r + e_z G_z,  v = e_r G_z − e_z G_r.
+
+A row with dimensions of its own has its own factor K by Hertz, with complete elliptic integrals of
+40 digits, and its cage stands at (1 − D/D_p cos α) over that of the bearing, times the cage angle.
 
 As there, an answer is believed because of what it is: the gradient vanishes to 1e-30, the stiffness
 is the difference quotient of the loads to 1e-30 and positive definite over the free directions, and
@@ -84,6 +87,28 @@ ROLLERS = {
     "roller_length": 11e-3,
 }
 
+DRAWN_BALL = 15.0 / 32.0 * 25.4e-3
+DRAWN = {
+    "n_balls": 14,
+    "ball_diameter": DRAWN_BALL,
+    "pitch_diameter": 60e-3,
+    "contact_angle": math.radians(25.0),
+    "groove_center_radius": 30e-3 + 0.02 * DRAWN_BALL * math.cos(math.radians(25.0)),
+    "groove_center_distance": 0.52 * DRAWN_BALL + 0.53 * DRAWN_BALL - DRAWN_BALL,
+    "radial_clearance": 2e-6,
+    "load_deflection_factor": 1.07e10,
+    "outer_raceway_radius": 30e-3 + 0.5 * DRAWN_BALL,
+    "inner_raceway_radius": 30e-3 - 0.5 * DRAWN_BALL,
+    "inner_groove_radius": 0.52 * DRAWN_BALL,
+    "outer_groove_radius": 0.53 * DRAWN_BALL,
+    "youngs_modulus": 210e9,
+    "poisson": 0.3,
+}
+OWN = (
+    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle"),
+    *("inner_groove_radius", "outer_groove_radius"),
+)
+
 
 def row(
     place: float, facing: int = 1, clearance: float = 0.0, offset: float = 0.0, turn: float = 0.0
@@ -141,6 +166,8 @@ def scenes() -> list[dict[str, Any]]:
     """Each kind, healthy and damaged, in one row and in all."""
     down = (0.0, -2000.0, 500.0, 0.0, 0.0)
     all_five = (300.0, -1500.0, 600.0, 12.0, -7.0)
+    unlike = {"n_balls": 11, "ball_diameter": 10e-3, "pitch_diameter": 55e-3,
+              "contact_angle": math.radians(40.0), "inner_groove_radius": 5.25e-3}  # fmt: skip
     place = _FROM_MIDDLE * math.sin(ALIGNING_ANGLE)
     aligning = [row(-place, -1), row(place, 1)]
     loose = [row(-place, -1, clearance=-8e-6), row(place, 1, clearance=-8e-6)]
@@ -178,20 +205,80 @@ def scenes() -> list[dict[str, Any]]:
              8.0, 100.0, 268.0, dofs=XY),
         case("rollers, inner race", ROLLERS, [row(0.0)], (0.0, -5000.0, 0.0, 0.0, 0.0), 77.0, 20.0,
              12.0, 30.0, "inner", dofs=XY),
+        case("unlike rows", DRAWN, pair(9e-3, -1, 4e-6, turn=0.1, **unlike), all_five, 21.0, 12.0,
+             40.0, 280.0),
+        case("unlike rows, inner race, later", DRAWN, pair(9e-3, 1, 6e-6, n_balls=9), all_five,
+             130.0, 20.0, 15.0, 60.0, "inner", defect_row=1),
     ]  # fmt: skip
+
+
+def hertz(b: dict[str, Any]) -> Any:
+    """K [N/m^1.5] of both contacts of a ball in series, from the dimensions."""
+    D, modulus = b["ball_diameter"], b["youngs_modulus"] / (1 - b["poisson"] ** 2)
+    gamma = D * mp.cos(b["contact_angle"]) / b["pitch_diameter"]
+    factors = []
+    for race, side in (("inner", 1), ("outer", -1)):
+        around = side * 2 * gamma / (D * (1 - side * gamma))
+        groove = 1 / b[f"{race}_groove_radius"]
+        total = 4 / D + around - groove
+        wanted = (groove + around) / total
+
+        def integrals(chi: Any) -> tuple[Any, Any]:
+            m = 1 - 1 / chi**2
+            return mp.ellipk(m), mp.ellipe(m)
+
+        def off(chi: Any, wanted: Any = wanted) -> Any:
+            k, e = integrals(chi)
+            return 1 - 2 / (chi**2 - 1) * (k / e - 1) - wanted
+
+        chi = mp.findroot(off, (mpf("1.1"), mpf(200)), solver="anderson", tol=mpf("1e-70"))
+        k, e = integrals(chi)
+        factors.append(mp.pi / mp.sqrt(4.5) * chi * modulus * mp.sqrt(e / (total * k**3)))
+    return sum(factor ** (-mpf(2) / 3) for factor in factors) ** (-mpf(3) / 2)
+
+
+def of_row(b: dict[str, Any], r: dict[str, Any]) -> dict[str, Any]:
+    """The bearing's numbers with those that a row has of its own, and what follows from them."""
+    base = {name: mpf(value) for name, value in b.items()} | {"n_balls": b["n_balls"]}
+    own = {name: r[name] if name == "n_balls" else mpf(r[name]) for name in OWN if name in r}
+    if not own:
+        return base
+    made = base | own
+    larger = made["ball_diameter"] / base["ball_diameter"]
+    for name in OWN[-2:]:
+        made[name] = own.get(name, larger * base[name])
+    D, middle = made["ball_diameter"], made["pitch_diameter"] / 2
+    lean = mp.cos(made["contact_angle"])
+    return made | {
+        "groove_center_distance": made["inner_groove_radius"] + made["outer_groove_radius"] - D,
+        "groove_center_radius": middle + (made["inner_groove_radius"] - D / 2) * lean,
+        "load_deflection_factor": base["load_deflection_factor"] * hertz(made) / hertz(base),
+        "outer_raceway_radius": middle + D / 2,
+        "inner_raceway_radius": middle - D / 2,
+    }
+
+
+def slowness(b: dict[str, Any]) -> Any:
+    """Twice the cage's speed over the shaft's."""
+    return 1 - mpf(b["ball_diameter"]) / b["pitch_diameter"] * mp.cos(mpf(b["contact_angle"]))
 
 
 def prepare(scene: dict[str, Any]) -> dict[str, Any]:
     """Numbers of all contacts at full precision; tilts stay in radians."""
     b, defect = scene["bearing"], scene["defect"]
-    alpha, arm = mpf(b["contact_angle"]), mpf(b["groove_center_radius"])
-    A0 = mpf(b["groove_center_distance"])
     contacts = []
     for number, r in enumerate(scene["rows"]):
-        for j in range(b["n_balls"]):
-            phi = mpf(scene["cage_angle"]) + mpf(r["turn"]) + 2 * mp.pi * j / b["n_balls"]
+        own = of_row(b, r)
+        alpha, arm, A0 = (
+            own[name]
+            for name in ("contact_angle", "groove_center_radius", "groove_center_distance")
+        )
+        cage = mpf(scene["cage_angle"]) * slowness(own) / slowness(b)
+        at = {**scene, "bearing": own, "cage_angle": cage}
+        for j in range(own["n_balls"]):
+            phi = cage + mpf(r["turn"]) + 2 * mp.pi * j / own["n_balls"]
             met = defect["row"] in (None, number)
-            d = path(phi, scene) if met else mpf(0)
+            d = path(phi, at) if met else mpf(0)
             c, s, z = mp.cos(phi), mp.sin(phi), mpf(r["place"])
             ca, sa = mp.cos(alpha), r["facing"] * mp.sin(alpha)
             slack = mpf(b["radial_clearance"]) + mpf(r["clearance"])
@@ -204,14 +291,14 @@ def prepare(scene: dict[str, Any]) -> dict[str, Any]:
                     "ca": ca,
                     "sa": sa,
                     "drop": d,
+                    "A0": A0,
+                    "K": own["load_deflection_factor"],
                 }
             )
     names = ("fx", "fy", "fz", "mx", "my")
     return {
         "contacts": contacts,
-        "A0": A0,
-        "arm": arm,
-        "K": mpf(b["load_deflection_factor"]),
+        "arm": mpf(b["groove_center_radius"]),
         "n": mpf(10) / 9 if "roller_length" in b else mpf("1.5"),
         "load": mp.matrix([mpf(scene["load"][name]) for name in names]),
     }
@@ -220,8 +307,9 @@ def prepare(scene: dict[str, Any]) -> dict[str, Any]:
 def push_and_stiffness(ready: dict[str, Any], q: Any) -> tuple[Any, Any, list[Any]]:
     """Load of all contacts [N, N·m], stiffness, and (Q, angle, δ, guarded) of each."""
     total, K, each = mp.zeros(5, 1), mp.zeros(5, 5), []
-    A0, n = ready["A0"], ready["n"]
+    n = ready["n"]
     for contact in ready["contacts"]:
+        A0 = contact["A0"]
         G_r, G_z, ca, sa = (contact[name] for name in ("radial", "axial", "ca", "sa"))
         r = contact["r0"] + (G_r.T * q)[0]
         z = contact["z0"] + (G_z.T * q)[0]
@@ -231,7 +319,7 @@ def push_and_stiffness(ready: dict[str, Any], q: Any) -> tuple[Any, Any, list[An
             r, z = r - p * ca, z - p * sa
         A = mp.hypot(r, z)
         delta = A - A0
-        Q = ready["K"] * max(delta, mpf(0)) ** n
+        Q = contact["K"] * max(delta, mpf(0)) ** n
         each.append((Q, mp.atan2(z, r), delta, guarded))
         if delta <= 0:
             continue
@@ -251,10 +339,11 @@ def start(ready: dict[str, Any], free: list[int]) -> np.ndarray:
     """Minimum of the energy in double precision, by a trust region of scipy."""
     G_r = np.array([[float(x) for x in c["radial"]] for c in ready["contacts"]])
     G_z = np.array([[float(x) for x in c["axial"]] for c in ready["contacts"]])
-    r0, z0, ca, sa = (
-        np.array([float(c[name]) for c in ready["contacts"]]) for name in ("r0", "z0", "ca", "sa")
+    r0, z0, ca, sa, A0, K = (
+        np.array([float(c[name]) for c in ready["contacts"]])
+        for name in ("r0", "z0", "ca", "sa", "A0", "K")
     )
-    A0, K, n = (float(ready[name]) for name in ("A0", "K", "n"))
+    n = float(ready["n"])
     load = np.array([float(v) for v in ready["load"]])
     scale = 1e-5 * np.array([1.0, 1.0, 1.0, *[1.0 / float(ready["arm"])] * 2])
     size = float(np.linalg.norm(load)) * 1e-5

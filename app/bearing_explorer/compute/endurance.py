@@ -17,12 +17,6 @@ ASSUMED_VISCOSITY = 0.02
 """[Pa·s] of an oil of which nothing is said: a usual one, warm."""
 
 
-ROWS_APART = (
-    "The rows have contact angles of their own: a rating of the whole bearing does not say what "
-    "each row is rated for, so there is no life."
-)
-
-
 @dataclass(frozen=True)
 class Asked:
     """What a person says of steel, oil and surfaces.
@@ -78,9 +72,7 @@ def _endurance(scene: Scene, asked: Asked) -> Endurance:
                 "the catalogue."
             )
     lasting = None
-    if not scene.bearing.has_one_contact_angle:
-        no_life = ROWS_APART
-    elif rating is not None:
+    if rating is not None:
         try:
             lasting = life(scene, rating, positions="all")
         except ValueError as error:

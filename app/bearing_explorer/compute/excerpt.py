@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bearingcore import Scene, equilibrium
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.statics.passes import Crossing, crossings
+from bearingcore.statics.passes import Crossing, crossings, passing_rate
 
 if TYPE_CHECKING:
     from bearingcore import Motion
@@ -141,7 +141,7 @@ def _stretch(
     if speed == 0.0:
         return since, settled, since
     defects = scene.defects
-    rate = abs(1.0 - defects[0].turn_ratio(scene.bearing)) if defects else 1.0
+    rate = abs(passing_rate(scene, defects[0], defects[0].row or 0)) if defects else 1.0
     one_pass = scene.bearing.ball_spacing / (rate * speed)
     length = min(n_passes * one_pass, settled)
     before = 0.25 * min(one_pass, length)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.statics.equilibrium import has_long_period
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium
@@ -29,15 +30,14 @@ def load_curve(
     `loads` (n, N_b) [N]: others than `ball_load`, such as those at the inner race.
 
     With a defect that stands still the load depends on the ball's angle alone and this is one
-    curve. A defect of the inner race comes by everywhere: then the greatest load at each half
-    degree is given.
+    curve. A defect of the inner race comes by everywhere, and where rows are of unlike balls those
+    of the other row do: then the greatest load at each half degree is given.
     """
-    n = equilibrium.scene.bearing.n_balls
-    own = slice(row * n, (row + 1) * n)
+    own = equilibrium.scene.bearing.balls_of_rows[row]
     angle = np.mod(equilibrium.ball_angle[:, own], TWO_PI).ravel()
     angle[angle > TWO_PI - SAME_PLACE] = 0.0
     load = (equilibrium.ball_load if loads is None else loads)[:, own].ravel()
-    if any(defect.race == "inner" for defect in equilibrium.scene.defects):
+    if has_long_period(equilibrium.scene):
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")
     angle, load = angle[order], load[order]

@@ -41,7 +41,7 @@ from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.plan.balls import BallComparison
 from bearingcore.statics.ball_positions import EquilibriumWithMass
-from bearingcore.statics.equilibrium import default_cage_angles
+from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
 from bearingcore.statics.passes import drops_now
 
 if TYPE_CHECKING:
@@ -190,8 +190,9 @@ class Results:
     def stretch(self) -> tuple[float, float, int]:
         """First and last cage angle [rad] that curves are drawn over, and how many there are.
 
-        A ball spacing, after which all is as before. With a defect of the inner race nothing
-        repeats so soon: then the turn of the shaft that the cage angle shown lies in.
+        A ball spacing, after which all is as before; of rows of unlike balls what their spacings
+        have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
+        soon: then the turn of the shaft that the cage angle shown lies in.
         """
         by_hand = self.settings.cage_angles
         angles = default_cage_angles(self.scene, by_hand or self.settings.n_cage_angles)
@@ -390,7 +391,7 @@ class Results:
         reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
         # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
         n = self.settings.n_cage_angles
-        columns = 2 * n - 1 if self.over_shaft else n
+        columns = 2 * n - 1 if has_long_period(self.scene) else n
         return answers.maps(scene, reach, self.settings.n_extents, first, last, columns)
 
     @cached_property

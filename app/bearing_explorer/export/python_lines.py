@@ -158,9 +158,10 @@ def _bearing(script: Script, results: Results, view: Any) -> None:
         f"cage_angle = {short(results.cage_angle)}",
         f"now = {statics_of(results)}(scene, [cage_angle])",
         "angle = now.ball_angle[0]",
+        "rows, balls = np.array([scene.bearing.row_of_ball(k) for k in range(angle.size)]).T",
         "columns = {",
-        '    "row": 1 + np.arange(angle.size) // scene.bearing.n_balls,',
-        '    "ball": 1 + np.arange(angle.size) % scene.bearing.n_balls,',
+        '    "row": 1 + rows,',
+        '    "ball": 1 + balls,',
         '    "ball_angle_deg": np.degrees(angle),',
         '    "ball_load_n": now.ball_load[0],',
         '    "contact_angle_deg": np.degrees(now.contact_angle[0]),',
@@ -218,9 +219,7 @@ def _load_distribution(script: Script, results: Results, view: Any) -> None:
     script.add(
         "columns = {}  # every position of every ball, row after row",
         f'for kind, answer in (("", found), ("{results.beside_name}_", grey)):',
-        "    n = answer.scene.bearing.n_balls",
-        "    for row in range(len(answer.scene.bearing.all_rows)):",
-        "        own = slice(row * n, (row + 1) * n)",
+        "    for row, own in enumerate(answer.scene.bearing.balls_of_rows):",
         '        name = kind + (f"row_{row + 1}_" if row else "")',
         "        angle = np.degrees(answer.ball_angle[:, own].ravel()) % 360.0",
         '        columns[f"{name}ball_angle_deg"] = angle',
@@ -587,13 +586,14 @@ def _dofs(script: Script, results: Results, view: Any) -> None:
 def _bearing_editor(script: Script, results: Results, view: Any) -> None:
     script.add(
         "bearing, speed = scene.bearing, scene.shaft_speed",
-        "frequencies = {",
-        '    "BPFO": bearing.bpfo(speed),',
-        '    "BPFI": bearing.bpfi(speed),',
-        '    "FTF": bearing.ftf(speed),',
-        '    "BSF": bearing.bsf(speed),',
-        "}  # [Hz]",
-        "print(bearing, frequencies)",
+        "for row, (own, _) in enumerate(bearing.unlike_rows):",
+        "    frequencies = {",
+        '        "BPFO": own.bpfo(speed),',
+        '        "BPFI": own.bpfi(speed),',
+        '        "FTF": own.ftf(speed),',
+        '        "BSF": own.bsf(speed),',
+        "    }  # [Hz]",
+        "    print(row + 1, own, frequencies)",
     )
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from bearing_explorer.state.quantities import defects_of
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
+from bearingcore.model.rows import Row
 
 MOST_POINTS = 200
 """Points of a measured floor up to which it stands in the lines; else it comes from a file."""
@@ -143,7 +144,19 @@ class Script:
                     self.module("import math")
                     return f"{hertz:.12g} * (2.0 * math.pi)"
             return short(value)
+        if name == "rows":
+            self.part("model.rows", "Row")
+            return f"({''.join(f'{self._row(row)}, ' for row in value).rstrip()})"
         return quoted(repr(value))
+
+    def _row(self, row: Row) -> str:
+        """A row of balls with what it does not leave as it is."""
+        given = [
+            f"{field.name}={self._number(field.name, held)}"
+            for field in dataclasses.fields(Row)
+            if (held := getattr(row, field.name)) != field.default
+        ]
+        return f"Row({', '.join(given)})"
 
 
 def quoted(text: str) -> str:

@@ -17,7 +17,7 @@ def elements(bearing: Bearing, count: int = 2) -> str:
 
 def element_name(bearing: Bearing, index: int) -> str:
     """The name of one, counted from 0 row after row: "ball 3", "ball 3 of row 2"."""
-    row, number = divmod(int(index), bearing.n_balls)
+    row, number = bearing.row_of_ball(int(index))
     name = f"{element(bearing)} {number + 1}"
     return name if len(bearing.all_rows) == 1 else f"{name} of row {row + 1}"
 

@@ -27,6 +27,9 @@ def zoomable(plot: Plot, equal_aspect: bool = False) -> None:
     plot.toolbar.active_scroll = wheel
     plot.js_on_event("doubletap", CustomJS(args={"plot": plot}, code="plot.reset.emit()"))
     plot.js_on_change("inner_width", CustomJS(args={"box": box}, code=_FINGERS))
+    for shown in (plot.x_range, plot.y_range):
+        if shown.reset_start is None:  # or nothing would lead back before the first numbers
+            shown.update(reset_start=shown.start, reset_end=shown.end)
     for words in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
         stay = CustomJS(args={"start": words.start, "end": words.end}, code=_STAY)
         words.js_on_change("start", stay)

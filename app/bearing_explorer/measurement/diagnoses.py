@@ -56,6 +56,7 @@ class Question:
             bearing.ball_diameter,
             bearing.pitch_diameter,
             bearing.contact_angle,
+            *(number for row in bearing.rows for number in row.own.values()),
         )
         return cls(measured, bearing, speed, geometry)
 

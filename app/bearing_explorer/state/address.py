@@ -21,7 +21,9 @@ The rules of version 1, which later versions go on reading:
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.
 - `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
-  between them, and ``~`` between rows. `name` is what a person calls the bearing.
+  between them, and ``~`` between rows; behind them what a row has of its own: contact angle, number
+  of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
+  it has not, and none of the last ones. `name` is what a person calls the bearing.
 - `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
   open; alone it stands for the scene that the lesson begins with.
 - `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
@@ -98,8 +100,12 @@ _OF_DEFECT = [q for q in QUANTITY_LIST if q.field in DEFECT_FIELDS]
 _OF_FLOOR = [q for q in QUANTITY_LIST if q.of == "floor"]
 _OF_SCENE = [q for q in QUANTITY_LIST if q.of == "scene" and q.field not in DEFECT_FIELDS]
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, "roller_length")
-_OF_ROW = tuple(Row.__dataclass_fields__)
-"""Numbers of a row; the last, its contact angle, only where it has one of its own."""
+_OF_ROW = (
+    *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
+    *("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius"),
+)
+"""Numbers of a row in the order of links; those from the sixth on only where it has its own."""
+_ALWAYS_OF_ROW = 5
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(SI)?", re.IGNORECASE | re.ASCII)
 
 
@@ -289,10 +295,11 @@ def rows_text(rows: tuple[Row, ...]) -> str:
     """Rows of balls as a word; `_rows` makes the very same of it."""
     if not rows:
         return "one"
-    numbers = ([getattr(row, name) for name in _OF_ROW] for row in rows)
-    return "~".join(
-        "_".join(_short(one) for one in of_row if one is not None) for of_row in numbers
-    )
+    words = []
+    for row in rows:
+        numbers = [getattr(row, name) for name in _OF_ROW]
+        words.append("_".join("" if one is None else _short(one) for one in numbers).rstrip("_"))
+    return "~".join(words)
 
 
 def _short(value: float) -> str:
@@ -385,11 +392,19 @@ def _rows(text: str) -> tuple[Row, ...]:
         return ()
     rows: list[Row] = []
     for word in text.split("~"):
-        numbers = [_parsed(number, "rows")[0] for number in word.split("_")]
-        if len(numbers) not in (len(_OF_ROW) - 1, len(_OF_ROW)) or len(rows) == MOST_SHOWN_ROWS:
+        numbers = word.split("_")
+        few = not _ALWAYS_OF_ROW <= len(numbers) <= len(_OF_ROW)
+        if few or "" in numbers[:_ALWAYS_OF_ROW] or len(rows) == MOST_SHOWN_ROWS:
             raise ValueError(f"“{_shown(text)}” are not the rows of a bearing.")
-        given = dict(zip(_OF_ROW, numbers, strict=False))
-        rows.append(Row(**{**given, "facing": int(given["facing"])}))  # type: ignore[arg-type]
+        given: dict[str, Any] = {
+            name: _parsed(number, "rows")[0]
+            for name, number in zip(_OF_ROW, numbers, strict=False)
+            if number
+        }
+        for name in ("facing", "n_balls"):
+            if (number := given.get(name)) is not None and number == int(number):
+                given[name] = int(number)
+        rows.append(Row(**given))
     return tuple(rows)
 
 

@@ -11,6 +11,7 @@ import math
 
 from bearing_explorer.state.choice_list import kind_of
 from bearing_explorer.state.quantities import defects_of
+from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearingcore import Bearing, Scene
 from bearingcore.model.rows import ARRANGEMENTS
 
@@ -48,11 +49,18 @@ def as_kind(bearing: Bearing, kind: str) -> Bearing:
         return single
     assert kind in ARRANGEMENTS
     distance, preload = bearing.row_distance, bearing.preload
-    return single.paired(
+    pair = single.paired(
         ROWS_APART * bearing.ball_diameter if distance is None else distance,
         kind,
         0.0 if kind == "tandem" or preload is None else preload,
     )
+    if bearing.rows_are_alike or len(bearing.rows) != len(pair.rows):
+        return pair
+    rows = (
+        dataclasses.replace(new, **old.own)  # type: ignore[arg-type]  # names and kinds of its own
+        for new, old in zip(pair.rows, bearing.rows, strict=True)
+    )
+    return dataclasses.replace(pair, rows=tuple(rows))
 
 
 def _single(bearing: Bearing) -> Bearing:
@@ -122,6 +130,7 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
 
 #: what each kind's bearing does not have, or what follows there from the rest
 _OF_ROWS = ("row_distance_mm", "preload_um")
+_OF_SECOND_ROW = tuple(q.name for q in QUANTITY_LIST if q.group == "Second row")
 _CONTACT_NUMBERS = (
     "groove_center_distance_um",
     "groove_center_radius_mm",
@@ -135,6 +144,10 @@ def hidden_of(bearing: Bearing) -> list[str]:
     """Controls that do not belong to this kind of bearing."""
     kind = kind_of(bearing)
     hidden = [] if bearing.rows else ["row"]
+    if not bearing.arrangement:
+        hidden += _OF_SECOND_ROW
+    elif not bearing.is_drawn:  # nothing follows from dimensions there
+        hidden += [name for name in _OF_SECOND_ROW if name.endswith("_mm")]
     if kind == "rollers":
         return [
             *hidden,

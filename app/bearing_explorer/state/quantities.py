@@ -86,10 +86,23 @@ def values_of(scene: Scene, selected: int = 0) -> Values:
         elif quantity.of == "floor":
             values[quantity.name] = in_unit(quantity, getattr(rough, quantity.last_name))
         elif quantity.of == "rows":
-            values[quantity.name] = in_unit(quantity, getattr(scene.bearing, quantity.last_name))
+            values[quantity.name] = in_unit(quantity, of_rows(scene.bearing, quantity.last_name))
         else:
             values[quantity.name] = 0.0
     return values
+
+
+SECOND = "second_"
+"""How names of numbers begin that the second row of a bearing has of its own."""
+
+
+def of_rows(bearing: Bearing, name: str) -> float | None:
+    """A number of a bearing of two rows, by its last name; None of one that has it not."""
+    if not name.startswith(SECOND):
+        value: float | None = getattr(bearing, name)
+        return value
+    own = bearing.rows[1].own if len(bearing.rows) == 2 else {}
+    return own.get(name.removeprefix(SECOND))
 
 
 def _find(scene: Scene, defect: Defect, field: str) -> Any:
@@ -157,6 +170,10 @@ def limits_of(base: Scene) -> dict[str, Limits]:
         **{name: Limits(-moment, moment, moment / 500.0, *turn) for name in ("mx_nm", "my_nm")},
         "row_distance_mm": Limits(0.0, 100.0, 0.1, 0.0, 10_000.0),
         "preload_um": Limits(0.0, 50.0, 0.1, 0.0, 1000.0),
+        "second_n_balls": Limits(3.0, 30.0, 1.0, 1.0, 100.0),
+        "second_contact_angle_deg": Limits(0.0, 45.0, 0.5, 0.0, 80.0),
+        "second_ball_diameter_mm": _near(values["ball_diameter_mm"]),
+        "second_pitch_diameter_mm": _near(values["pitch_diameter_mm"]),
         "roller_length_mm": Limits(1.0, 100.0, 0.1, 0.0, 1000.0),
         "n_balls": Limits(3.0, 30.0, 1.0, 1.0, 100.0),
         "contact_angle_deg": Limits(0.0, 45.0, 0.5, 0.0, 80.0),
@@ -235,6 +252,8 @@ def in_page_words(text: str) -> str:
     "shaft_speed is 0; allowed: above 0 [rad/s]" comes out as "shaft speed is 0 Hz; allowed:
     above 0 Hz": a number without a unit of its own is of the field that the sentence begins with.
     """
+    if (row := _ROW.match(text)) is not None:
+        return row[0] + in_page_words(text[row.end() :])
     about = _FIELD.match(text)
     quantity = _BY_FIELD.get(about[1]) if about is not None else None
     if about is not None and quantity is not None and (si := _SI.get(quantity.unit)):
@@ -263,6 +282,7 @@ _READ = {
 }
 _BY_FIELD = {quantity.last_name: quantity for quantity in QUANTITY_LIST if quantity.field}
 _SIGNED = r"([-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
+_ROW = re.compile(r"row \d+: ")
 _FIELD = re.compile(rf"([a-z]+(?:_[a-z]+)*) is {_SIGNED}; (.*)", re.DOTALL)
 _BOUND = re.compile(rf"(above|below|at least|at most) {_SIGNED}(?![\w.]| (?:m|rad|Pa|of)\b)")
 _WITH_UNIT = re.compile(rf"{_SIGNED} (rad/s|rad|Pa|m)(?![\w/^·³²])")

@@ -14,9 +14,10 @@ class Quantity:
     """One number of the page.
 
     `field` says what it is of: a name that `Scene.replace` knows, ``floor.`` and the name of a
-    field of a `RoughFloor`, ``rows.`` and a property of a bearing of two rows, or nothing where it
-    is no part of the scene. `unit_si` is how much one unit is in SI; `symbol` and `about` may hold
-    simple HTML. `optional`: it may be left open.
+    field of a `RoughFloor`, ``rows.`` and a property of a bearing of two rows, ``rows.second_`` and
+    what the second of them has of its own, or nothing where it is no part of the scene. `unit_si`
+    is how much one unit is in SI; `symbol` and `about` may hold simple HTML. `optional`: it may be
+    left open.
     """
 
     name: str
@@ -251,6 +252,55 @@ _ROWS = (
     ),
 )
 
+_AS_FIRST = "Left empty it is that of the first row."
+
+_SECOND_ROW = (
+    Quantity(
+        "second_n_balls",
+        "rows.second_n_balls",
+        "Number of balls, row 2",
+        _sub("N", "b2"),
+        "",
+        1.0,
+        "Second row",
+        f"How many balls the second row has. {_AS_FIRST}",
+        optional=True,
+    ),
+    Quantity(
+        "second_ball_diameter_mm",
+        "rows.second_ball_diameter",
+        "Ball diameter, row 2",
+        _sub("D", "b2"),
+        "mm",
+        1e-3,
+        "Second row",
+        f"Diameter of a ball of the second row; its grooves go with it. {_AS_FIRST}",
+        optional=True,
+    ),
+    Quantity(
+        "second_pitch_diameter_mm",
+        "rows.second_pitch_diameter",
+        "Pitch diameter, row 2",
+        _sub("D", "p2"),
+        "mm",
+        1e-3,
+        "Second row",
+        f"Diameter of the circle on which the balls of the second row run. {_AS_FIRST}",
+        optional=True,
+    ),
+    Quantity(
+        "second_contact_angle_deg",
+        "rows.second_contact_angle",
+        "Contact angle, row 2",
+        _sub("α", "02"),
+        "°",
+        DEGREE,
+        "Second row",
+        f"Contact angle of the second row, unloaded. {_AS_FIRST}",
+        optional=True,
+    ),
+)
+
 _CONTACT = (
     Quantity(
         "contact_angle_deg",
@@ -468,7 +518,7 @@ _CONTACT_DAMPING = (
 )
 
 SCENE_GROUPS = ("Defect", "Turning", "Load")
-BEARING_GROUPS = ("Balls", "Rows", "Drawing", "Contact", "Races")
+BEARING_GROUPS = ("Balls", "Rows", "Second row", "Drawing", "Contact", "Races")
 MODEL_GROUPS = ("Bodies", "Contact of a moving ball", "Support, stiffness", "Support, damping")
 
 QUANTITY_LIST: tuple[Quantity, ...] = (
@@ -477,6 +527,7 @@ QUANTITY_LIST: tuple[Quantity, ...] = (
     *_LOAD,
     *_BALLS,
     *_ROWS,
+    *_SECOND_ROW,
     *_DRAWING,
     *_CONTACT,
     *_RACES,

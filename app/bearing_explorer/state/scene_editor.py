@@ -25,6 +25,7 @@ from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice, chos
 from bearing_explorer.state.quantities import (
     FIRST_ROUGHNESS,
     QUANTITIES,
+    SECOND,
     Limits,
     Values,
     check_values,
@@ -347,8 +348,7 @@ class SceneEditor:
                 fields["floor"] = floor
         scene = scene_with_fields(self.scene, fields, self.selected)
         if rows:
-            spaced = scene.bearing.respaced(rows.get("row_distance"), rows.get("preload"))
-            scene = scene.replace(bearing=spaced)
+            scene = scene.replace(bearing=_with_rows(scene.bearing, rows))
         if rough:
             choice.rough = floor
         return scene
@@ -595,6 +595,19 @@ def clean_name(text: str) -> str:
     """A name for a bearing out of what a stranger wrote: short and on one line, or empty."""
     clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
     return " ".join(clean.split())[:LONGEST_NAME].rstrip()
+
+
+def _with_rows(bearing: Bearing, numbers: Mapping[str, Any]) -> Bearing:
+    """A bearing of two rows with numbers changed, by their last names."""
+    second = {n.removeprefix(SECOND): v for n, v in numbers.items() if n.startswith(SECOND)}
+    if len(second) < len(numbers):
+        bearing = bearing.respaced(numbers.get("row_distance"), numbers.get("preload"))
+    if not second:
+        return bearing
+    if len(bearing.rows) != 2:
+        raise ValueError(f"rows of balls are {len(bearing.all_rows)}; allowed: two of them")
+    low, high = bearing.rows
+    return dataclasses.replace(bearing, rows=(low, dataclasses.replace(high, **second)))
 
 
 def drawn(bearing: Bearing) -> Bearing:

@@ -74,6 +74,8 @@ class Caption(LiveComponent):
 
     #: whether there are no numbers behind it yet, so that none are offered
     empty = param.Boolean(default=False)
+    #: whether there is nothing at all to take along, no lines of Python either
+    nothing = param.Boolean(default=False)
 
     _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
@@ -223,7 +225,9 @@ class View:
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
         self._sentence.put(text=sentence)
-        self._caption.put(empty=self._results is None or self.is_empty)
+        self._caption.put(
+            empty=self._results is None or self.is_empty, nothing=self._results is None
+        )
         if results is not None and self.compares:
             line, rest = first_sentence(self.caption(results.grey_words))
             pinned = results.pinned.name if results.pinned else ""

@@ -19,6 +19,7 @@ from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.table import table_of
+from bearingcore.model.packing import ball_angles
 
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
@@ -132,7 +133,6 @@ class BearingDrawing(View):
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
         plot = style.bare_figure(x, y, height=HEIGHT)
-        plot.min_border_top = 8  # for the words about the load, in large type too
         # on a phone no higher than it is wide, or half of it is empty
         sizes = {"least": 320, "most": HEIGHT, "scale": SCALE_HEIGHT}
         plot.js_on_change("inner_width", CustomJS(args=sizes, code=_NO_HIGHER))
@@ -249,7 +249,9 @@ class BearingDrawing(View):
             "text_color": style.FAINT_INK,
         }
         loads = packed.source(f"{self.prefix}_load_words", "x", "y", "kind", "value", "angle")
-        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look)
+        # hung up by their tops: larger type on a projector is not cut by the frame
+        hung = {"text_baseline": "top", "y_offset": -12}
+        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look, **hung)
         rows = packed.source(f"{self.prefix}_row_words", "x", "y", "row", "place")
         plot.text(
             "x",
@@ -267,6 +269,7 @@ class BearingDrawing(View):
             source=scale,
             text_align="right",
             **look,
+            **hung,
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -280,7 +283,7 @@ class BearingDrawing(View):
         healthy = results.healthy_load_curves
         several: list[Sources] = []
         for row in range(len(rows)):
-            own = slice(row * scene.bearing.n_balls, (row + 1) * scene.bearing.n_balls)
+            own = scene.bearing.balls_of_rows[row]
             load = now.ball_load[0, own]
             drawn = Shapes(scene, results.cage_angle, row)
             drop = {race: drops[own] for race, drops in results.drop.items()}
@@ -338,7 +341,7 @@ class BearingDrawing(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         bearing, now = results.scene.bearing, results.now
-        row, ball = np.divmod(np.arange(bearing.total_balls), bearing.n_balls)
+        row, ball = np.array([bearing.row_of_ball(k) for k in range(bearing.total_balls)]).T
         return (
             table_of(
                 ("row", "", row + 1),
@@ -359,8 +362,8 @@ def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
     if balls.size == 0:
         return ""
     words = []
-    for row in range(len(bearing.all_rows)):
-        own = balls[balls // bearing.n_balls == row] % bearing.n_balls + 1
+    for row, its in enumerate(bearing.balls_of_rows):
+        own = balls[(balls >= its.start) & (balls < its.stop)] - its.start + 1
         if own.size:
             of_row = f" of row {row + 1}" if bearing.rows else ""
             names = style.list_words([str(ball) for ball in own])
@@ -438,18 +441,21 @@ def load_words(load: Load, wide: float = HALF_WIDTH) -> dict[str, np.ndarray]:
 class Shapes:
     """Shapes of one row of a scene at one cage angle [rad], lengths in outer raceway radii.
 
+    Of rows that are not alike in that of the largest, so that they are to scale.
+
     Shapes of several parts are one polygon with NaN between the parts; a part inside another is a
     hole in it.
     """
 
     def __init__(self, scene: Scene, cage_angle: float, row: int = 0) -> None:
-        bearing = scene.bearing
+        bearing = scene.bearing.of_row(row)
         self.scene, self.cage_angle, self.row = scene, cage_angle, row
-        self.unit = bearing.outer_raceway_radius
+        self.unit = max(own.outer_raceway_radius for own, _ in scene.bearing.unlike_rows)
         self.ball = bearing.ball_radius / self.unit
+        self.outer_race = bearing.outer_raceway_radius / self.unit
         self.inner_race = bearing.inner_raceway_radius / self.unit
         # between the races, whatever radii the bearing says: the balls are to be seen between them
-        self.pitch = 0.5 * (1.0 + self.inner_race)
+        self.pitch = 0.5 * (self.outer_race + self.inner_race)
         self.rim = 1.0 + 1.1 * min(self.ball, 0.18)
         self.bore = max(self.inner_race - 1.1 * self.ball, 0.35 * self.inner_race)
         self.spans = spans(scene, cage_angle, row)
@@ -465,7 +471,7 @@ class Shapes:
         """Angle and radius along a race with its defects, exaggerated."""
         angle = race_angles(self.spans, race)
         depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle, self.row))
-        return angle, 1.0 + depth if race == "outer" else self.inner_race - depth
+        return angle, self.outer_race + depth if race == "outer" else self.inner_race - depth
 
     def rings(self) -> dict[str, np.ndarray]:
         """Both rings."""
@@ -491,7 +497,8 @@ class Shapes:
         parts = []
         for span in self.spans:
             angle = np.linspace(span.start, span.start + span.extent, 121)
-            race, outwards = (1.0, 1.0) if span.race == "outer" else (self.inner_race, -1.0)
+            outer = span.race == "outer"
+            race, outwards = (self.outer_race, 1.0) if outer else (self.inner_race, -1.0)
             inside = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
             depth = race_depth(self.scene, self.cage_angle, span.race, inside, self.row)
             floor = race + outwards * self._drawn(depth)
@@ -509,7 +516,7 @@ class Shapes:
         deepest = self._drawn(
             race_depth(self.scene, self.cage_angle, "outer", np.radians(degrees), self.row)
         )
-        radius = 0.5 * (1.0 + deepest + self.rim)
+        radius = 0.5 * (self.outer_race + deepest + self.rim)
         return {
             "x": radius * np.cos(np.radians(degrees)),
             "y": radius * np.sin(np.radians(degrees)),
@@ -520,8 +527,7 @@ class Shapes:
     def ball_angles(self) -> NDArray[np.float64]:
         """Angle of each ball [rad]."""
         bearing = self.scene.bearing
-        offsets = bearing.ball_spacing * np.arange(bearing.n_balls, dtype=np.float64)
-        return self.cage_angle + bearing.all_rows[self.row].turn + offsets
+        return ball_angles(bearing, np.array([self.cage_angle]))[0, bearing.balls_of_rows[self.row]]
 
     def balls(
         self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -13,7 +15,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.element_words import elements
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.choice_list import KIND, NUMBERS, kind_of
-from bearing_explorer.state.quantities import in_unit
+from bearing_explorer.state.quantities import in_unit, of_rows
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
@@ -38,6 +40,13 @@ class BearingRows(Rows):
     ]
 
 
+def _balls_of(bearing: Bearing) -> str:
+    """Balls of a row in words."""
+    ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
+    names = elements(bearing, bearing.n_balls)
+    return f"{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm"
+
+
 class BearingEditor(ControlView):
     """The bearing that the sliders load, dimension by dimension."""
 
@@ -59,12 +68,12 @@ class BearingEditor(ControlView):
 
     def sentence(self, results: Results) -> str:
         bearing = results.scene.bearing
-        ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
-        angles = [bearing.of_row(k).contact_angle for k in range(len(bearing.all_rows))]
-        angle = "° and ".join(f"{math.degrees(one):.4g}" for one in dict.fromkeys(angles))
+        own = [one for one, _ in bearing.unlike_rows]
+        angles = dict.fromkeys(one.contact_angle for one in own)
+        angle = "° and ".join(f"{math.degrees(one):.4g}" for one in angles)
         rows = "two rows of " if bearing.rows else ""
-        names = elements(bearing, bearing.n_balls)
-        words = f"{rows}{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm, "
+        kinds = dict.fromkeys(_balls_of(one) for one in own)
+        words = f"{rows}{' and of '.join(kinds)}, "
         if bearing.roller_length is not None:
             words += f"{1e3 * bearing.roller_length:.4g} mm long."
         else:
@@ -84,7 +93,7 @@ class BearingEditor(ControlView):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         bearing = results.scene.bearing
         rows = [q for q in QUANTITY_LIST if q.group in BEARING_GROUPS]
-        values = [in_unit(q, getattr(bearing, q.last_name)) for q in rows]
+        values = [in_unit(q, of_rows(bearing, q.last_name)) for q in rows]
         facts = facts_of(results.scene)
         return {
             "quantity": np.array([q.label for q in rows] + [fact["label"] for fact in facts]),
@@ -96,10 +105,17 @@ class BearingEditor(ControlView):
         }
 
 
+_OF_EACH_ROW = (
+    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle"),
+    *("outer_raceway_radius", "inner_raceway_radius"),
+)
+"""What the picture needs of each row."""
+
+
 def shape_of(bearing: Bearing) -> dict[str, Any]:
     """What the picture is drawn from: the fields of the bearing, in SI, and which kind it is."""
     shape = {
-        q.last_name: getattr(bearing, q.last_name)
+        q.last_name: of_rows(bearing, q.last_name)
         for q in QUANTITY_LIST
         if q.group in BEARING_GROUPS
     }
@@ -111,7 +127,7 @@ def shape_of(bearing: Bearing) -> dict[str, Any]:
             {
                 "place": row.place,
                 "facing": row.facing,
-                "contact_angle": bearing.of_row(k).contact_angle,
+                **{name: getattr(bearing.of_row(k), name) for name in _OF_EACH_ROW},
             }
             for k, row in enumerate(bearing.all_rows)
         ],
@@ -123,10 +139,9 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
     bearing, speed = scene.bearing, scene.shaft_speed
 
     def hertz(name: str) -> str:
-        """A frequency; of rows with contact angles of their own one after the other."""
-        rows = range(len(bearing.all_rows))
-        of_rows = [float(getattr(bearing.of_row(k), name)(speed)) for k in rows]
-        return " and ".join(f"{style.number(one, 4)} Hz" for one in dict.fromkeys(of_rows))
+        return _of_each_row(
+            bearing, lambda own: f"{style.number(float(getattr(own, name)(speed)), 4)} Hz"
+        )
 
     facts = [
         (
@@ -165,14 +180,15 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             (
                 "Groove centre radius",
                 "r<sub>d</sub>",
-                style.with_prefix(bearing.groove_center_radius, "m", 5),
+                _of_each_row(
+                    bearing, lambda own: style.with_prefix(own.groove_center_radius, "m", 5)
+                ),
                 "The lever with which a tilt moves a contact.",
             ),
             (
                 "Raceway radii",
                 "R<sub>o</sub>, R<sub>i</sub>",
-                f"{1e3 * bearing.outer_raceway_radius:.5g} mm, "
-                f"{1e3 * bearing.inner_raceway_radius:.5g} mm",
+                _of_each_row(bearing, _raceways),
                 "At the bottom of the grooves, where defects are cut.",
             ),
         ]
@@ -180,17 +196,27 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
             (
                 f"{race.capitalize()} groove over ball",
                 "f<sub>" + race[0] + "</sub>",
-                style.number(radius / bearing.ball_diameter, 4),
+                _of_each_row(bearing, partial(_conformity, race=race)),
                 "Groove radius in ball diameters; makers use 0.505 to 0.54.",
             )
-            for race, radius in (
-                ("outer", bearing.outer_groove_radius),
-                ("inner", bearing.inner_groove_radius),
-            )
-            if radius is not None
+            for race in ("outer", "inner")
         ]
     keys = ("label", "symbol", "value", "about")
     return [dict(zip(keys, fact, strict=True)) for fact in facts]
+
+
+def _of_each_row(bearing: Bearing, told: Callable[[Bearing], str]) -> str:
+    """What is told of a bearing, of rows that are not alike of one after the other."""
+    return " and ".join(dict.fromkeys(told(own) for own, _ in bearing.unlike_rows))
+
+
+def _raceways(bearing: Bearing) -> str:
+    radii = (bearing.outer_raceway_radius, bearing.inner_raceway_radius)
+    return ", ".join(f"{1e3 * radius:.5g} mm" for radius in radii)
+
+
+def _conformity(bearing: Bearing, race: str) -> str:
+    return style.number(getattr(bearing, f"{race}_groove_radius") / bearing.ball_diameter, 4)
 
 
 def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
@@ -200,13 +226,17 @@ def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         (
             "Load-deflection factor",
             "K",
-            f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹·⁵",
+            _of_each_row(
+                bearing, lambda own: f"{style.number(own.load_deflection_factor / 1e6, 5)} MN/m¹·⁵"
+            ),
             "Stiffness of both contacts of a ball in series.",
         ),
         (
             "Groove centre distance",
             "A<sub>0</sub>",
-            style.with_prefix(bearing.groove_center_distance, "m", 4),
+            _of_each_row(
+                bearing, lambda own: style.with_prefix(own.groove_center_distance, "m", 4)
+            ),
             "Both groove radii together less a ball diameter.",
         ),
     ]
@@ -217,13 +247,13 @@ def _of_play(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         (
             "Free contact angle",
             "α<sub>f</sub>",
-            _free_angle(bearing),
+            _of_each_row(bearing, _free_angle),
             "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
         ),
         (
             "Diametral play",
             "s",
-            style.with_prefix(bearing.diametral_play, "m"),
+            _of_each_row(bearing, lambda own: style.with_prefix(own.diametral_play, "m")),
             "From contact to contact across the shaft: what contact angle and clearance stand for.",
         ),
     ]
@@ -237,8 +267,8 @@ def _of_rows(bearing: Bearing) -> list[tuple[str, str, str, str]]:
         return [("Rows apart", "a", style.with_prefix(distance, "m", 4), about)]
     if distance is None or bearing.arrangement == "tandem" or not bearing.arrangement:
         return []
-    tangents = [math.tan(bearing.of_row(row).contact_angle) for row in range(2)]
-    reach = 0.5 * bearing.pitch_diameter * sum(tangents)
+    own = [bearing.of_row(row) for row in range(2)]
+    reach = sum(0.5 * one.pitch_diameter * math.tan(one.contact_angle) for one in own)
     back = bearing.arrangement == "back-to-back"
     apart = distance + reach if back else abs(distance - reach)
     return [

@@ -74,8 +74,7 @@ class DepthProfile(View):
         angle = np.degrees(profile.angle)
         deepest = self._range.fit(1.15 * profile.depth)[1]
         start, end = float(angle[0]), float(angle[-1])
-        n = results.scene.bearing.n_balls
-        own = slice(profile.row * n, (profile.row + 1) * n)
+        own = results.scene.bearing.balls_of_rows[profile.row]
         balls = np.degrees(results.now.ball_angle[0, own])
         # the picture may run past 360°: a ball is drawn in whichever turn it is seen
         balls = start + (balls - start) % 360.0

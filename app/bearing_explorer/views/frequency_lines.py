@@ -56,15 +56,16 @@ FAMILIES = (
 """In the order of their rows."""
 
 _WORDS = """
-if (row.order == %(first)s) return `%(title)s ${rounded(row.first, 4)} Hz`
+const of = row.of ? ` row ${row.of}` : ''
+if (row.order == %(first)s) return `%(title)s${of} ${rounded(row.first, 4)} Hz`
 const whole = Math.floor(row.order), half = row.order > whole ? '½' : ''
 return `${whole || ''}${half}×`
 """
 
 
-def fundamentals(scene: Scene) -> dict[str, float]:
-    """First frequency [Hz] of each family, at the scene's shaft speed."""
-    bearing, speed = scene.bearing, scene.shaft_speed
+def fundamentals(scene: Scene, row: int = 0) -> dict[str, float]:
+    """First frequency [Hz] of each family, of a row, at the scene's shaft speed."""
+    bearing, speed = scene.bearing.of_row(row), scene.shaft_speed
     outer = bearing.bpfo(speed)
     return {
         "bpfo": outer,
@@ -73,6 +74,11 @@ def fundamentals(scene: Scene) -> dict[str, float]:
         "bsf": bearing.bsf(speed),
         "ftf": bearing.ftf(speed),
     }
+
+
+def of_rows(scene: Scene) -> list[dict[str, float]]:
+    """`fundamentals` of each row that is not like the others; one where all are alike."""
+    return [fundamentals(scene, row) for row in range(len(scene.bearing.unlike_rows))]
 
 
 def orders(family: Family, first: float, top: float) -> NDArray[np.float64]:
@@ -113,7 +119,7 @@ class FrequencyLines:
         for family in FAMILIES:
             lines = packed.source(f"{prefix}_{family.name}", "frequency")
             names = packed.source(
-                f"{prefix}_{family.name}_names", "frequency", "order", "first", "row"
+                f"{prefix}_{family.name}_names", "frequency", "order", "first", "row", "of"
             )
             first = 0.5 if family.name == "half" else 1
             words = style.words_of(names, _WORDS % {"first": first, "title": family.title})
@@ -124,32 +130,40 @@ class FrequencyLines:
                 )  # fmt: skip
                 write_over(plot, names, words, "frequency", "row", family.ink, x_offset=3)
 
-    def head_room(self, shown: Sequence[str]) -> float:
-        """Share of the frame's height that the names take."""
-        return self._row * (len(shown) + 0.6)
+    def head_room(self, shown: Sequence[str], sets: int = 1) -> float:
+        """Share of the frame's height that the names take, with so many sets of lines."""
+        return self._row * (sets * len(shown) + 0.6)
 
     def columns(
-        self, first: dict[str, float], shown: Sequence[str], top: float
+        self, sets: Sequence[dict[str, float]], shown: Sequence[str], top: float
     ) -> dict[str, dict[str, NDArray[np.float64]]]:
-        """Sources with the lines of the families `shown` up to `top` [Hz], and their names."""
+        """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
+
+        `sets` are what `of_rows` gives: of several each has names of its own.
+        """
         sources: dict[str, dict[str, NDArray[np.float64]]] = {}
         row = 0
         for family in FAMILIES:
-            fundamental = first[family.name]
-            multiples = np.zeros(0)
-            if family.name in shown:
+            lines, names = [np.zeros(0)], [np.zeros((5, 0))]
+            for number, first in enumerate(sets if family.name in shown else ()):
+                fundamental = first[family.name]
                 multiples = orders(family, fundamental, top)
                 row += 1
-            labels = named(multiples, fundamental, top)
-            sources[f"{self._prefix}_{family.name}"] = {"frequency": multiples * fundamental}
-            sources[f"{self._prefix}_{family.name}_names"] = {
-                "frequency": labels * fundamental,
-                "order": labels,
-                "first": labels * fundamental,
-                "row": np.full(labels.size, 1.0 - self._row * (row - 0.2)),
-            }
+                labels = named(multiples, fundamental, top)
+                lines.append(multiples * fundamental)
+                at = np.full(labels.size, 1.0 - self._row * (row - 0.2))
+                of = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
+                names.append(np.stack([labels * fundamental, labels, labels * fundamental, at, of]))
+            sources[f"{self._prefix}_{family.name}"] = {"frequency": np.concatenate(lines)}
+            sources[f"{self._prefix}_{family.name}_names"] = dict(
+                zip(
+                    ("frequency", "order", "first", "row", "of"),
+                    np.concatenate(names, axis=1),
+                    strict=True,
+                )
+            )
         return sources
 
     def nothing(self) -> dict[str, dict[str, NDArray[np.float64]]]:
         """The same without lines."""
-        return self.columns(dict.fromkeys([family.name for family in FAMILIES], 0.0), (), 1.0)
+        return self.columns((), (), 1.0)

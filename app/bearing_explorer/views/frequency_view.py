@@ -18,7 +18,7 @@ from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, fundamentals
+from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, of_rows
 from bearing_explorer.views.measured_view import MEASURED, LookPanel, MeasuredView
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
@@ -227,7 +227,7 @@ class FrequencyView(MeasuredView):
             empty: Sources = dict.fromkeys(names, none)
             return empty | self._lines.nothing() | self.decoration(None, None), {}
         shown = self.shown(results, measured)
-        lines = fundamentals(measured.scene(results.scene))
+        lines = of_rows(measured.scene(results.scene))
         top, resolution = shown.top, shown.resolution
         sources: Sources = {f"{p}_measured": curves(shown.measured, top)}
         for dof in SHOWN:
@@ -240,7 +240,7 @@ class FrequencyView(MeasuredView):
             np.concatenate([part[scale][own] for part, own in zip(both, seen, strict=True)])
             for scale in SCALES
         )
-        room = self._lines.head_room(look.lines)
+        room = self._lines.head_room(look.lines, len(lines))
         loudest = float(np.nanmax(level, initial=LEVEL_FLOOR))
         lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
         head = (loudest - lowest) * room / (1.0 - room) + 3.0

@@ -242,6 +242,15 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
             "The load of the same life by ISO 281.",
         ),
     ]
+    if len(lasts.rows) > 1 and known:
+        each = " and ".join(f"{_long(L)}" if math.isfinite(L) else "endless" for L in lasts.rows)
+        facts.append(
+            (
+                f"of rows 1 to {len(lasts.rows)} on their own",
+                f"{each} million turns",
+                "Of each row under what it carries: the bearing fails with the first.",
+            )
+        )
     if results.scene.defects and known:
         facts.append(
             (

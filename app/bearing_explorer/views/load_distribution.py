@@ -231,6 +231,10 @@ def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
     return {"angle": np.concatenate([none, *angle]), "load": np.concatenate([none, *load])}
 
 
+NAMES_APART = 40.0
+"""[degrees] between the names of two rows that carry their most at about one place."""
+
+
 def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
     """Where the name of each row stands, at the top of its curve; none of a single row."""
     rows = [
@@ -239,7 +243,11 @@ def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
         if len(curves) > 1 and np.isfinite(load).any()
     ]
     angle, load, row = np.array(rows, dtype=float).reshape(-1, 3).T
-    return {"angle": np.clip(angle % 360.0, 12.0, 348.0), "load": load, "row": row}
+    at = np.clip(angle % 360.0, 12.0, 348.0)
+    if at.size == 2 and abs(at[1] - at[0]) < NAMES_APART and np.ptp(load) < 0.1 * load.max():
+        middle = np.clip(at.mean(), NAMES_APART, 360.0 - NAMES_APART)
+        at[np.argsort(at, kind="stable")] = middle + np.array([-0.5, 0.5]) * NAMES_APART
+    return {"angle": at, "load": load, "row": row}
 
 
 def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from bearing_explorer.figures import style
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.state.quantities import refusal
-from bearing_explorer.views.frequency_lines import fundamentals
+from bearing_explorer.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
 
 if TYPE_CHECKING:
@@ -74,14 +74,14 @@ class MeasuredEnvelope(FrequencyView):
         if measured is None:
             return self.why_nothing
         shown = self.shown(results, measured)
-        first = fundamentals(measured.scene(results.scene))
+        sets = of_rows(measured.scene(results.scene))
         assert shown.band is not None
         chosen = "as chosen" if self.look.band != (None, None) else "where knocks stand out most"
         words = (
             f"Envelope along {shown.direction} between {shown.band[0]:.0f} and "
             f"{shown.band[1]:.0f} Hz, {chosen}. "
         )
-        return words + telling(shown, first) + f" {shown.why_not}".rstrip()
+        return words + telling(shown, sets) + f" {shown.why_not}".rstrip()
 
 
 _PLACES = {
@@ -93,17 +93,23 @@ _PLACES = {
 _NEAR = 0.02  # slip, and what the shaft speed is off
 
 
-def telling(shown: Shown, first: Mapping[str, float]) -> str:
-    """Which of the bearing's frequencies the highest line of the envelope stands at."""
+def telling(shown: Shown, sets: Sequence[Mapping[str, float]]) -> str:
+    """Which of the bearing's frequencies, a set a row, the highest line of the envelope is."""
     frequency, density = shown.measured
-    lowest = max(2.5 * shown.resolution, 0.7 * first["ftf"])
+    lowest = max(2.5 * shown.resolution, 0.7 * min(first["ftf"] for first in sets))
     seen = (frequency > lowest) & (frequency < shown.top)
     if not seen.any():
         return "It holds no lines."
     at = float(frequency[seen][density[seen].argmax()])
     words = f"Its highest line, at {style.number(at, 4)} Hz,"
     lines = [
-        (abs(at / (multiple * first[name]) - 1.0), multiple * first[name], multiple, title)
+        (
+            abs(at / (multiple * first[name]) - 1.0),
+            multiple * first[name],
+            multiple,
+            title if len(sets) == 1 else f"{title} of row {row + 1}",
+        )
+        for row, first in enumerate(sets)
         for title, (name, multiples) in _PLACES.items()
         for multiple in multiples
     ]

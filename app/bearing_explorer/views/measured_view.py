@@ -96,6 +96,7 @@ class MeasuredView(View):
         super().say(results, sentence)
         if self.hidden is not None:
             self.hidden.visible = self.measured is not None
+        self._caption.put(nothing=self.measured is None)
         # figures that nobody sees are not to be saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 

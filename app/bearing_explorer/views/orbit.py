@@ -195,9 +195,17 @@ class SteadyOrbit(View):
     def _orbit_words(self, results: Results) -> str:
         orbit = results.orbit
         if orbit is None:
+            turning = (
+                "the defect on the inner race" if results.over_shaft else "rows of unlike balls"
+            )
             return (
-                f"With the defect on the inner race all repeats only after {results.ball_passes} "
-                "ball passes, too many to look for while sliders move; grey is the marched motion."
+                f"With {turning} all repeats only after {results.ball_passes} ball passes, too "
+                "many to look for while sliders move; grey is the marched motion."
+            )
+        if orbit.status == NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
+            return (
+                "The cages of the rows turn at speeds of their own and never come round together: "
+                "no motion repeats itself, so grey shows the marched one."
             )
         if orbit.status == NO_PERIOD:
             return (

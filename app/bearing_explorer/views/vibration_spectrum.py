@@ -42,7 +42,10 @@ AXIS: dict[str, Any] = {
 }
 """The switch above the figures."""
 
-_PASS_WORDS = "return `${row.inner ? 'BPFI' : 'BPFO'} ${rounded(row.frequency, 4)} Hz`"
+_PASS_WORDS = """
+const of = row.row ? ` row ${row.row}` : ''
+return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)} Hz`
+"""
 
 
 class VibrationSpectra(View):
@@ -72,8 +75,8 @@ class VibrationSpectra(View):
         level = packed.range("spectrum_level", -80.0, -20.0)
         lines = packed.source("spectrum_lines", "frequency", *SHOWN)
         healthy = packed.source("spectrum_healthy", "frequency", *SHOWN)
-        passes = packed.source("spectrum_passes", "frequency", "inner")
-        first = packed.source("spectrum_first_pass", "frequency", "inner")
+        passes = packed.source("spectrum_passes", "frequency", "inner", "row")
+        first = packed.source("spectrum_first_pass", "frequency", "inner", "row")
         plots, marks = [], []
         for dof in SHOWN:
             plot = style.house_figure(
@@ -196,10 +199,8 @@ class VibrationSpectra(View):
         loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
         low, high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 6.0)
         passing = pass_frequencies(results.scene, top)
-        first = {
-            name: column[np.searchsorted(passing["inner"], np.unique(passing["inner"]))]
-            for name, column in passing.items()
-        }
+        which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
+        first = {name: column[which] for name, column in passing.items()}
         sources: Sources = {
             "spectrum_lines": drawn,
             "spectrum_healthy": drawn_levels(results.healthy_late_spectra, top),
@@ -236,8 +237,9 @@ class VibrationSpectra(View):
         )
         passing = style.list_words(
             [
-                f"of the {race} race at {style.number(frequency, 4)} Hz"
-                for race, frequency in passed(results.scene)
+                f"of the {race} race{f', row {row},' if row else ''} at "
+                f"{style.number(frequency, 4)} Hz"
+                for race, row, frequency in passed(results.scene)
             ]
         )
         text += f"; balls pass a point {passing}"
@@ -287,22 +289,37 @@ def drawn_levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.fl
     return levels(spectra, top)
 
 
-def passed(scene: Scene) -> list[tuple[str, float]]:
-    """Races with a defect and how often a point of them is passed [Hz]; outer without defects."""
-    bearing, speed = scene.bearing, scene.shaft_speed
-    races = {defect.race for defect in scene.defects} or {"outer"}
-    rates = {"outer": bearing.bpfo(speed), "inner": bearing.bpfi(speed)}
-    return [(race, rate) for race, rate in rates.items() if race in races]
+def passed(scene: Scene) -> list[tuple[str, int, float]]:
+    """Races with a defect, and how often a point of them is passed [Hz]; outer without defects.
+
+    Of rows that are not alike each whose balls meet one, with its number; else that is 0.
+    """
+    speed, found = scene.shaft_speed, []
+    several = not scene.bearing.rows_are_alike
+    for race in ("outer", "inner"):
+        for row, (own, _) in enumerate(scene.bearing.unlike_rows):
+            met = (None, row) if several else (None, *range(len(scene.bearing.all_rows)))
+            there = [d.race == race and d.row in met for d in scene.defects] or [race == "outer"]
+            if any(there):
+                rate = own.bpfo(speed) if race == "outer" else own.bpfi(speed)
+                found.append((race, row + 1 if several else 0, rate))
+    return found
 
 
 def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
     """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
 
-    Columns: frequency, and whether it belongs to the inner race; the outer race comes first.
+    Columns: frequency, whether it belongs to the inner race, and the number of the row, 0 where
+    rows are alike; the outer race comes first.
     """
-    frequencies, inner = [np.empty(0)], [np.empty(0)]
-    for race, first in passed(scene):
+    frequencies, inner, rows = [np.empty(0)], [np.empty(0)], [np.empty(0)]
+    for race, row, first in passed(scene):
         count = int(top / first) if first > 0.0 else 0
         frequencies.append(first * np.arange(1.0, count + 1.0))
         inner.append(np.full(count, float(race == "inner")))
-    return {"frequency": np.concatenate(frequencies), "inner": np.concatenate(inner)}
+        rows.append(np.full(count, float(row)))
+    return {
+        "frequency": np.concatenate(frequencies),
+        "inner": np.concatenate(inner),
+        "row": np.concatenate(rows),
+    }

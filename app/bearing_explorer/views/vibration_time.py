@@ -214,10 +214,10 @@ def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
 
 def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
     """What the browser names balls by, counted from 0 row after row; row 0 is the only one."""
-    row = balls // bearing.n_balls + 1.0
+    row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
     return {
-        "ball": balls % bearing.n_balls + 1.0,
-        "row": row if bearing.rows else np.zeros(balls.size),
+        "ball": number + 1.0,
+        "row": row + 1.0 if bearing.rows else np.zeros(balls.size),
         "roller": np.full(balls.size, float(bearing.is_roller)),
     }
 

@@ -70,7 +70,7 @@ def diagnose(
     Raises
     ------
     ValueError
-        for a speed or slip that cannot be.
+        for a speed or slip that cannot be, and for rows that are not alike.
     """
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = _speeds(recording, shaft_speed)

@@ -38,7 +38,15 @@ class PartLines:
 
 
 def part_lines(bearing: Bearing) -> tuple[PartLines, ...]:
-    """The lines of outer race, inner race and ball at one turn of the shaft a second."""
+    """The lines of outer race, inner race and ball at one turn of the shaft a second.
+
+    ValueError for rows that are not alike, each of which has lines of its own.
+    """
+    if not bearing.rows_are_alike:
+        raise ValueError(
+            "rows are not alike; allowed: rows alike, or one row at a time, as each has "
+            "frequencies of its own"
+        )
     turn = 2.0 * math.pi  # one turn a second [rad/s]
     return (
         PartLines(OUTER, bearing.bpfo(turn), 0.0),

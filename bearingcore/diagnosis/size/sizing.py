@@ -531,6 +531,10 @@ def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[i
         raise checks.refuse("floor", "uneven", "a flat floor")
     checks.number("depth", scene.defect.depth, above=0.0, unit="m")
     checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    if not scene.bearing.rows_are_alike:
+        raise ValueError(
+            "rows are not alike; allowed: rows alike: else no ball pass is like the next"
+        )
     if scene.bearing.n_balls < 3:
         raise checks.refuse("n_balls", scene.bearing.n_balls, "at least 3")
     missing = [name for name in directions if name not in scene.active_dofs]

@@ -98,10 +98,15 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
     rotor = system.rotor
     contacts = system.contacts
     races = system.races
-    w = rotor.cage_speed
     n_balls = contacts.angle.size
-    ui = seen_from_the_cage(row_components(work.x, INNER), row_components(work.v, INNER), w)
-    uo = seen_from_the_cage(row_components(work.x, OUTER), row_components(work.v, OUTER), w)
+    xi = row_components(work.x, INNER)
+    vi = row_components(work.v, INNER)
+    xo = row_components(work.x, OUTER)
+    vo = row_components(work.v, OUTER)
+    pace = 1.0
+    w = rotor.cage_speed
+    ui = seen_from_the_cage(xi, vi, w)
+    uo = seen_from_the_cage(xo, vo, w)
     f = work.f
     f[:, :] = 0.0
     for j in range(n_balls):
@@ -109,6 +114,11 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
         sj = passage.s[at, j]
         work.ball[0, j] = races.centrifugal[j] - races.weight[j] * sj
         work.ball[1, j] = 0.0
+        if contacts.pace[j] != pace:  # another row
+            pace = contacts.pace[j]
+            w = pace * rotor.cage_speed
+            ui = seen_from_the_cage(xi, vi, w)
+            uo = seen_from_the_cage(xo, vo, w)
         for race in range(2):
             delta = work.contact[race, j, 0]
             if delta <= 0.0:

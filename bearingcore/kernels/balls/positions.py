@@ -28,7 +28,7 @@ from bearingcore.kernels.balls.contacts import race_touch, ring_at_ball
 from bearingcore.kernels.balls.structs import INNER, OUTER, Races
 from bearingcore.kernels.compiling import borrowing, compiled, inlined
 from bearingcore.kernels.contact import components, compression_under, contact_load, tilting
-from bearingcore.kernels.path import ball_circle, lay_out_drops, turn_balls
+from bearingcore.kernels.path import ball_circle, lay_out_drops, place_balls
 from bearingcore.kernels.statics import (
     CONVERGED,
     FREE_DIRECTION,
@@ -447,7 +447,7 @@ def ball_positions(cage_angles, start, balls, load):
     work = new_descent(n_balls)
     for k in range(n):
         cage = cage_angles[k]
-        turn_balls(math.cos(cage), math.sin(cage), circle_c, circle_s, places.c, places.s)
+        place_balls(cage, balls.contacts, circle_c, circle_s, places.c, places.s)
         lay_out_drops(cage, balls.contacts, balls.inner_path, places.drop[INNER], slope)
         lay_out_drops(cage, balls.contacts, balls.outer_path, places.drop[OUTER], slope)
         if k > 0 and status[k - 1] == CONVERGED:

@@ -109,9 +109,10 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
     is p = Σ (Q e − c δ ė): e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A,
     t across the contact and ṗ the rate of the ball's displacement.
     """
-    w = rotor.cage_speed
     damping = rotor.contact_damping
     tension = rotor.tension
+    pace = 1.0
+    w = rotor.cage_speed
     u = seen_from_the_cage(work.x, work.v, w)
     contact = work.contact
     f0 = 0.0
@@ -126,6 +127,10 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
         ez = contact[i, 2]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
+        if contacts.pace[j] != pace:  # another row
+            pace = contacts.pace[j]
+            w = pace * rotor.cage_speed
+            u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
         if smooth:

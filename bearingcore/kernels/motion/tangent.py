@@ -46,7 +46,6 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
     de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A. So the force itself,
     (Q + c δ̇) e, changes by k1 ee' + (push/A) tt' + c σ et' + c ω e e_turn' with x, c ee' with v.
     """
-    w = rotor.cage_speed
     damping = rotor.contact_damping
     smooth = rotor.variables == SMOOTH
     Sx = slopes.Sx
@@ -61,6 +60,8 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
             Sx[a, b] = 0.0
             Px[a, b] = 0.0
             Pv[a, b] = 0.0
+    pace = 1.0
+    w = rotor.cage_speed
     u = seen_from_the_cage(work.x, work.v, w)
     for i in range(count):
         if work.contact[i, 4] == 0.0:
@@ -72,6 +73,10 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
         bend = work.contact[i, 3]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
+        if contacts.pace[j] != pace:  # another row
+            pace = contacts.pace[j]
+            w = pace * rotor.cage_speed
+            u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         directions_in_q(er, ez, cj, sj, tilting(er, ez, j, contacts), e, e_turn)
         directions_in_q(-ez, er, cj, sj, tilting(-ez, er, j, contacts), t, t_turn)

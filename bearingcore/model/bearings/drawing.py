@@ -34,7 +34,8 @@ instrument bearings up to about 0.58."""
 GREATEST_CONTACT_ANGLE = math.radians(80.0)
 """Beyond this a bearing is a thrust bearing, for which the radial clearance loses its meaning."""
 
-OPTIONAL_FIELDS = ("inner_groove_radius", "outer_groove_radius", "youngs_modulus", "poisson")
+GROOVES = ("inner_groove_radius", "outer_groove_radius")
+OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
 """Fields of a `Bearing` that only one with a drawing has."""
 
 DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS)

@@ -187,3 +187,17 @@ def test_a_long_floor_comes_from_a_file() -> None:
     lines = lines_of(VIEWS["bearing"](PackedSource()), Results(scene))
     assert FILE in lines
     assert len(lines) < 2000
+
+
+@pytest.mark.parametrize("name", ["bearing", "load-distribution"])
+def test_rows_that_are_not_alike(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    pair = presets["7208-back-to-back"]
+    low, high = pair.bearing.rows
+    rows = (low, dataclasses.replace(high, n_balls=11, contact_angle=0.7, turn=0.1))
+    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
+    results, view = Results(scene, 0.2), VIEWS[name](PackedSource())
+    lines = lines_of(view, results)
+    assert "Row(" in lines
+    namespace = run(lines, monkeypatch)
+    assert namespace["scene"] == scene
+    compare(name, view.table(results), namespace["columns"])

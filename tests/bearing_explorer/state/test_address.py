@@ -294,14 +294,27 @@ def test_a_floor_too_long_for_a_link_is_left_out_and_said() -> None:
     assert "too long" in shown.note
 
 
-def test_a_row_with_a_contact_angle_of_its_own_comes_back() -> None:
+@pytest.mark.parametrize(
+    ("own", "words"),
+    [
+        ({"contact_angle": 0.7}, "_0_0.7"),
+        ({"n_balls": 11}, "_0__11"),
+        ({"ball_diameter": 0.01, "outer_groove_radius": 0.0054}, "_0___0.01___0.0054"),
+        ({"contact_angle": 0.7, "n_balls": 11, "pitch_diameter": 0.055}, "_0_0.7_11__0.055"),
+    ],
+)
+def test_what_a_row_has_of_its_own_comes_back(own: dict[str, float], words: str) -> None:
     scene = presets["7208-back-to-back"]
     low, high = scene.bearing.rows
-    rows = (low, dataclasses.replace(high, contact_angle=0.7))
+    rows = (low, dataclasses.replace(high, **own))  # type: ignore[arg-type]
     scene = scene.replace(bearing=dataclasses.replace(scene.bearing, rows=rows))
     text = write(Place(scene, "7208-back-to-back"))
+    assert words in text
     found = read(text)
     assert found is not None
     assert found.scene == scene
-    with pytest.raises(ValueError, match="rows of a bearing"):
-        read(text.replace("_0.7", "_0.7_1"))
+    for wrong in (words + "_1_1_1_1_1_1", words.replace("_0_", "__", 1), words + "~0_1"):
+        with pytest.raises(ValueError, match="rows of a bearing"):
+            read(text.replace(words, wrong))
+    with pytest.raises(ValueError, match="n_balls"):
+        read(text.replace(words, "_0__11.5"))

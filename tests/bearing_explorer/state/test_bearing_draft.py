@@ -132,6 +132,45 @@ def test_rows_of_a_pair_are_moved_and_preloaded() -> None:
     assert math.isnan(editor.values["row_distance_mm"])
 
 
+def test_the_second_row_of_a_pair_has_numbers_of_its_own() -> None:
+    editor = SceneEditor("7208-back-to-back")
+    assert math.isnan(editor.values["second_n_balls"]), "left open: as in the first row"
+    assert not {name for name in hidden_of(editor.scene.bearing) if name.startswith("second_")}
+    given = {
+        "second_n_balls": "11",
+        "second_ball_diameter_mm": "10",
+        "second_contact_angle_deg": 40,
+    }
+    refused, changed = editor.set(given)
+    assert refused == {}
+    assert set(changed) >= set(given)
+    own = editor.scene.bearing.rows[1].own
+    assert own == {"n_balls": 11, "ball_diameter": 0.01, "contact_angle": math.radians(40.0)}
+    assert editor.scene.bearing.of_row(1).inner_groove_radius == pytest.approx(5.2e-3)
+    editor.set({"n_balls": 12, "row_distance_mm": 20.0})
+    assert editor.scene.bearing.of_row(0).n_balls == 12
+    assert editor.scene.bearing.of_row(1).n_balls == 11
+    for name, value in (("n_balls", 11), ("contact_angle_deg", 40.0), ("contact_angle_deg", 25.0)):
+        editor.set({name: value})  # past the second row's numbers and back
+    assert editor.scene.bearing.rows[1].own == own
+    editor.choose({"kind": "face-to-face"})
+    assert editor.scene.bearing.rows[1].own == own
+    refused, _ = editor.set({"second_n_balls": "40"})
+    assert "so few that balls do not overlap" in refused["second_n_balls"]
+    assert "mm" in refused["second_n_balls"]
+    editor.set({"second_n_balls": ""})
+    editor.set({"second_ball_diameter_mm": "", "second_contact_angle_deg": ""})
+    assert editor.scene.bearing.rows_are_alike
+    for preset in ("fan-rig", "1208", "nu208"):
+        names = {name for name in hidden_of(presets[preset].bearing) if name.startswith("second_")}
+        assert len(names) == 4, preset
+    direct = SceneEditor("7208-back-to-back")
+    direct.choose({"numbers": "direct"})
+    hidden = hidden_of(direct.scene.bearing)
+    assert "second_ball_diameter_mm" in hidden
+    assert "second_n_balls" not in hidden
+
+
 def test_a_self_aligning_bearing_stays_one_when_it_is_changed() -> None:
     editor = SceneEditor("1208")
     before = editor.scene.bearing

@@ -1,5 +1,6 @@
 """The drawing of the bearing: to scale, symmetric where the scene is, turning with the cage."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -146,3 +147,29 @@ def test_the_table_has_a_row_for_each_ball() -> None:
     )
     assert {column.size for column in table.values()} == {14}
     assert table["drop_into_outer_race_um"].max() == pytest.approx(50.0)
+
+
+def test_rows_of_unlike_balls_are_drawn_to_one_scale() -> None:
+    pair = presets["7208-back-to-back"]
+    low, high = pair.bearing.rows
+    rows = (low, dataclasses.replace(high, n_balls=11, ball_diameter=9e-3, pitch_diameter=50e-3))
+    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
+    for row, count in enumerate((14, 11)):
+        drawn, own = Shapes(scene, 0.5, row), scene.bearing.of_row(row)
+        none = dict.fromkeys(("outer", "inner"), np.zeros(count))
+        balls = drawn.balls(none, np.zeros(count))
+        assert balls["radius"] * drawn.unit == pytest.approx(own.ball_radius)
+        assert np.hypot(balls["x"], balls["y"]) * drawn.unit == pytest.approx(
+            0.5 * own.pitch_diameter
+        )
+        assert drawn.outer_race * drawn.unit == pytest.approx(own.outer_raceway_radius)
+        turned = drawn.ball_angles()[0] - Shapes(scene, 0.0, row).ball_angles()[0]
+        assert turned == pytest.approx(0.5 * scene.bearing.pace(row))
+    results = Results(scene, 0.5)
+    view = BearingDrawing(PackedSource())
+    sources, _ = view.data(results)
+    assert sources["bearing_balls"]["x"].size == 25
+    assert "of 25 balls carry load" in view.sentence(results)
+    table = view.table(results)
+    assert table["row"].tolist() == [1] * 14 + [2] * 11
+    assert table["ball"].tolist() == [*range(1, 15), *range(1, 12)]

@@ -6,7 +6,7 @@ import dataclasses
 import math
 
 import pytest
-from bearing_explorer.compute.endurance import ROWS_APART, Asked, endurance
+from bearing_explorer.compute.endurance import Asked, endurance
 from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import facts_of
@@ -152,19 +152,20 @@ def test_what_is_typed_changes_the_answer_and_a_refusal_does_not() -> None:
     assert view.rows.shown["values"]["dynamic_load_rating"] == "14"
 
 
-def test_rows_with_contact_angles_of_their_own_have_no_life_and_all_the_rest() -> None:
+def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_their_own() -> None:
     pair = presets["7208-back-to-back"]
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, contact_angle=0.7))
     scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
     for asked in (Asked(), Asked(dynamic_load_rating=4e4)):
         found = endurance(scene, asked)
-        assert found.life is None
-        assert found.no_life == ROWS_APART
+        assert found.life is not None
+        assert found.life.known
         assert found.pressures is not None
         assert found.film is not None
     passes = next(fact["value"] for fact in facts_of(scene) if fact["symbol"] == "BPFO")
     assert passes.count("Hz") == 2, "one for each row"
+    (title,) = [group for group in groups_of(Results(scene)) if group["title"] == "Life"]
+    told = {fact["label"]: fact["value"] for fact in title["facts"]}
+    assert " and " in told["of rows 1 to 2 on their own"]
     assert facts_of(pair)[0]["value"].count("Hz") == 1
-    with pytest.raises(ValueError, match="nothing repeats"):
-        _ = Results(scene).motion

@@ -98,7 +98,7 @@ def test_rows_of_names_lie_within_their_head_room():
     view = view_of(MeasuredEnvelope, signal())
     names = [family.name for family in FAMILIES]
     for shown in (names, names[:2], names[3:], []):
-        columns = view._lines.columns(fundamentals(RIG), shown, 350.0)
+        columns = view._lines.columns([fundamentals(RIG)], shown, 350.0)
         used = [columns[f"measured_envelope_{name}_names"]["row"] for name in shown]
         rows_of = [float(row[0]) for row in used]
         assert rows_of == sorted(rows_of, reverse=True)
@@ -494,8 +494,13 @@ WAITING = (DefectSize, MeasuredSpectrum, MeasuredEnvelope)
 def test_that_there_is_no_signal_is_said_once_by_what_asks_for_it(kind):
     view = view_of(kind)
     assert view.sentence(RESULTS) == ""
+    view.say(RESULTS, "")
     assert not view.hidden.visible
     assert view.is_empty
+    assert view._caption.nothing
+    there = view_of(kind, signal())
+    there.say(RESULTS, "")
+    assert not there._caption.nothing
 
 
 @pytest.mark.parametrize("kind", WAITING)

@@ -1,5 +1,6 @@
 """Vibration in time and in frequency."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -7,7 +8,13 @@ import pytest
 from bearing_explorer.compute.excerpt import Event
 from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.views.vibration_spectrum import VibrationSpectra, decibels, pass_frequencies
+from bearing_explorer.views.frequency_lines import FrequencyLines, of_rows
+from bearing_explorer.views.vibration_spectrum import (
+    VibrationSpectra,
+    decibels,
+    pass_frequencies,
+    passed,
+)
 from bearing_explorer.views.vibration_time import (
     EVENT_ROWS,
     LABEL_WIDTH,
@@ -107,6 +114,26 @@ def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> Non
     assert inner["inner"].all()
     still = pass_frequencies(FAN_RIG.replace(shaft_speed=0.0), 2500.0)
     assert still["frequency"].size == 0
+
+
+def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
+    pair = presets["7208-back-to-back"]
+    assert len(passed(pair)) == 1
+    low, high = pair.bearing.rows
+    rows = (low, dataclasses.replace(high, n_balls=11))
+    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows), row=None)
+    rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
+    assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
+    assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]
+    marks = pass_frequencies(scene, 2.0 * rates[0])
+    assert marks["row"].tolist() == [1.0] * 2 + [2.0] * 2
+    sets = of_rows(scene)
+    assert [one["bpfo"] for one in sets] == rates
+    lines = FrequencyLines(PackedSource(), "own", (), 400.0)
+    names = lines.columns(sets, ("bpfo",), 3000.0)["own_bpfo_names"]
+    assert set(names["of"]) == {1.0, 2.0}
+    assert np.unique(names["row"]).size == 2, "each row has its names at a height of their own"
+    assert set(lines.columns(of_rows(pair), ("bpfo",), 3000.0)["own_bpfo_names"]["of"]) == {0.0}
 
 
 def test_defects_of_both_races_are_both_marked_and_named() -> None:

@@ -34,7 +34,9 @@ def test_contact_resonance_of_a_6205() -> None:
     scene = presets["6205"].healthy()
     assert scene.bearing.ball_mass == pytest.approx(2.04435e-3, rel=1e-5)
     assert heaviest_load(scene) == pytest.approx(532.30, rel=2e-4)
-    assert contact_stiffness(scene, 532.30) == pytest.approx((1.06189e8, 1.00856e8), rel=1e-5)
+    assert contact_stiffness(scene.bearing, 532.30) == pytest.approx(
+        (1.06189e8, 1.00856e8), rel=1e-5
+    )
     assert contact_resonance(scene) == pytest.approx(50.65e3, rel=1e-4)
 
 

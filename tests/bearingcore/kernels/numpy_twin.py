@@ -18,7 +18,10 @@ Array = NDArray[np.float64]
 
 
 def drop_into_one(defect: Array, tables: Array, ball_angle: float, cage_angle: float) -> float:
-    """Drop [m] of a ball at an angle [rad] into one defect, a row of `PATH_COLUMNS`."""
+    """Drop [m] of a ball at an angle [rad] into one defect, a row of `PATH_COLUMNS`.
+
+    `cage_angle` is that of the ball's own row.
+    """
     column = dict(zip(kernels.PATH_COLUMNS, defect, strict=True))
     away = ball_angle - column["center"] - column["turn_ratio"] * cage_angle
     away = (away + math.pi) % (2.0 * math.pi) - math.pi
@@ -50,9 +53,10 @@ def drops(contacts: kernels.Contacts, path: kernels.Path, cage_angle: float) -> 
     row_of = np.concatenate([np.full(n, row) for row, (_, n) in enumerate(contacts.rows)])
     found = np.zeros(contacts.angle.size)
     for j, angle in enumerate(contacts.angle):
+        own = contacts.pace[j] * cage_angle
         for defect in path.defects:
             if defect[-1] in (kernels.EVERY_ROW, row_of[j]):
-                found[j] += drop_into_one(defect, path.tables, cage_angle + angle, cage_angle)
+                found[j] += drop_into_one(defect, path.tables, own + angle, own)
     return found
 
 
@@ -69,7 +73,7 @@ class Touching:
 
 def touching(contacts: kernels.Contacts, q: Array, cage_angle: float, drop: Array) -> Touching:
     """Compression δ (n,) [m] and the directions e and t in q (n, 5) (Eqs. 7-14)."""
-    phi = cage_angle + contacts.angle
+    phi = contacts.pace * cage_angle + contacts.angle
     c, s, zero = np.cos(phi), np.sin(phi), np.zeros_like(phi)
     R = np.stack([c, s, zero, -contacts.arm * s, contacts.arm * c], axis=1)
     Z = np.stack([zero, zero, zero + 1.0, contacts.reach * s, -contacts.reach * c], axis=1)

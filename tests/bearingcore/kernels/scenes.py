@@ -8,6 +8,7 @@ import numpy as np
 
 from bearingcore import Defect, RoughFloor, Scene, kernels, presets
 from bearingcore.model import packing
+from bearingcore.model.rows import Row
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 ROUGH = RoughFloor(rms_height=5e-6, correlation_length=3e-4, seed=3)
@@ -24,6 +25,19 @@ SCENES: dict[str, Scene] = {
     "no tension": LIEW_LIM.replace(contact_law="no tension"),
     "three directions": LIEW_LIM.replace(dofs=("x", "y", "z")),
 }
+
+UNLIKE = presets["7208-back-to-back"].replace(
+    rows=(
+        Row(-9e-3, 1, offset=4e-6),
+        Row(
+            9e-3, -1, offset=-4e-6, turn=0.1, contact_angle=math.radians(40.0),
+            n_balls=11, ball_diameter=10e-3, pitch_diameter=55e-3,
+        ),
+    ),
+    extent=0.25,
+    row=None,
+)  # fmt: skip
+"""Rows of unlike balls, whose cages turn at speeds of their own; both meet the defect."""
 
 
 def system_of(scene: Scene, *, velocities: bool = False) -> kernels.System:

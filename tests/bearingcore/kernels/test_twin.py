@@ -15,6 +15,7 @@ from tests.bearingcore.kernels.scenes import (
     FAN_RIG,
     LIEW_LIM,
     SCENES,
+    UNLIKE,
     in_row,
     rollers,
     system_of,
@@ -36,6 +37,9 @@ def systems(*, velocities: bool) -> dict[str, kernels.System]:
         found[f"two rows, {name}"] = single._replace(
             contacts=rows._replace(clearance=rows.clearance - 5e-6), path=in_row(single.path, 1)
         )
+    for race in ("outer", "inner"):
+        unlike = UNLIKE.replace(race=race, edge="exact")
+        found[f"unlike rows, {race} race"] = system_of(unlike, velocities=velocities)
     return found
 
 
@@ -44,7 +48,8 @@ every_system = pytest.mark.parametrize("name", VELOCITIES)
 
 
 def load_of(name: str) -> kernels.StaticLoad:
-    scene = SCENES.get(name.removeprefix("rollers, "), LIEW_LIM)
+    other = UNLIKE if "unlike" in name else LIEW_LIM
+    scene = SCENES.get(name.removeprefix("rollers, "), other)
     return packing.static_load(scene, scene.active_dofs)
 
 
@@ -103,6 +108,8 @@ def test_equations_of_motion(name: str) -> None:
         ("no tension", 2e-3),
         ("rollers, five directions", 1e-5),
         ("two rows, back to back", 1e-6),
+        ("unlike rows, outer race", 1e-6),
+        ("unlike rows, inner race", 1e-6),
     ],
 )
 def test_marches_follow_the_twin(name: str, within: float) -> None:
@@ -133,7 +140,9 @@ def test_marches_follow_the_twin(name: str, within: float) -> None:
     np.testing.assert_allclose(own.reshape(4, n)[1], history[-1, 1], rtol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["rollers, planar", "two rows, face to face"])
+@pytest.mark.parametrize(
+    "name", ["rollers, planar", "two rows, face to face", "unlike rows, inner race"]
+)
 def test_tangents_of_what_no_scene_has_yet(name: str) -> None:
     """Against central differences; with fewer columns than directions as well."""
     system = systems(velocities=False)[name]

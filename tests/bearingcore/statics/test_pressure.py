@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Defect, equilibrium, limits, presets
-from bearingcore.statics.pressure import RacePressure, contact_pressures, heaviest_ball
+from bearingcore.statics.pressure import RacePressure, contact_pressures, heaviest_balls
 from bearingcore.statics.validity import looked_at
 
 DRAWN = ("6205", "6206", "7208-15deg", "7208-40deg", "seven-ball")
@@ -68,7 +68,7 @@ def test_the_same_pressure_as_among_the_limits() -> None:
 
 def test_the_heaviest_ball_is_where_it_is_said_to_be() -> None:
     scene = presets["6206"]
-    ball = heaviest_ball(equilibrium(scene))
+    (ball,) = heaviest_balls(equilibrium(scene))
     there = equilibrium(scene, [ball.cage_angle])
     at = int(there.ball_load[0].argmax())
     assert there.ball_load[0, at] == pytest.approx(ball.load, rel=1e-9)

@@ -197,9 +197,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _load_figures() -> None:
     """HoloViews, which Explore draws with: Panel looks for it from any thread once it is there.
 
-    Where one thread still imports it then, both fail.
+    Where one thread still imports it then, both fail. A first image has it import three hundred
+    modules more, in a third of a second: not on the event loop, when somebody opens Explore.
     """
+    import holoviews as hv
+    import numpy as np
+
     import bearing_explorer.plotting  # noqa: F401
+
+    hv.Image(np.zeros((2, 2)))
 
 
 def _end_with_parent(loop: Any) -> None:

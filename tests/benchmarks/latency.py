@@ -96,14 +96,12 @@ _WATCH_PAINTS = """() => {
   if (!window.__frame_watch) {
     window.__frame_watch = true
     let seen = -1
-    const look = () => {
-      if (window.__mark !== seen) {
-        seen = window.__mark
-        window.__paints.push([seen, performance.now(), 0, ""])
-      }
-      requestAnimationFrame(look)
-    }
-    look()
+    // asked for by each picture: a watch that looks at every frame of the screen is work too
+    window.addEventListener("explorer-drawn", () => {
+      if (window.__mark === seen) return
+      const mark = seen = window.__mark
+      requestAnimationFrame(() => window.__paints.push([mark, performance.now(), 0, ""]))
+    })
   }
   return wrapped.size
 }"""

@@ -63,9 +63,6 @@ _PATIENCE = 0.25
 #: the limits of the model are looked at when the hand rests, and while it moves this often [s]
 _LIMITS_EVERY = 1.0
 
-#: processor time [s] after which a section that is put on screen lets others be heard
-_SLICE = 0.05
-
 _BROKEN = "This could not be computed; what is shown belongs to an earlier position."
 _DRAWN_LATER = "This is drawn by itself as soon as that is done."
 
@@ -577,25 +574,20 @@ class Explorer:
         """Put a section on screen; its figures are made when it is first asked for.
 
         Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before it hears of its numbers. A section with much in it comes in
-        several messages, between which all others are heard.
+        must know a figure before it hears of its numbers.
         """
         if name not in self._views:
             self._views[name] = await in_thread(self._make, name, slow=True)
-        while self._on_screen != name:
-            new = name not in self._containers or not self._is_whole(name)
-            await one_message(self._doc, lambda: self._put_up(name), new_models=new)
-            await asyncio.sleep(0.0)
-
-    def _is_whole(self, name: str) -> bool:
-        """Whether all views of a section are in its container."""
-        return len(self._containers[name]) == len(self._views[name])
+        new = name not in self._containers
+        await one_message(self._doc, lambda: self._put_up(name), new_models=new)
 
     def _put_up(self, name: str) -> None:
-        """Put a section on screen, with as many of its views as a message has time for."""
-        views = self._views[name]
         if name not in self._containers:
+            views = self._views[name]
+            for view in views:
+                view.attach(self._parts)
             self._containers[name] = pn.Column(
+                *(view.panel for view in views),
                 stylesheets=[asset_text("section.css")],
                 sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
                 margin=0,
@@ -607,15 +599,8 @@ class Explorer:
             if other != name:
                 for view in self._views[other]:
                     view.put_away()
-        end = time.thread_time() + _SLICE
-        for view in views[len(self._containers[name]) :]:
-            view.attach(self._parts)
-            self._containers[name].append(view.panel)
-            if time.thread_time() > end:
-                break
-        if self._is_whole(name):
-            self.packed.introduce()
-            self.tabs.active = self._on_screen = name
+        self.packed.introduce()
+        self.tabs.active = self._on_screen = name
 
     # Drawing: off the event loop to compute, on it to assign.
 

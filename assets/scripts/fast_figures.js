@@ -203,53 +203,5 @@
     })
   })
 
-  // A figure that is scrolled out of sight is painted when it comes into sight, or the hand rests.
-  const paint = method(figure, "paint")
-  const render = method(figure, "render")
-  const remove = method(figure, "remove")
-  const repaint = method(figure, "request_repaint")
-  part("figures out of sight", [paint, render, remove, repaint, globalThis.IntersectionObserver], () => {
-    const RESTS = 500  // ms without a picture
-    const views = new WeakMap()  // by their elements
-    const away = new WeakSet(), painted = new WeakSet(), due = new WeakSet(), waiting = new Set()
-    let timer = 0
-    const paint_soon = (view) => {
-      waiting.delete(view)
-      due.add(view)
-      view.request_repaint()
-    }
-    const observer = new IntersectionObserver((entries) => {
-      for (const { target, isIntersecting } of entries) {
-        const view = views.get(target)
-        if (!isIntersecting) away.add(view)
-        else if (away.delete(view) && waiting.has(view)) paint_soon(view)
-      }
-    }, { rootMargin: "60px" })
-    figure.render = function () {
-      render.call(this)
-      views.set(this.el, this)
-      observer.observe(this.el)
-    }
-    figure.remove = function () {
-      observer.unobserve(this.el)
-      waiting.delete(this)
-      remove.call(this)
-    }
-    figure.paint = function () {
-      if (away.has(this) && painted.has(this) && !due.delete(this)) {
-        waiting.add(this)
-        clearTimeout(timer)
-        timer = setTimeout(() => waiting.forEach(paint_soon), RESTS)
-        return
-      }
-      painted.add(this)
-      paint.call(this)
-    }
-    window.addEventListener("beforeprint", () => {
-      for (const view of waiting) paint.call(view)
-      waiting.clear()
-    })
-  })
-
   window.fast_figures = { missing }
 }

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from bearing_explorer.compute.results import Results
 from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.session import Explorer, Section
+from bearing_explorer.session import Explorer
 
 from bearingcore import presets
 from tests.helpers.loops import run
@@ -68,34 +68,6 @@ def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     shown = session(lambda e: e._tab_asked({"show": "two"}))
     assert drawn(shown, "two") == [pytest.approx(50e-6)], "a view that appears is up to date"
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
-
-
-def test_a_section_with_much_in_it_lets_others_be_heard(
-    news: list[dict], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Diagnosis held the event loop for a third of a second when its tab was opened."""
-    monkeypatch.setattr("bearing_explorer.session._SLICE", 0.0)
-    messages: list[int] = []
-    put_up = Explorer._put_up
-
-    def counted(self: Explorer, name: str) -> None:
-        put_up(self, name)
-        messages.append(len(self._containers[name]))
-
-    monkeypatch.setattr(Explorer, "_put_up", counted)
-    first, second = (section.views[0] for section in SECTIONS)
-
-    async def live() -> Explorer:
-        explorer = Explorer((Section("both", "Both", (first, second)),))
-        explorer.draw()
-        while not explorer._worker.idle:
-            await asyncio.sleep(0.002)
-        return explorer
-
-    explorer = run(live())
-    assert messages == [1, 2]
-    assert explorer.tabs.active == "both"
-    assert all(view.drawn for view in explorer._views["both"])  # type: ignore[attr-defined]
 
 
 def test_sources_are_introduced_with_their_figures(

@@ -79,9 +79,9 @@ def number(page: Page, name: str):
     return page.locator(f".control-{name} .number")
 
 
-def pixels(page: Page, view: str) -> list[list[int]]:
+def pixels(page: Page, view: str) -> tuple[tuple[int, int], ...]:
     """What the canvases of a view show: of each a hash, and how many pixels are drawn."""
-    shown: list[list[int]] = page.locator(f".view-{view} canvas").evaluate_all(
+    shown: list[tuple[int, int]] = page.locator(f".view-{view} canvas").evaluate_all(
         """canvases => canvases.filter(canvas => canvas.width && canvas.height).map(canvas => {
              const {width, height} = canvas
              const {data} = canvas.getContext("2d").getImageData(0, 0, width, height)
@@ -95,7 +95,7 @@ def pixels(page: Page, view: str) -> list[list[int]]:
            })"""
     )
     assert sum(drawn for _, drawn in shown) > 1000, f"the view {view} shows nothing"
-    return shown
+    return tuple((code, drawn) for code, drawn in shown)
 
 
 def source(page: Page, name: str) -> dict[str, list[float]]:

@@ -171,7 +171,7 @@ def test_play_turns_the_balls(watch: tuple[Page, Watch], explorer: Server) -> No
     rest(page)
     start, picture = value(page, "cage_angle_deg"), pixels(page, "bearing")
     button.click()
-    seen: list[str] = []
+    seen: list[tuple[tuple[int, int], ...]] = []
 
     def turned() -> bool:
         seen.append(pixels(page, "bearing"))

@@ -70,32 +70,3 @@ def test_hidden_glyphs_wait_until_they_are_to_be_seen(
     painted(page)
     assert page.evaluate("window.heard") > 0
     assert page.evaluate("window.looked_at.nonselection_glyph.sx.length") > 2
-
-
-def test_a_figure_out_of_sight_is_painted_when_it_comes_into_sight_or_the_hand_rests(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
-    page.set_viewport_size({"width": 700, "height": 500})
-    open_page(page, explorer, "load")
-    rest(page)
-    page.evaluate(
-        """() => {
-          const figures = [...Bokeh.index.query((view) => view.model.type === "Figure")]
-          const shown = figures.filter((view) => view.el.getClientRects().length)
-          window.last = shown.sort((a, b) => a.el.getBoundingClientRect().top
-            - b.el.getBoundingClientRect().top).at(-1)
-          window.first = shown[0]
-        }"""
-    )
-    counts = "() => [window.first._render_count, window.last._render_count]"
-    page.wait_for_timeout(700)  # what waited is painted
-    before = page.evaluate(counts)
-    move(slider(page, "extent_deg"), 27)
-    settle(page)
-    first, last = page.evaluate(counts)
-    assert first > before[0]
-    assert last == before[1], "nobody sees it"
-    page.evaluate("window.last.el.scrollIntoView()")
-    page.wait_for_function(f"({counts})()[1] > {before[1]}")
-    page.evaluate("window.first.el.scrollIntoView()")

@@ -66,7 +66,7 @@ def test_a_map_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Se
     open_page(page, explorer, "orbits")
     before = pixels(page, "stability-map")
     small_map(page)
-    assert pixels(page, "stability-map") != before
+    wait(page, lambda: pixels(page, "stability-map") != before)  # it may stand below the screen
     columns, rows, left, width, bottom, height = grid(page, "stability_cells")
     assert (columns, rows) == (13, 13)
     expect(page.locator(".view-stability-map")).to_contain_text("points have a stable orbit")

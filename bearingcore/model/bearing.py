@@ -340,7 +340,7 @@ class Bearing:
     def unlike_rows(self) -> tuple[tuple[Bearing, slice], ...]:
         """The bearing of each row, see `of_row`, and where its balls stand among all of them.
 
-        Rows that are alike are told once: the bearing with all balls.
+        Rows that are alike are listed once: the bearing with all balls.
         """
         if self.rows_are_alike:
             return ((self, slice(0, self.total_balls)),)

@@ -21,7 +21,8 @@ from bearing_explorer.server.allowed_messages import ById, by_name, message_of, 
 from bearing_explorer.server.small_pages import tell, tell_error
 
 _WRITER = ThreadPoolExecutor(1, "document")
-"""Where whole documents are written, one after the other."""
+"""Where whole documents are written, one after the other. Here and not among the executors, which
+stand on the server: it imports nothing of what computes."""
 _PULL = 50.0
 """Messages that count as much as one that asks for the whole document."""
 

@@ -205,9 +205,9 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
     return [dict(zip(keys, fact, strict=True)) for fact in facts]
 
 
-def _of_each_row(bearing: Bearing, told: Callable[[Bearing], str]) -> str:
-    """What is told of a bearing, of rows that are not alike of one after the other."""
-    return " and ".join(dict.fromkeys(told(own) for own, _ in bearing.unlike_rows))
+def _of_each_row(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
+    """What `words` says of a bearing; of rows that are not alike, of one after the other."""
+    return " and ".join(dict.fromkeys(words(own) for own, _ in bearing.unlike_rows))
 
 
 def _raceways(bearing: Bearing) -> str:

@@ -211,14 +211,16 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             await super().send_message(message)
 
     def on_close(self) -> None:
-        """The browser is gone."""
+        """The browser is gone.
+
+        Bokeh would tell the document, where nobody listens, and fail if a ping found out before.
+        """
         self._cut = True
         if self in sockets:
             sockets.discard(self)
             places.left(self.session_name)
             write.happened("left", self._document, sessions=len(sockets))
         self._document = None
-        super().on_close()
         self._let_go()
 
     def _let_go(self) -> None:

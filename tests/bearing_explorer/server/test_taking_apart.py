@@ -11,11 +11,12 @@ from typing import Any
 import panel as pn
 import pytest
 from bearing_explorer.compute.executors import PICTURES
-from bearing_explorer.server import taking_apart
+from bearing_explorer.server import serving, taking_apart
 from bearing_explorer.server.bokeh_private import drop_session
 from bearing_explorer.server.taking_apart import models_at_end, parts_of, take_apart
 from bokeh.document import Document
 from bokeh.models import Column, Div
+from panel.io import server as panel_server
 
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient
@@ -146,3 +147,43 @@ def test_the_models_of_a_document_are_known_after_its_end() -> None:
     document.models.destroy()
     assert {type(model) for model in models} == {Column, Div}
     assert len(models) == 3
+
+
+def test_a_ping_may_find_out_first_that_a_connection_is_lost(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async def lose(url: str, server: Any) -> None:
+        client = await _opened(url)
+        [socket] = serving.sockets
+        server._tornado.client_lost(socket.connection)
+        await client.close()
+        while serving.sockets:
+            await asyncio.sleep(0.01)
+
+    served(lose)
+    assert not any(record.exc_info for record in caplog.records)
+
+
+def test_a_connection_that_is_gone_before_it_is_ready_keeps_no_session(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ready, tried = panel_server.WSHandler._async_open, []
+
+    async def too_late(socket: Any, token: str) -> None:
+        socket.on_close()
+        await ready(socket, token)
+        tried.append(socket)
+
+    async def come(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        await client.open_socket()
+        await asyncio.sleep(0.0)
+        [session] = session_of(server)
+        while session.connection_count:
+            await asyncio.sleep(0.01)
+        await client.close()
+
+    monkeypatch.setattr(panel_server.WSHandler, "_async_open", too_late)
+    served(come)
+    assert len(tried) == 1

@@ -61,9 +61,9 @@ async def open_all(url: str, tabs: list[str]) -> list[Opening]:
         if tab != tabs[0]:
             openings.append(Opening(tab, time.time(), 0.0))
             await client.show(tab)
-        while tab not in client.words.values() and not client.closed:
+        while tab != tabs[0] and tab not in client.words.values() and not client.closed:
             await client.news(30.0)
-        before = packets
+        before = packets if tab != tabs[0] else 0
         while packets == before and not client.closed:
             await client.news(30.0)
         openings[-1].drawn = heard = time.time()

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import time
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -20,9 +19,6 @@ from bearing_explorer.server import log as write
 from bearing_explorer.server.allowed_messages import ById, by_name, message_of, welcome
 from bearing_explorer.server.small_pages import tell, tell_error
 
-_WRITER = ThreadPoolExecutor(1, "document")
-"""Where whole documents are written, one after the other. Here and not among the executors, which
-stand on the server: it imports nothing of what computes."""
 _PULL = 50.0
 """Messages that count as much as one that asks for the whole document."""
 
@@ -157,8 +153,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
                 _ = reply.content_json  # the text of it, which is kept
                 return reply
 
-            loop = asyncio.get_running_loop()
-            await self.send_message(await loop.run_in_executor(_WRITER, written))
+            await self.send_message(await live.in_writer(written))
 
         await live.locked(connection.session, send)
 

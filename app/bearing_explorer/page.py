@@ -130,6 +130,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("themes", themes())
     template.add_variable("theme_script", asset_text("theme.js"))
     template.add_variable("connection_script", asset_text("connection.js"))
+    template.add_variable("order_script", asset_text("in_order.js"))
     template.add_variable("figures_script", asset_text("fast_figures.js"))
     template.add_variable("python_install", PYTHON_INSTALL)
     template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))

@@ -18,10 +18,7 @@ from bearing_explorer.server import limits, live, message_cost, places
 from bearing_explorer.server import log as write
 from bearing_explorer.server.allowed_messages import ById, by_name, message_of, welcome
 from bearing_explorer.server.small_pages import tell, tell_error
-from bearing_explorer.server.threads import Pool
 
-_WRITER = Pool(1, "document")
-"""Where whole documents are written, one after the other."""
 _PULL = 50.0
 """Messages that count as much as one that asks for the whole document."""
 
@@ -159,8 +156,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
                 _ = reply.content_json  # the text of it, which is kept
                 return reply
 
-            loop = asyncio.get_running_loop()
-            await self.send_message(await loop.run_in_executor(_WRITER, written))
+            await self.send_message(await live.in_writer(written))
 
         await live.locked(connection.session, send)
 

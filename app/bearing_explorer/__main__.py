@@ -197,15 +197,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _load_figures() -> None:
     """HoloViews, which Explore draws with: Panel looks for it from any thread once it is there.
 
-    Where one thread still imports it then, both fail. A first image has it import three hundred
+    Where one thread still imports it then, both fail. A first map has it import three hundred
     modules more, in a third of a second: not on the event loop, when somebody opens Explore.
     """
-    import holoviews as hv
-    import numpy as np
+    from bearing_explorer.plotting.plane import first_drawing
 
-    import bearing_explorer.plotting  # noqa: F401
-
-    hv.Image(np.zeros((2, 2)))
+    first_drawing()
 
 
 def _end_with_parent(loop: Any) -> None:

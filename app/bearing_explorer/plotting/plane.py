@@ -315,6 +315,24 @@ class _Reading:
         plot.handles["plot"].add_tools(tool)
 
 
+def first_drawing() -> None:
+    """Draw a map that nobody sees: the first one has HoloViews find out much about itself.
+
+    That takes three times as long as a map does, and the page draws maps on its event loop.
+    """
+    places = np.linspace(0.0, 1.0, 4)
+    x, y, value = (AxisQuantity(name, "", "") for name in "xyz")
+    values = np.add.outer(places, places)
+    values[0, 0] = np.nan
+    field = Field(
+        ("x", x, places), ("y", y, places), ("z", value), values,
+        np.where(np.isnan(values), "none", ""), (0.5, 0.5),
+    )  # fmt: skip
+    news = hv.streams.Pipe(data=field)
+    hv.renderer("bokeh").get_plot(plane(field, news=news, responsive=True))
+    news.send(field)
+
+
 def _image(data: Field) -> hv.Image:
     x, y, value = data.dimensions
     palette, limits = color_scale(data.values)

@@ -289,12 +289,16 @@ class Explorer:
         self.draw()
 
     def stop(self) -> None:
-        """The session is over."""
+        """The session is over: nothing is begun any longer, and what waits for its turn is not."""
         good_byes.pop(self._doc, None)
         self._worker.stop()
         self._idle_task.end()
         self.jobs.stop()
         self.measurement.stop()
+        for task in self._tasks:
+            task.cancel()
+        for view in [view for views in self._views.values() for view in views]:
+            view.end()
 
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""

@@ -91,6 +91,8 @@ def _names() -> Iterator[PrivateName]:
         yield PrivateName("bokeh", f"{kind.__name__}().{name}", _set_in(kind, name))
     held = hasattr(Document().callbacks, "_held_events")
     yield PrivateName("bokeh", "Document().callbacks._held_events", held)
+    kept = hasattr(pn.Spacer(), "_param__private")
+    yield PrivateName("param", "Parameterized()._param__private", kept)
     collects = hasattr(panel_document, "_garbage_collect")
     yield PrivateName("panel", "panel.io.document._garbage_collect", collects)
     for name in ("_views", "_fake_roots"):
@@ -301,6 +303,17 @@ def tornado_of(server: Any) -> Any:
 def parts_of(template: BaseTemplate) -> Iterable[str]:
     """Names of the parts of a template."""
     return list(getattr(template, "_render_items", ()))
+
+
+def shown_in(document: Document) -> list[object]:
+    """What Panel shows in a document, and its models; a template has some that only Panel knows."""
+    views = getattr(state, "_views", {})
+    return [part for view in views.values() if view[2] is document for part in view[:2]]
+
+
+def inside(parameterized: object) -> object:
+    """Where Param keeps the values of an object and who watches them; None where it is unknown."""
+    return getattr(parameterized, "_param__private", None)
 
 
 def collect_elsewhere(ask: Callable[[], None]) -> None:

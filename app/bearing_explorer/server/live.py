@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, nullcontext, suppress
 from typing import Any, TypeVar
 
@@ -22,6 +21,7 @@ from bearing_explorer.server.bokeh_private import (
     sockets_of,
     visit_quickly,
 )
+from bearing_explorer.server.threads import Pool
 
 __all__ = [
     "counted_once",
@@ -40,9 +40,8 @@ __all__ = [
 
 Made = TypeVar("Made")
 
-_WRITER = ThreadPoolExecutor(1, "document")
-"""Where models are made and large messages are written, one after the other, for all sessions. Here
-and not among the executors, which stand on the server: it imports nothing of what computes."""
+_WRITER = Pool(1, "document")
+"""Where models are made and large messages are written, one after the other, for all sessions."""
 
 #: how to say a last word on the page of a document whose session ends
 good_byes: dict[Any, Callable[[str], Awaitable[None]]] = {}

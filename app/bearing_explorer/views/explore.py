@@ -191,6 +191,10 @@ class ExplorePlane(JobView[Plane]):
         super().attach(parts)
         self._fill = parts.fill
 
+    def end(self) -> None:
+        super().end()
+        self._wait_no_more()
+
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

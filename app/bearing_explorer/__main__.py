@@ -173,6 +173,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         idle_collection.begin(quiet_for)
         _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
 
+    idle_collection.put_aside()
     server.start()
     if chosen.num_procs > 1:
         loop.add_callback(ready)

@@ -99,12 +99,21 @@ class IdleCollection:
                 self._collect(True)
 
 
+def put_aside() -> None:
+    """Modules and kernels stay for as long as the process does: look at them a last time.
+
+    That takes a quarter of a second: to be called before anybody is served, and once more, for what
+    has come since.
+    """
+    gc.collect()
+    gc.freeze()
+
+
 class _Objects:
     """The objects of this process that a garbage collection looks at."""
 
     def __init__(self) -> None:
-        gc.collect()
-        gc.freeze()  # modules and kernels stay for as long as the process does
+        put_aside()
         self._kept = gc.get_freeze_count()
         self._young, self._middle, _ = gc.get_threshold()
         gc.set_threshold(self._young, self._middle, _NEVER)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import html
 import logging
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -173,6 +174,11 @@ def _text(words: str) -> str:
     return html.escape(words, quote=True)
 
 
+def _sentence(words: str) -> str:
+    """A sentence in which stiffnesses have their directions under their letter, as on the page."""
+    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", _text(words))
+
+
 def _link(address: str) -> str:
     """An address as a link; nothing where it is none of the web's."""
     try:
@@ -189,7 +195,7 @@ def _figure(view: View, results: Results, ids: Sequence[str], sentence: str) -> 
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
         f"<section><h2>{_text(view.title)}</h2><p class='about'>{caption}</p>"
-        f"<figure>{drawings}<figcaption>{_text(sentence)}</figcaption></figure></section>"
+        f"<figure>{drawings}<figcaption>{_sentence(sentence)}</figcaption></figure></section>"
     )
 
 

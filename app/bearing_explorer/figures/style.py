@@ -274,12 +274,15 @@ def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
     axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
 
 
-def words_of(source: ColumnDataSource, code: str, **known: Any) -> CustomJSExpr:
+def words_of(
+    source: ColumnDataSource, code: str, keep: str = "return true", **known: Any
+) -> CustomJSExpr:
     """Text made in the browser from the numbers of `source`, as the packed source carries no words.
 
     `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
     ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.
-    `known`: models that it knows besides.
+    `keep` is the body of ``(row, text) => ...`` and says whether a text is shown. `known`: models
+    that both know besides.
     """
     return CustomJSExpr(
         args={"source": source, **known},
@@ -290,12 +293,15 @@ const columns = Object.keys(data)
 const count = columns.length ? data[columns[0]].length : 0
 const write = (row) => {"""
         + code
+        + "}\nconst keep = (row, text) => {"
+        + keep
         + """}
 const texts = []
 for (let i = 0; i < count; i++) {
   const row = {}
   for (const column of columns) row[column] = data[column][i]
-  texts.push(String(write(row)))
+  const text = String(write(row))
+  texts.push(keep(row, text) ? text : "")
 }
 return texts
 """,
@@ -322,6 +328,42 @@ def fitting_words(
     write = CustomJS(args={"source": source}, code="source.change.emit()")
     plot.js_on_change("inner_width", write)
     return words_of(source, _IS_NARROW + code, plot=plot, below=below)
+
+
+_ZOOMED = """
+const {start, end, reset_start, reset_end} = shown
+const zoomed = reset_start !== null && (start !== reset_start || end !== reset_end)
+"""
+_IN_VIEW = f"""{_ZOOMED}
+if (!zoomed) return true
+const room = row[column] <= end ? (end - row[column])/(end - start)*plot.inner_width : -1
+return row[column] >= start && room + beside >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
+"""
+_ZOOMS = f"""{_ZOOMED}
+if (zoomed || was[0]) source.change.emit()
+was[0] = zoomed
+"""
+
+
+def words_in_view(
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    column: str,
+    side: str = "x",
+    share: float = 0,
+) -> CustomJSExpr:
+    """Like `words_of`, for words that the frame does not cut off: they go when zoomed out of view.
+
+    `column` says where along `side` they stand; what goes too far over the right edge of the frame
+    is left out too, where a `share` of each text is right of its place.
+    """
+    shown = plot.x_range if side == "x" else plot.y_range
+    known = {"plot": plot, "shown": shown, "column": column, "share": share}
+    follow = CustomJS(args={"source": source, "shown": shown, "was": [False]}, code=_ZOOMS)
+    shown.js_on_change("start", follow)
+    shown.js_on_change("end", follow)
+    return words_of(source, code, _IN_VIEW, beside=plot.min_border_right, **known)
 
 
 def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:

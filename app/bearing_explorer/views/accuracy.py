@@ -187,8 +187,8 @@ class Accuracy(JobView[Found]):
         )  # fmt: skip
         readers = {
             "@method": CustomJSHover(code=f"return {known}[value]"),
-            "@error": CustomJSHover(code="return Number(value).toPrecision(2).replace('-', '−')"),
-            "@seconds": CustomJSHover(code="return `${Number((1e3*value).toPrecision(3))} ms`"),
+            "@error": CustomJSHover(code=f"{style.JS_PREFIX}return rounded(Number(value), 2)"),
+            "@seconds": CustomJSHover(code=f"{style.JS_PREFIX}return si(Number(value), 's')"),
         }
         plot.add_tools(
             HoverTool(

@@ -104,7 +104,7 @@ class NaturalFrequencies(View):
             1.0,
             "label_at",
             x_range_name="shares",
-            text=style.words_of(bands, BAND_WORDS),
+            text=style.words_in_view(plot, bands, BAND_WORDS, "label_at", "y"),
             source=bands,
             level="annotation",  # beside the frame, not cut off by it
             x_offset=8,

@@ -178,7 +178,7 @@ class VibrationSpectra(View):
             "frequency",
             0.06,
             y_range_name="rows",
-            text=style.words_of(first, _PASS_WORDS),
+            text=style.words_in_view(plot, first, _PASS_WORDS, "frequency", share=1.0),
             source=first,
             x_offset=4,
             text_baseline="middle",

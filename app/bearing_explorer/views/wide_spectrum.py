@@ -71,11 +71,11 @@ class WideSpectra:
             plot.line("frequency", dof, source=others, **beneath)
             plot.line("frequency", dof, source=lines, line_color=color, line_width=1.4)
             plot.text(
-                "label_at", 0.06, y_range_name="rows", text=style.words_of(band, _BAND_WORDS),
-                source=band, text_align="right", text_baseline="middle",
-                text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
-                text_color=style.INK, background_fill_color="white", background_fill_alpha=0.85,
-                level="annotation",
+                "label_at", 0.06, y_range_name="rows", source=band,
+                text=style.words_in_view(plot, band, _BAND_WORDS, "label_at"),
+                text_align="right", text_baseline="middle", text_font={"value": style.FONT},
+                text_font_size=style.SMALL_TEXT_SIZE, text_color=style.INK, level="annotation",
+                background_fill_color="white", background_fill_alpha=0.85,
             )  # fmt: skip
             self.plots.append(plot)
 

@@ -120,3 +120,10 @@ def test_the_lines_of_python_on_the_first_page_run(capsys: pytest.CaptureFixture
     assert "N at most on a ball" in said
     assert "y1" in said
     assert "loudest lines" in said
+
+
+def test_captions_are_one_line_on_a_phone_too() -> None:
+    """Of about 350 pixels; cards of the overview have theirs behind “?”."""
+    views = [view for section in SECTIONS for view in section.views if not view.compact]
+    lines = {view.name: first_sentence(view.about)[0] for view in views}
+    assert [line for line in lines.values() if len(line) > 54] == []

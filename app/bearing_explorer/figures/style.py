@@ -100,6 +100,15 @@ const si = (value, unit, digits = 3) => {
 """
 
 
+NARROW = 420
+"""[px] width of a frame below which there is room for short words only."""
+_IS_NARROW = """
+let narrow = false
+const larger = window.explorer_projector?.on ? 1.3 : 1  // as projector.js has it
+if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
+"""
+
+
 @dataclass(frozen=True)
 class AxisQuantity:
     """What an axis shows: name, symbol and unit.
@@ -254,12 +263,17 @@ return minus(String(Number((turned/10**e).toPrecision(6))))
     )
 
 
-def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
-    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten."""
+def logarithmic_ticks(unit: str = "", plot: figure | None = None) -> CustomJSTickFormatter:
+    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten.
+
+    Below a narrow `plot` only powers of ten have a number.
+    """
     return CustomJSTickFormatter(
-        args={"unit": unit},
+        args={"unit": unit, "plot": plot, "below": NARROW},
         code=JS_PREFIX
+        + _IS_NARROW
         + """
+if (narrow && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) > 0.01) return ''
 if (unit) return si(tick, unit)
 if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
 const e = Math.floor(Math.log10(tick*1.0000001))
@@ -308,26 +322,21 @@ return texts
     )
 
 
-NARROW = 420
-"""[px] width of a frame below which there is room for short words only."""
-_IS_NARROW = """
-let narrow = false
-const larger = window.explorer_projector?.on ? 1.3 : 1  // as projector.js has it
-try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}  // not laid out
-"""
-
-
 def fitting_words(
-    plot: figure, source: ColumnDataSource, code: str, below: float = NARROW
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    below: float = NARROW,
+    keep: str = "return true",
 ) -> CustomJSExpr:
     """Like `words_of`; the code knows too whether the frame of the plot is `narrow`.
 
-    `below`: of which width [px] it is, with type of the usual size.
+    `below`: of which width [px] it is, with type of the usual size. `keep` knows the `plot`.
     """
     # how wide it is is known later than its numbers, and changes
     write = CustomJS(args={"source": source}, code="source.change.emit()")
     plot.js_on_change("inner_width", write)
-    return words_of(source, _IS_NARROW + code, plot=plot, below=below)
+    return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below)
 
 
 _ZOOMED = """

@@ -56,8 +56,8 @@ class BearingEditor(ControlView):
     name = "bearing-editor"
     title = "Dimensions of the bearing"
     about = (
-        "Point at a field to see what it is, or click in the picture. All views follow what is "
-        "changed here."
+        "Point at a field, or click in the picture. What it is stands below the picture. All "
+        "views follow what is changed here."
     )
     needs = frozenset[str]()
     picture = True

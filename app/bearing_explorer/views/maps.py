@@ -112,9 +112,9 @@ class StiffnessMaps(View):
     name = "maps"
     title = "Maps over extent and cage angle"
     about = (
-        "Every stiffness term, for each extent of the defect and cage angle. Up: the extent; "
-        "right: the cage angle. The map of loaded balls says how many carry load. Lines that "
-        "slope are balls that enter and leave the defect. Click in a map to go there."
+        "Every stiffness term, over extent and cage angle. Up: the extent of the defect; right: "
+        "the cage angle. The map of loaded balls says how many carry load. Lines that slope are "
+        "balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
 
@@ -442,7 +442,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     legend = ColumnDataSource(
         {"x": [0.26] * len(lines), "y": [-2.3 - 0.13 * i for i in range(len(lines))], "text": lines}
     )
-    _text(plot, legend, text="text", text_font_size="12px")
+    _text(plot, legend, text="text", text_font_size="11px")
 
 
 def _scales(plot: figure, cells: ColumnDataSource) -> None:

@@ -22,10 +22,10 @@ class MeasuredEnvelope(FrequencyView):
     prefix = "measured_envelope"
     title = "Beside the model: the envelope"
     about = (
-        "How often the ringing swells: lines at BPFO, BPFI or twice BSF. Knocks make something "
-        "ring, and the ringing swells with each of them: lines at BPFO speak for the outer race, "
-        "at BPFI for the inner race, at twice BSF for a ball. Unless you give a band, it is the "
-        "octave in which knocks stand out most."
+        "How often the ringing swells. Knocks make something ring, and the ringing swells with "
+        "each of them: lines at BPFO speak for the outer race, at BPFI for the inner race, at "
+        "twice BSF for a ball. Unless you give a band, it is the octave in which knocks stand "
+        "out most."
     )
     first_look = Look(scale="linear", lines=("bpfo", "bpfi", "bsf", "ftf"))
     fields: ClassVar[list[dict[str, Any]]] = [

@@ -37,9 +37,9 @@ class MeasuredSpectrum(FrequencyView):
     prefix = "measured_spectrum"
     title = "Beside the model: the spectrum"
     about = (
-        "What was measured (thin), and what the scene gives (coloured). Shaded: the bands of the "
-        "scene's natural frequencies. Where measured resonances lie in the bands, the scene is "
-        "like the machine."
+        "Measured (thin), and what the scene gives (coloured). Shaded: the bands of the scene's "
+        "natural frequencies. Where measured resonances lie in the bands, the scene is like the "
+        "machine."
     )
     first_look = Look()
     fields: ClassVar[list[dict[str, Any]]] = [

@@ -93,8 +93,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The acceleration of a bearing's housing, beside what the scene would give. Set the scene "
-        "to your machine: bearing, load, support."
+        "What a sensor on the bearing's housing heard. Its acceleration stands beside what the "
+        "scene would give. Set the scene to your machine: bearing, load, support."
     )
     needs = frozenset()
     without_size = True

@@ -49,9 +49,8 @@ class NaturalFrequencies(View):
     name = "modes"
     title = "Natural frequencies"
     about = (
-        "Each natural frequency as the bearing turns: blue x, orange y. A mode is named after the"
-        " direction that moves most. Shaded: the band in which it moves. Grey: {grey}. "
-        "Black: now."
+        "How each one moves as the bearing turns. Blue x, orange y. A mode is named after the "
+        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now."
     )
     needs = frozenset({"modes", "healthy_modes", "bands", "healthy_bands"})
     plans = ("modes",)

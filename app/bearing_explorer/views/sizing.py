@@ -77,7 +77,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     name = "sizing"
     title = "3  How large"
     about = (
-        "How long a defect of the outer race is: every extent is simulated. The time from a "
+        "How long a defect of the outer race is. Every extent is simulated. The time from a "
         "ball's entry to a ball's exit gives the extent up to whole ball spacings. So every "
         "extent is asked how well it explains the mean ball pass and the spectrum. Point at a "
         "candidate to see it, coloured, over what was measured, thin."

@@ -54,9 +54,9 @@ class VibrationSpectra(View):
     name = "vibration-spectrum"
     title = "Spectrum of the vibration"
     about = (
-        "Spectrum of the housing's acceleration once the start is forgotten. Power spectral "
-        "density along x and y, 32 Hz resolution. Grey: {grey}. Shaded: the bands of "
-        "the natural frequencies."
+        "Spectrum of the housing's acceleration. Power spectral density along x and y once the "
+        "start is forgotten, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
+        "frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
     plans = (SETTLED,)

@@ -22,7 +22,7 @@ SHOWN = ("x", "y")
 LOWEST = 100.0  # [Hz]
 DEPTH_OF_VIEW = 90.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
-HEIGHT = 270
+HEIGHT = 286  # [px]: the label of the axis is whole in large type too
 
 _BAND_WORDS = (
     "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above what is drawn' : ''}`"

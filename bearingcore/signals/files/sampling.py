@@ -173,8 +173,11 @@ def _jumps(
 ) -> str:
     """What is said of jumps; where rows share times nobody knows how many samples are missing."""
     back = int((steps[jumps] <= 0.0).sum())
+    # rounded times have rounded steps: only their mean is as long as a step is
+    even = np.delete(steps, jumps)
+    step = float(even.mean()) if even.size and not shared else usual
     with np.errstate(over="ignore"):
-        missing = float(np.maximum(np.round(steps[jumps] / usual) - 1.0, 0.0).sum())
+        missing = float(np.maximum(np.round(steps[jumps] / step) - 1.0, 0.0).sum())
     times = "once" if jumps.size == 1 else f"{jumps.size} times"
     words = f"The times jump {times}, first after row {jumps[0] + 1}"
     remarks = []

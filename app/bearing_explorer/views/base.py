@@ -241,6 +241,9 @@ class View:
         """It is off screen: let go of the results, of which a motion alone is megabytes."""
         self._results = None
 
+    def end(self) -> None:
+        """The session is over: give up what waits for a time to come."""
+
     @property
     def compares(self) -> bool:
         """Whether it draws something in grey beside the scene."""

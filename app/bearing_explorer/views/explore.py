@@ -182,6 +182,10 @@ class ExplorePlane(JobView[Plane]):
                 self._refining = None
                 self._draw()
 
+    def end(self) -> None:
+        super().end()
+        self._wait_no_more()
+
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

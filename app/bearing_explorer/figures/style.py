@@ -328,6 +328,7 @@ def fitting_words(
     code: str,
     below: float = NARROW,
     keep: str = "return true",
+    **known: Any,
 ) -> CustomJSExpr:
     """Like `words_of`; the code knows too whether the frame of the plot is `narrow`.
 
@@ -336,7 +337,7 @@ def fitting_words(
     # how wide it is is known later than its numbers, and changes
     write = CustomJS(args={"source": source}, code="source.change.emit()")
     plot.js_on_change("inner_width", write)
-    return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below)
+    return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below, **known)
 
 
 _ZOOMED = """
@@ -365,14 +366,16 @@ def words_in_view(
     """Like `words_of`, for words that the frame does not cut off: they go when zoomed out of view.
 
     `column` says where along `side` they stand; what goes too far over the right edge of the frame
-    is left out too, where a `share` of each text is right of its place.
+    is left out too, where a `share` of each text is right of its place. The code knows whether the
+    frame is `narrow`, as that of `fitting_words` does.
     """
     shown = plot.x_range if side == "x" else plot.y_range
-    known = {"plot": plot, "shown": shown, "column": column, "share": share}
+    known = {"shown": shown, "column": column, "share": share}
+    beside = plot.min_border_right
     follow = CustomJS(args={"source": source, "shown": shown, "was": [False]}, code=_ZOOMS)
     shown.js_on_change("start", follow)
     shown.js_on_change("end", follow)
-    return words_of(source, code, _IN_VIEW, beside=plot.min_border_right, **known)
+    return fitting_words(plot, source, code, NARROW, _IN_VIEW, beside=beside, **known)
 
 
 def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:

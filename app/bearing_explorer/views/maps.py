@@ -427,7 +427,8 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     beside = {"text_align": "center", "text_color": INK, "text_font_size": "12px"}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
     extent = {"value": "Extent Δφf (°)"}
-    _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-36, **beside)
+    small = {**beside, "text_font_size": "11px"}  # whole also where the canvas is narrowest
+    _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-31, **small)
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     _text(
         plot, grid, x=0.5 * (_BALLS.left + _BALLS.right), y=_BALLS.bottom, y_offset=36,

@@ -41,6 +41,8 @@ from bearingcore.sweep.grid import program_version
 log = logging.getLogger(__name__)
 
 FILE = "bearing-report.html"
+_LIMIT_COLUMNS = ("name", "value", "limit", "state", "sentence")
+_STATES = {"unknown": "not known"}
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 _DEFECT_GROUP = "Defect"
 
@@ -142,10 +144,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is crossed.</p>",
         _table(
             ["Looked at", "Value", "Limit", "", "In words"],
-            [
-                [_text(row[key]) for key in ("name", "value", "limit", "state", "sentence")]
-                for row in limits
-            ],
+            [[_text(_STATES.get(row[key], row[key])) for key in _LIMIT_COLUMNS] for row in limits],
         ),
         "</section>",
         *parts,

@@ -65,7 +65,7 @@ def entry_words(one: CatalogueBearing) -> str:
     """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
     bearing = one.bearing
     words = (
-        f"{bearing.n_balls} balls of {number(1e3 * bearing.ball_diameter, 4)} mm on "
+        f"{bearing.n_balls} balls of {number(1e3 * bearing.ball_diameter, 5)} mm on "
         f"{number(1e3 * bearing.pitch_diameter, 5)} mm"
     )
     if bearing.contact_angle:

@@ -45,7 +45,7 @@ def _balls_of(bearing: Bearing) -> str:
     ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
     names = elements(bearing, bearing.n_balls)
     return (
-        f"{bearing.n_balls} {names} of {style.number(ball, 4)} mm on a circle of "
+        f"{bearing.n_balls} {names} of {style.number(ball, 5)} mm on a circle of "
         f"{style.number(pitch, 5)} mm"
     )
 

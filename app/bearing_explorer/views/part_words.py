@@ -114,8 +114,8 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
         ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster"],
         [
             "Bearing",
-            f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 3)} mm on "
-            f"{style.number(1e3 * bearing.pitch_diameter, 4)} mm, contact angle {angle}",
+            f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 5)} mm on "
+            f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}",
         ],
     ]
     if not question.measured.in_si:

@@ -8,7 +8,7 @@ import dataclasses
 import logging
 import math
 import time
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -27,7 +27,13 @@ from bearing_explorer.compute.scheduler import Scheduler
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.server import log as write
-from bearing_explorer.server.live import good_byes, models_made, one_message, send_at_once
+from bearing_explorer.server.live import (
+    good_byes,
+    make_models,
+    models_made,
+    one_message,
+    send_at_once,
+)
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
@@ -246,6 +252,7 @@ class Explorer:
             ask=self._asked,
             add_controls=self._panels.append,
             take_steps=self._take_steps,
+            fill=self._fill,
             say_endurance=self._take_endurance,
         )
 
@@ -428,9 +435,14 @@ class Explorer:
             found = await in_thread(compute)
             await one_message(self._doc, lambda: take(found))
 
-        task = asyncio.get_running_loop().create_task(work())
+        self._keep(work())
+
+    def _keep(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        """Have something done that nobody waits for; asyncio forgets tasks that nobody holds."""
+        task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
 
     # The bar above the controls
 
@@ -599,6 +611,29 @@ class Explorer:
             sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
             margin=0,
         )
+
+    def _fill(
+        self,
+        layout: pn.Column,
+        make: Callable[[], pn.viewable.Viewable],
+        then: Callable[[], None],
+    ) -> asyncio.Task[None]:
+        """Put what is made into a layout of a view on screen, and then act: turn after turn."""
+
+        async def fill() -> None:
+            made = make()
+            await asyncio.sleep(0.0)
+            if self._doc is not None:
+                make_models(layout, made, self._doc)
+            await asyncio.sleep(0.0)
+
+            def change() -> None:
+                layout[:] = [made]
+                then()
+
+            await one_message(self._doc, change, new_models=True)
+
+        return self._keep(fill())
 
     def _put_up(self, name: str) -> None:
         if self._containers[name] not in self.main:

@@ -24,10 +24,12 @@ from bearing_explorer.server.bokeh_private import (
 from bearing_explorer.server.threads import Pool
 
 __all__ = [
+    "counted_once",
     "good_byes",
     "hand_on",
     "in_writer",
     "locked",
+    "make_models",
     "models_made",
     "on_loop",
     "one_message",
@@ -139,6 +141,26 @@ def send_at_once(doc: Document | None) -> int:
             socket.set_nodelay(True)
             count += 1
     return count
+
+
+@contextmanager
+def counted_once(doc: Document | None) -> Iterator[None]:
+    """Have Bokeh count the models of `doc` once, after the block, and only where some came or went.
+
+    HoloViews has them counted after each figure that it draws anew, in which there are none new.
+    """
+    if doc is None:
+        yield
+        return
+    models: Any = doc.models
+    changes: list[None] = []
+    models.invalidate, models.recompute = lambda: changes.append(None), lambda: None
+    try:
+        yield
+    finally:
+        del models.invalidate, models.recompute
+        if changes:
+            models.recompute()
 
 
 @contextmanager

@@ -346,8 +346,10 @@ const zoomed = reset_start !== null && (start !== reset_start || end !== reset_e
 """
 _IN_VIEW = f"""{_ZOOMED}
 if (!zoomed) return true
-const room = row[column] <= end ? (end - row[column])/(end - start)*plot.inner_width : -1
-return row[column] >= start && room + beside >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
+const at = row[column]
+if (!(at >= start && at <= end)) return false
+const room = (end - at)/(end - start)*plot.inner_width + beside
+return room >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
 """
 _ZOOMS = f"""{_ZOOMED}
 if (zoomed || was[0]) source.change.emit()

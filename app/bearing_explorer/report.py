@@ -11,6 +11,7 @@ from __future__ import annotations
 import html
 import logging
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -40,6 +41,8 @@ from bearingcore.sweep.grid import program_version
 log = logging.getLogger(__name__)
 
 FILE = "bearing-report.html"
+_LIMIT_COLUMNS = ("name", "value", "limit", "state", "sentence")
+_STATES = {"unknown": "not known"}
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 _DEFECT_GROUP = "Defect"
 
@@ -141,10 +144,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is crossed.</p>",
         _table(
             ["Looked at", "Value", "Limit", "", "In words"],
-            [
-                [_text(row[key]) for key in ("name", "value", "limit", "state", "sentence")]
-                for row in limits
-            ],
+            [[_text(_STATES.get(row[key], row[key])) for key in _LIMIT_COLUMNS] for row in limits],
         ),
         "</section>",
         *parts,
@@ -173,6 +173,11 @@ def _text(words: str) -> str:
     return html.escape(words, quote=True)
 
 
+def _sentence(words: str) -> str:
+    """A sentence in which stiffnesses have their directions under their letter, as on the page."""
+    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", _text(words))
+
+
 def _link(address: str) -> str:
     """An address as a link; nothing where it is none of the web's."""
     try:
@@ -189,7 +194,7 @@ def _figure(view: View, results: Results, ids: Sequence[str], sentence: str) -> 
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
         f"<section><h2>{_text(view.title)}</h2><p class='about'>{caption}</p>"
-        f"<figure>{drawings}<figcaption>{_text(sentence)}</figcaption></figure></section>"
+        f"<figure>{drawings}<figcaption>{_sentence(sentence)}</figcaption></figure></section>"
     )
 
 

@@ -86,7 +86,7 @@ export function render({ model }) {
     const file = element("input", { type: "file", accept: ".csv,.txt,.dat,.tsv,text/plain",
       id: "floor-file", "aria-describedby": "floor-words" })
     const words = element("p", { class: "note", id: "floor-words", role: "status" })
-    const label = element("label", { for: "floor-file" }, "Two columns: angle in °, depth in µm")
+    const label = element("label", { for: "floor-file" }, "Two columns: angle in °, depth in µm, or in the units of its headings")
     file.addEventListener("change", async () => {
       const chosen = file.files[0]
       if (!chosen) return

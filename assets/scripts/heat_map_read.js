@@ -1,11 +1,11 @@
 // What stands under the pointer on a heat map: `wanted` is "x", "y" or "value". `say` is put in
-// front of this file: it makes words of the numbers of all `layers` in a cell.
+// front of this file: it makes words of the numbers of all `layers` in a cell; `rounded` of the house
+// style writes them.
 const at = place_on(image, stands, count, special_vars.x, special_vars.y)
 if (!at) return ""
-const number = (value) => String(Number(value.toPrecision(4))).replace("-", "\u2212")
 const words_of = (side) => {
   const {words, unit} = sides[side.which]
-  return digits === null ? `${words}: ${number(side.middle)}${unit}`
+  return digits === null ? `${words}: ${rounded(side.middle, 4)}${unit}`
     : `${words} ${Math.max(0, side.value).toFixed(digits)}${unit}`
 }
 if (wanted == "x") return words_of(at.x)

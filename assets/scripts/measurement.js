@@ -134,7 +134,7 @@ export function render({ model }) {
     agree.hidden = open.every((name) => spec.sizes.includes(name))
     facts.textContent = beside
     load.hidden = !newtons
-    load.textContent = newtons ? `Load the scene with ${newtons.toPrecision(3)} N, downwards` : ""
+    load.textContent = newtons ? `Load the scene with ${Number(newtons.toPrecision(3))} N, downwards` : ""
     told.hidden = !beside
     fields.full_scale.hidden = !scaled && (values.full_scale ?? "1") === "1"
     fields.sensitivity.hidden = !["V", "mV"].includes(values.unit)

@@ -272,7 +272,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     select.addEventListener("change", () => send({ choose: { [name]: select.value } }))
     const more = element("button", {
       type: "button", class: "info", "aria-expanded": "false", "aria-controls": `note-${name}`,
-      "aria-label": `About this ${label.toLowerCase()}`, title: "About this choice",
+      "aria-label": `About ${label.toLowerCase()}`, title: "About this choice",
     }, "?")
     note.id = `note-${name}`
     note.hidden = true

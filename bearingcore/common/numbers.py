@@ -82,6 +82,17 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{number(100.0 * share, digits)} %"
 
 
+def percent_off(share: float) -> str:
+    """By how much something is off, as percent with its sign: "+0.3 %", "−1.2 %"; nothing: "0.0 %".
+
+    To a tenth of a percent.
+    """
+    if not math.isfinite(share):
+        return NO_VALUE
+    text = f"{100.0 * share:+.1f}"
+    return "0.0 %" if float(text) == 0.0 else f"{text} %".replace("-", "−")
+
+
 def probability(chance: float) -> str:
     """A probability in words. Nothing is quite certain, and nothing quite impossible."""
     if not math.isfinite(chance):

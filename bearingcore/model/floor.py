@@ -11,6 +11,8 @@ depth over the defect's depth                   |        | depths             |
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -25,6 +27,10 @@ SAMPLES_A_LENGTH = 10
 """Samples of a rough floor in a correlation length."""
 
 MOST_ROWS = 100_000
+
+_ANGLES = {"rad": 1.0, "radians": 1.0}
+_LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": 0.0254}
+"""Units [rad, m] that a heading may give; others are degrees and micrometres."""
 
 MOST_SAMPLES = 2_000_000
 """Samples of a rough floor; more would not fit a table of its path."""
@@ -186,7 +192,8 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
     """`measured_floor` from text: two columns, angle [degrees] and depth [µm].
 
     As lenient as the reading of measured signals: columns between commas, semicolons, tabs or
-    blanks, numbers with points or commas, headings and lines that begin with # passed over.
+    blanks, numbers with points or commas, lines that begin with # passed over. Headings may give
+    other units: "angle [rad]", "depth_mm".
 
     Raises
     ------
@@ -204,4 +211,14 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
         raise checks.refuse(
             "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"
         )
-    return measured_floor(np.radians(columns[:, 0]), columns[:, 1] * 1e-6)
+    angle, depth = table.headings or ("", "")
+    return measured_floor(
+        columns[:, 0] * _unit_in(angle, _ANGLES, math.radians(1.0)),
+        columns[:, 1] * _unit_in(depth, _LENGTHS, 1e-6),
+    )
+
+
+def _unit_in(heading: str, units: Mapping[str, float], usual: float) -> float:
+    """The unit [rad or m] at the end of a heading."""
+    last = re.search(r"([^\s_,;:/\[\](){}]+)[\s\])}]*$", heading.strip().lower())
+    return units.get(last[1].replace("μ", "µ"), usual) if last else usual

@@ -308,15 +308,15 @@ def _shoulder_of(
     value = float(reach[worst])
     crossed = value > limit
     at = math.degrees(angles[worst])
-    told = f"a contact angle of {at:.1f}°"
+    made_of = f"a contact angle of {at:.1f}°"
     if known:
-        told += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
+        made_of += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
     else:
-        told += " (half the contact ellipse comes on top, not known without groove radii)"
+        made_of += " (half the contact ellipse comes on top, not known without groove radii)"
     sentence = (
         f"The contact reaches {math.degrees(value):.1f}° from the bottom of the groove, "
-        f"{told}; a shoulder {height:.2g} ball diameters high stands at {math.degrees(limit):.1f}°"
-        + (": the ball rides over its edge." if crossed else ".")
+        f"{made_of}; a shoulder {number(height, 2)} ball diameters high stands at "
+        f"{math.degrees(limit):.1f}°" + (": the ball rides over its edge." if crossed else ".")
     )
     return Limit(name, value, limit, "rad", crossed, sentence)
 
@@ -368,7 +368,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
         f"The centrifugal force of a {_element(scene.bearing)}, {with_prefix(force, 'N')}, changes "
         f"loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
         f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
-        f"{math.degrees(effect.contact_angle):.2g}°"
+        f"{number(math.degrees(effect.contact_angle), 2)}°"
         + (
             f": {LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT}, and here it counts."
             if crossed

@@ -89,6 +89,7 @@ def test_the_chain_follows_the_hand_on_one_screen(
     settle(page)
     page.wait_for_function(f"({SCROLLS})().join() === '0,0'")
     expect(sentence(page)).to_contain_text("With the defect: ")
+    expect(sentence(page).locator("sub").first).to_have_text("yy")
     names = ("overview_bearing_balls", "overview_lively", "overview_bands", "overview_lines")
     before = {name: source(page, name) for name in names}
     drag(page, slider(page, "extent_deg"), 0.1, 0.33)
@@ -120,6 +121,19 @@ def test_the_chain_follows_the_hand_on_one_screen(
         expect(page.locator(f".section-{tab}.on-screen")).to_be_visible()
         page.wait_for_function(f"window.__tab == '{tab}'")
         show(page, "overview")
+
+
+@pytest.mark.proof
+def test_all_fits_with_every_contact_law(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    page.set_viewport_size(LAPTOP)
+    open_page(page, explorer, "model")
+    for law in page.locator("#choice-law option").evaluate_all("all => all.map((o) => o.value)"):
+        show(page, "model")
+        page.locator("#choice-law").select_option(law)
+        show(page, "overview")
+        rest(page)
+        page.wait_for_function(f"({SCROLLS})().join() === '0,0'")
 
 
 def test_links_open_where_they_always_did(watch: tuple[Page, Watch], explorer: Server) -> None:
@@ -199,6 +213,15 @@ RANGE = """view => {
 }"""
 
 
+NAMES_OF_BANDS = """() => {
+  const [plot] = [...Bokeh.index.query(({ model }) => model.type === "Figure")]
+    .map(({ model }) => model).filter(({ extra_x_ranges }) => extra_x_ranges.has?.("shares")
+      ?? extra_x_ranges.shares)
+  const [{ glyph, data_source }] = plot.renderers.filter(({ glyph }) => glyph?.type === "Text")
+  return [...glyph.text.expr.v_compute(data_source)]
+}"""
+
+
 def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     page.set_viewport_size(LAPTOP)
@@ -234,9 +257,11 @@ def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explore
     page.mouse.up()
     boxed = shown()
     assert whole[0] < boxed[0] < boxed[1] < whole[1]
+    assert not any(page.evaluate(NAMES_OF_BANDS)), "names stand beside bands that are out of view"
     page.wait_for_timeout(500)
     page.mouse.dblclick(x, y)
     assert shown() == whole
+    assert [name[:2] for name in page.evaluate(NAMES_OF_BANDS)] == ["x₁", "y₁", "x₂", "y₂"]
 
     # many maps on one canvas: whoever zooms into one finds its numbers at the edge
     show(page, "maps")

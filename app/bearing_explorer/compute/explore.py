@@ -28,6 +28,7 @@ from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.quantity_list import DEGREE
 from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
+from bearingcore.common.numbers import number
 from bearingcore.common.table import SUFFIXES
 from bearingcore.diagnosis.size.sizing_error import extent_error
 from bearingcore.dynamics.motion import MOST_STEPS as CORE_MOST_STEPS
@@ -129,10 +130,11 @@ class MapOutput:
         most = 0.5 * _SETTINGS.sample_rate
         if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
             raise ValueError(
-                f"A band goes from {LOWEST_BAND / 1e3:g} kHz or more to {most / 1e3:.4g} kHz or "
-                f"less, and ends at {NARROWEST_BAND:g} times its beginning or above."
+                f"A band goes from {LOWEST_BAND / 1e3:g} kHz or more to "
+                f"{number(most / 1e3, 4)} kHz or less, and ends at {NARROWEST_BAND:g} times "
+                "its beginning or above."
             )
-        label = f"{self.label}, {low / 1e3:g} to {high / 1e3:g} kHz"
+        label = f"{self.label}, {number(low / 1e3, 4)} to {number(high / 1e3, 4)} kHz"
         return dataclasses.replace(self, label=label, band=(low, high))
 
     @property

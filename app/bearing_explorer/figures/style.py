@@ -100,6 +100,15 @@ const si = (value, unit, digits = 3) => {
 """
 
 
+NARROW = 420
+"""[px] width of a frame below which there is room for short words only."""
+_IS_NARROW = """
+let narrow = false
+const larger = window.explorer_projector?.on ? 1.3 : 1  // as projector.js has it
+if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
+"""
+
+
 @dataclass(frozen=True)
 class AxisQuantity:
     """What an axis shows: name, symbol and unit.
@@ -254,12 +263,17 @@ return minus(String(Number((turned/10**e).toPrecision(6))))
     )
 
 
-def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
-    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten."""
+def logarithmic_ticks(unit: str = "", plot: figure | None = None) -> CustomJSTickFormatter:
+    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten.
+
+    Below a narrow `plot` only powers of ten have a number.
+    """
     return CustomJSTickFormatter(
-        args={"unit": unit},
+        args={"unit": unit, "plot": plot, "below": NARROW},
         code=JS_PREFIX
+        + _IS_NARROW
         + """
+if (narrow && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) > 0.01) return ''
 if (unit) return si(tick, unit)
 if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
 const e = Math.floor(Math.log10(tick*1.0000001))
@@ -274,12 +288,15 @@ def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
     axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
 
 
-def words_of(source: ColumnDataSource, code: str, **known: Any) -> CustomJSExpr:
+def words_of(
+    source: ColumnDataSource, code: str, keep: str = "return true", **known: Any
+) -> CustomJSExpr:
     """Text made in the browser from the numbers of `source`, as the packed source carries no words.
 
     `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
     ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.
-    `known`: models that it knows besides.
+    `keep` is the body of ``(row, text) => ...`` and says whether a text is shown. `known`: models
+    that both know besides.
     """
     return CustomJSExpr(
         args={"source": source, **known},
@@ -290,38 +307,77 @@ const columns = Object.keys(data)
 const count = columns.length ? data[columns[0]].length : 0
 const write = (row) => {"""
         + code
+        + "}\nconst keep = (row, text) => {"
+        + keep
         + """}
 const texts = []
 for (let i = 0; i < count; i++) {
   const row = {}
   for (const column of columns) row[column] = data[column][i]
-  texts.push(String(write(row)))
+  const text = String(write(row))
+  texts.push(keep(row, text) ? text : "")
 }
 return texts
 """,
     )
 
 
-NARROW = 420
-"""[px] width of a frame below which there is room for short words only."""
-_IS_NARROW = """
-let narrow = false
-const larger = window.explorer_projector?.on ? 1.3 : 1  // as projector.js has it
-try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}  // not laid out
-"""
-
-
 def fitting_words(
-    plot: figure, source: ColumnDataSource, code: str, below: float = NARROW
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    below: float = NARROW,
+    keep: str = "return true",
+    **known: Any,
 ) -> CustomJSExpr:
     """Like `words_of`; the code knows too whether the frame of the plot is `narrow`.
 
-    `below`: of which width [px] it is, with type of the usual size.
+    `below`: of which width [px] it is, with type of the usual size. `keep` knows the `plot`.
     """
     # how wide it is is known later than its numbers, and changes
     write = CustomJS(args={"source": source}, code="source.change.emit()")
     plot.js_on_change("inner_width", write)
-    return words_of(source, _IS_NARROW + code, plot=plot, below=below)
+    return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below, **known)
+
+
+_ZOOMED = """
+const {start, end, reset_start, reset_end} = shown
+const zoomed = reset_start !== null && (start !== reset_start || end !== reset_end)
+"""
+_IN_VIEW = f"""{_ZOOMED}
+if (!zoomed) return true
+const at = row[column]
+if (!(at >= start && at <= end)) return false
+const room = (end - at)/(end - start)*plot.inner_width + beside
+return room >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
+"""
+_ZOOMS = f"""{_ZOOMED}
+if (zoomed || was[0]) source.change.emit()
+was[0] = zoomed
+"""
+
+
+def words_in_view(
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    column: str,
+    side: str = "x",
+    share: float = 0,
+) -> CustomJSExpr:
+    """Like `words_of`, for words that the frame does not cut off: they go when zoomed out of view.
+
+    `column` says where along `side` they stand; what goes too far over the right edge of the frame
+    is left out too, where a `share` of each text is right of its place. The code knows whether the
+    frame is `narrow`, as that of `fitting_words` does.
+    """
+    shown = plot.x_range if side == "x" else plot.y_range
+    known = {"shown": shown, "column": column, "share": share}
+    beside = plot.min_border_right
+    follow = CustomJS(args={"source": source, "shown": shown, "was": [False]}, code=_ZOOMS)
+    shown.js_on_change("start", follow)
+    shown.js_on_change("end", follow)
+    return fitting_words(plot, source, code, NARROW, _IN_VIEW, beside=beside, **known)
 
 
 def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:

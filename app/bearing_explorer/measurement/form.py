@@ -169,7 +169,7 @@ def said(table: Table) -> str:
     return words.strip()
 
 
-def load_told(table: Table) -> float | None:
+def load_of(table: Table) -> float | None:
     """The load [N] that a file gives, where there is one."""
     load = table.contents.load
     return load.value if load is not None and load.value > 0.0 else None

@@ -27,7 +27,7 @@ from bearing_explorer.measurement.form import (
     FormError,
     columns_of,
     guess,
-    load_told,
+    load_of,
     proposed_unit,
     questions,
     reasons,
@@ -43,7 +43,7 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
-from bearingcore.common.numbers import thousands
+from bearingcore.common.numbers import thousands, with_prefix
 from bearingcore.diagnosis.simulated import pit
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.model.scene import WITH_MASS
@@ -243,7 +243,7 @@ class Measurement:
             open=[*found.asks, *found.sizes],
             proposed=proposed_unit(table),
             said=said(table),
-            load=load_told(table),
+            load=load_of(table),
             scaled=not table.full_scale_known,
         )
         self._draw()
@@ -296,7 +296,7 @@ class Measurement:
 
     def _take_load(self, table: Table) -> None:
         """The load of the file, downwards, into the scene."""
-        load = load_told(table)
+        load = load_of(table)
         if load is not None:
             self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
 
@@ -456,9 +456,9 @@ def summary(measured: Measured | None, scene: Scene) -> str:
     along = " and ".join(recording.directions)
     passes = recording.duration * scene.bearing.bpfo(measured.shaft_speed)
     return (
-        f"{recording.name}: {recording.duration:.3g} s along {along} at "
-        f"{thousands(recording.sample_rate)} Hz, {passes:.0f} balls pass a point of the "
-        "outer race."
+        f"{recording.name}: {with_prefix(recording.duration, 's')} along {along} at "
+        f"{thousands(recording.sample_rate)} Hz, {thousands(passes)} "
+        f"{'ball passes' if round(passes) == 1 else 'balls pass'} a point of the outer race."
     )
 
 

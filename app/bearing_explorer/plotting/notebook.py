@@ -1,14 +1,14 @@
-"""Figures in exported notebooks need nothing from outside: their style sheets come along.
+"""Figures in exported notebooks and saved files need nothing from outside: styles come along.
 
 HoloViews has Panel name its style sheets by an address of the web, also where the scripts are told
-to stand in the notebook.
+to stand in the notebook or in the file.
 """
 
 from __future__ import annotations
 
-import sys
 from typing import Any
 
+import panel as pn
 from bokeh.models import UIElement
 
 from bearing_explorer.server.bokeh_private import before_showing
@@ -20,13 +20,14 @@ except ImportError:  # a version of Panel that does without
 
 
 def bring_style_sheets() -> None:
-    """Have figures carry their style sheets in a notebook; elsewhere a server serves them."""
-    shell = sys.modules.get("IPython")  # it is there in every notebook
-    in_notebook = shell is not None and shell.get_ipython() is not None
-    if in_notebook and patch_inline_stylesheets is not None:
+    """Have figures carry their style sheets, but for those of a page: a server serves them."""
+    if patch_inline_stylesheets is not None:
         before_showing(_inlined)
 
 
 def _inlined(_: Any, root: Any) -> None:
+    doc = pn.state.curdoc
+    if doc is not None and doc.session_context is not None:
+        return
     for part in root.select({"type": UIElement}):
         patch_inline_stylesheets(part)

@@ -32,8 +32,7 @@ NO_ANSWER = "#B9BEC4"
 BINS = 24
 _SAY = """
 if (isNaN(cell[0])) return "no answer"
-const plain = String(Number(cell[0].toPrecision(4))).replace("-", "\\u2212")
-return `${words}: ` + (prefixed ? si(cell[0], unit.trim(), 4) : plain + unit)
+return `${words}: ` + (prefixed ? si(cell[0], unit.trim(), 4) : rounded(cell[0], 4) + unit)
 """
 _WHY = (
     f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; max-width: 260px; '

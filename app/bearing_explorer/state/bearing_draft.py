@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from bearing_explorer.state.quantities import QUANTITIES, Values, in_si, refusal
 from bearing_explorer.state.quantity_list import BEARING_GROUPS
 from bearingcore import Bearing
+from bearingcore.common.numbers import number
 from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
 
 OF_BEARING = frozenset(
@@ -47,12 +48,12 @@ def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
             apart = pitch * math.sin(math.pi / count)
             fault(
                 ("n_balls", "ball_diameter_mm", "pitch_diameter_mm"),
-                f"The number of balls is {count:g}; allowed: so few that balls of {_mm(ball)} do "
-                f"not overlap, here {_most_balls(ball, pitch)} (their centres would be "
-                f"{_mm(apart)} apart).",
+                f"The number of balls is {number(count, 6)}; allowed: so few that balls of "
+                f"{_mm(ball)} do not overlap, here {_most_balls(ball, pitch)} (their centres would "
+                f"be {_mm(apart)} apart).",
             )
     if count != int(count):
-        fault(("n_balls",), f"The number of balls is {count:g}; allowed: a whole number.")
+        fault(("n_balls",), f"The number of balls is {number(count, 6)}; allowed: a whole number.")
     for race in ("outer", "inner"):
         name = f"{race}_groove_radius_mm"
         radius = get(name)
@@ -113,7 +114,7 @@ def _most_balls(ball: float, pitch: float) -> str:
 
 
 def _mm(value: float) -> str:
-    return f"{value:.6g} mm".replace("-", "−")
+    return f"{number(value, 6)} mm"
 
 
 def words_of(draft: Values) -> str:

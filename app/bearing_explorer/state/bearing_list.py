@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from bearing_explorer.state.quantities import refusal
 from bearingcore import CatalogueBearing, catalogue, read_catalogue
+from bearingcore.common.numbers import number
 from bearingcore.model.bearings.catalogue import MOST_BYTES
 
 
@@ -64,15 +65,15 @@ def entry_words(one: CatalogueBearing) -> str:
     """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
     bearing = one.bearing
     words = (
-        f"{bearing.n_balls} balls of {1e3 * bearing.ball_diameter:.4g} mm on "
-        f"{1e3 * bearing.pitch_diameter:.5g} mm"
+        f"{bearing.n_balls} balls of {number(1e3 * bearing.ball_diameter, 5)} mm on "
+        f"{number(1e3 * bearing.pitch_diameter, 5)} mm"
     )
     if bearing.contact_angle:
-        words += f", {math.degrees(bearing.contact_angle):.3g}°"
+        words += f", {number(math.degrees(bearing.contact_angle))}°"
     if bearing.radial_clearance:
-        words += f", clearance {2e6 * bearing.radial_clearance:.3g} µm"
+        words += f", clearance {number(2e6 * bearing.radial_clearance)} µm"
     if one.dynamic_load_rating is not None:
-        words += f", dynamic rating {one.dynamic_load_rating / 1e3:.4g} kN"
+        words += f", dynamic rating {number(one.dynamic_load_rating / 1e3, 4)} kN"
     return words
 
 

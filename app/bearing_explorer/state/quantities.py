@@ -260,11 +260,11 @@ def in_page_words(text: str) -> str:
         of_field = f"{about[2]} {si}"
         text = f"{about[1]} is {of_field}; {about[3]}"
         text = _BOUND.sub(rf"\1 \2 {si}", text.removesuffix(f" [{si}]"))
-    text = _WITH_UNIT.sub(lambda found: _told(found, quantity), text)
+    text = _WITH_UNIT.sub(lambda found: _in_page_unit(found, quantity), text)
     return _WORD.sub(lambda word: _FIELD_WORDS.get(word[0], word[0]), text)
 
 
-def _told(found: re.Match[str], quantity: Quantity | None) -> str:
+def _in_page_unit(found: re.Match[str], quantity: Quantity | None) -> str:
     """A number in SI in the unit of a quantity, or in one that people read."""
     unit, factor = _READ[found[2]]
     if quantity is not None and _SI.get(quantity.unit) == found[2]:

@@ -81,9 +81,10 @@ class Accuracy(JobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "What each method costs and how wrong it is: low is exact, left is cheap. Each is compared "
-        "with a reference on this scene that two families of methods agree on. Crosses on the "
-        "upper edge failed. Click a point of “RK4” to march the scene's motion with its steps."
+        "What each method costs and how wrong it is. Low is exact, left is cheap. Each is "
+        "compared with a reference on this scene that two families of methods agree on. Crosses "
+        "on the upper edge failed. Click a point of “RK4” to march the scene's motion with its "
+        "steps."
     )
     needs = frozenset()
     start = "Measure"
@@ -152,7 +153,7 @@ class Accuracy(JobView[Found]):
         plot.visible = timed
         plot.xaxis.axis_label = "Time" if timed else "Evaluations"
         plot.yaxis.axis_label = "Error"
-        plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "")
+        plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "", plot)
         plot.yaxis.formatter = style.logarithmic_ticks()
         plot.xaxis.ticker = FixedTicker(
             ticks=[m * 10.0**e for e in range(-9, 13) for m in (1, 3)], minor_ticks=[]
@@ -187,8 +188,8 @@ class Accuracy(JobView[Found]):
         )  # fmt: skip
         readers = {
             "@method": CustomJSHover(code=f"return {known}[value]"),
-            "@error": CustomJSHover(code="return Number(value).toPrecision(2).replace('-', '−')"),
-            "@seconds": CustomJSHover(code="return `${Number((1e3*value).toPrecision(3))} ms`"),
+            "@error": CustomJSHover(code=f"{style.JS_PREFIX}return rounded(Number(value), 2)"),
+            "@seconds": CustomJSHover(code=f"{style.JS_PREFIX}return si(Number(value), 's')"),
         }
         plot.add_tools(
             HoverTool(

@@ -44,7 +44,10 @@ def _balls_of(bearing: Bearing) -> str:
     """Balls of a row in words."""
     ball, pitch = (1e3 * d for d in (bearing.ball_diameter, bearing.pitch_diameter))
     names = elements(bearing, bearing.n_balls)
-    return f"{bearing.n_balls} {names} of {ball:.4g} mm on a circle of {pitch:.4g} mm"
+    return (
+        f"{bearing.n_balls} {names} of {style.number(ball, 5)} mm on a circle of "
+        f"{style.number(pitch, 5)} mm"
+    )
 
 
 class BearingEditor(ControlView):
@@ -53,8 +56,8 @@ class BearingEditor(ControlView):
     name = "bearing-editor"
     title = "Dimensions of the bearing"
     about = (
-        "Point at a field to see what it is, or click in the picture. All views follow what is "
-        "changed here."
+        "Point at a field, or click in the picture. What it is stands below the picture. All "
+        "views follow what is changed here."
     )
     needs = frozenset[str]()
     picture = True
@@ -70,12 +73,12 @@ class BearingEditor(ControlView):
         bearing = results.scene.bearing
         own = [one for one, _ in bearing.unlike_rows]
         angles = dict.fromkeys(one.contact_angle for one in own)
-        angle = "° and ".join(f"{math.degrees(one):.4g}" for one in angles)
+        angle = "° and ".join(style.number(math.degrees(one), 4) for one in angles)
         rows = "two rows of " if bearing.rows else ""
         kinds = dict.fromkeys(_balls_of(one) for one in own)
         words = f"{rows}{' and of '.join(kinds)}, "
         if bearing.roller_length is not None:
-            words += f"{1e3 * bearing.roller_length:.4g} mm long."
+            words += f"{style.number(1e3 * bearing.roller_length, 4)} mm long."
         else:
             words += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
             kind = kind_of(bearing)
@@ -212,7 +215,7 @@ def _of_each_row(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
 
 def _raceways(bearing: Bearing) -> str:
     radii = (bearing.outer_raceway_radius, bearing.inner_raceway_radius)
-    return ", ".join(f"{1e3 * radius:.5g} mm" for radius in radii)
+    return ", ".join(f"{style.number(1e3 * radius, 5)} mm" for radius in radii)
 
 
 def _conformity(bearing: Bearing, race: str) -> str:

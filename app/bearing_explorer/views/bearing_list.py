@@ -55,7 +55,7 @@ class BearingList(ControlView):
     name = "bearing-list"
     title = "Bearings by designation"
     about = (
-        "Search, and take one into the scene: load, speed and support stay. Each says what is "
+        "Search, and take one into the scene. Load, speed and support stay. Each says what is "
         "printed, and what is assumed. A table of your own comes on top."
     )
     needs = frozenset[str]()

@@ -30,8 +30,8 @@ class DepthProfile(View):
     name = "depth-profile"
     title = "Depth profile"
     about = (
-        "The race (solid), the path of a ball's centre (dashed) and the balls. Down is into the "
-        "ring. Dots: balls at this cage angle."
+        "Race solid, path of a ball's centre dashed. Down is into the ring. Dots: balls at this "
+        "cage angle."
     )
     needs = frozenset({"profile", "drop", "now"})
 

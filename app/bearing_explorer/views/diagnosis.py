@@ -48,10 +48,10 @@ class PartDiagnosis(MeasuredView):
     name = "diagnosis"
     title = "2  What part"
     about = (
-        "Spectrum of the envelope: how often something makes the machine ring. Each pass over a "
-        "damaged spot does. Strong: the lines of the part that stands out, found within the slip."
-        " Faint: where geometry has those of the others. Point at a number below to zoom to its "
-        "line."
+        "How often something makes the machine ring. The spectrum of the envelope shows it; each "
+        "pass over a damaged spot does. Strong: the lines of the part that stands out, found "
+        "within the slip. Faint: where geometry has those of the others. Point at a number below "
+        "to zoom to its line."
     )
     needs = frozenset()
     without_size = True

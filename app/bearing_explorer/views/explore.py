@@ -96,9 +96,9 @@ class ExplorePlane(JobView[Plane]):
     name = "explore"
     title = "Explore a plane"
     about = (
-        "Any output over two quantities, all else as the sliders have it. Point at the map to move "
-        "the curves, click to go there; select values in the histogram to find them on it. "
-        "Hatched: no answer. Ring: this scene."
+        "Any output over any two quantities. All else is as the sliders have it. Point at the "
+        "map to move the curves, click to go there; select values in the histogram to find them "
+        "on it. Hatched: no answer. Ring: this scene."
     )
     needs = frozenset()
     start = "Compute the map"

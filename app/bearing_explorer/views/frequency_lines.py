@@ -14,7 +14,6 @@ import numpy as np
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.measured_view import write_over
 from bearingcore import Scene
@@ -122,7 +121,7 @@ class FrequencyLines:
                 f"{prefix}_{family.name}_names", "frequency", "order", "first", "row", "of"
             )
             first = 0.5 if family.name == "half" else 1
-            words = style.words_of(names, _WORDS % {"first": first, "title": family.title})
+            words = _WORDS % {"first": first, "title": family.title}
             for plot in plots:
                 plot.vspan(
                     "frequency", source=lines, line_color=family.color, line_alpha=0.6,

@@ -112,9 +112,9 @@ class StiffnessMaps(View):
     name = "maps"
     title = "Maps over extent and cage angle"
     about = (
-        "Every stiffness term, for each extent of the defect and cage angle. Up: the extent; "
-        "right: the cage angle. The map of loaded balls says how many carry load. Lines that "
-        "slope are balls that enter and leave the defect. Click in a map to go there."
+        "Every stiffness term, over extent and cage angle. Up: the extent of the defect; right: "
+        "the cage angle. The map of loaded balls says how many carry load. Lines that slope are "
+        "balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
 
@@ -427,7 +427,8 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     beside = {"text_align": "center", "text_color": INK, "text_font_size": "12px"}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
     extent = {"value": "Extent Δφf (°)"}
-    _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-36, **beside)
+    small = {**beside, "text_font_size": "11px"}  # whole also where the canvas is narrowest
+    _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-31, **small)
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     _text(
         plot, grid, x=0.5 * (_BALLS.left + _BALLS.right), y=_BALLS.bottom, y_offset=36,
@@ -442,7 +443,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     legend = ColumnDataSource(
         {"x": [0.26] * len(lines), "y": [-2.3 - 0.13 * i for i in range(len(lines))], "text": lines}
     )
-    _text(plot, legend, text="text", text_font_size="12px")
+    _text(plot, legend, text="text", text_font_size="11px")
 
 
 def _scales(plot: figure, cells: ColumnDataSource) -> None:

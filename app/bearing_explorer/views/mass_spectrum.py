@@ -24,10 +24,10 @@ class MassInSpectrum(View):
     name = "mass-spectrum"
     title = "Spectrum without and with the mass of the balls"
     about = (
-        "In colour with the mass of the balls, broad and grey without. Power spectral density of "
-        "the housing's acceleration up to half the sample rate. Shaded: where loaded balls "
-        "resonate between their two contacts. In free flight balls are sensitive to anything: "
-        "look at bands, not at single lines."
+        "In colour with mass of the balls, in grey without. Power spectral density of the "
+        "housing's acceleration up to half the sample rate. Shaded: where loaded balls resonate "
+        "between their two contacts. In free flight balls are sensitive to anything: look at "
+        "bands, not at single lines."
     )
     needs = frozenset({"ball_mass"})
 

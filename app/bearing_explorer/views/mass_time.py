@@ -53,9 +53,9 @@ class MassInTime(View):
     name = "mass-time"
     title = "A ball with mass passes the defect"
     about = (
-        "In colour with the mass of the balls, broad and grey without. Above: acceleration of the "
-        "housing. Below: loads of the balls near the defect, full at the outer race, dashed at the "
-        "inner. Shaded: a ball flies free, it touches neither."
+        "In colour with mass of the balls, in grey without. Above: acceleration of the housing. "
+        "Below: loads of the balls near the defect, full at the outer race, dashed at the inner. "
+        "Shaded: a ball flies free, it touches neither."
     )
     needs = frozenset({"ball_mass"})
 

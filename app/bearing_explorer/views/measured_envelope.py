@@ -22,10 +22,10 @@ class MeasuredEnvelope(FrequencyView):
     prefix = "measured_envelope"
     title = "Beside the model: the envelope"
     about = (
-        "How often the ringing swells: lines at BPFO, BPFI or twice BSF. Knocks make something "
-        "ring, and the ringing swells with each of them: lines at BPFO speak for the outer race, "
-        "at BPFI for the inner race, at twice BSF for a ball. Unless you give a band, it is the "
-        "octave in which knocks stand out most."
+        "How often the ringing swells. Knocks make something ring, and the ringing swells with "
+        "each of them: lines at BPFO speak for the outer race, at BPFI for the inner race, at "
+        "twice BSF for a ball. Unless you give a band, it is the octave in which knocks stand "
+        "out most."
     )
     first_look = Look(scale="linear", lines=("bpfo", "bpfi", "bsf", "ftf"))
     fields: ClassVar[list[dict[str, Any]]] = [
@@ -61,11 +61,13 @@ class MeasuredEnvelope(FrequencyView):
             high = high if high is not None else best[1] if low == best[0] else 2.0 * low
         highest = 0.49 * measured.recording.sample_rate
         if not low < high:
-            raise ValueError(f"a band from {low:g} to {high:g} Hz is empty")
+            raise ValueError(
+                f"a band from {style.number(low, 6)} to {style.number(high, 6)} Hz is empty"
+            )
         if high > highest:
             raise ValueError(
-                f"a band up to {high:.5g} Hz asks for a faster sample rate; here it ends at "
-                f"{highest:.0f} Hz"
+                f"a band up to {style.number(high, 5)} Hz asks for a faster sample rate; here it "
+                f"ends at {highest:.0f} Hz"
             )
         return low, high
 
@@ -122,5 +124,6 @@ def telling(shown: Shown, sets: Sequence[Mapping[str, float]]) -> str:
     words += f" is {'' if multiple == 1 else f'{multiple}×'}{title}"
     if abs(at - line) > 1.5 * shown.resolution:
         off = 100.0 * (at / line - 1.0)
-        words += f", {abs(off):.1f} % {'above' if off > 0.0 else 'below'} what the geometry says"
+        side = "above" if off > 0.0 else "below"
+        words += f", {style.number(abs(off), 2)} % {side} what the geometry says"
     return f"{words}."

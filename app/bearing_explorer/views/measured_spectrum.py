@@ -37,9 +37,9 @@ class MeasuredSpectrum(FrequencyView):
     prefix = "measured_spectrum"
     title = "Beside the model: the spectrum"
     about = (
-        "What was measured (thin), and what the scene gives (coloured). Shaded: the bands of the "
-        "scene's natural frequencies. Where measured resonances lie in the bands, the scene is "
-        "like the machine."
+        "Measured (thin), and what the scene gives (coloured). Shaded: the bands of the scene's "
+        "natural frequencies. Where measured resonances lie in the bands, the scene is like the "
+        "machine."
     )
     first_look = Look()
     fields: ClassVar[list[dict[str, Any]]] = [
@@ -65,8 +65,7 @@ class MeasuredSpectrum(FrequencyView):
                     "low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None,
                     level="underlay",
                 )  # fmt: skip
-                words = style.words_of(bands, BAND_WORDS)
-                write_over(plot, bands, words, "label_at", 0.05, color, text_align="center")
+                write_over(plot, bands, BAND_WORDS, "label_at", 0.05, color, text_align="center")
 
     def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
         columns = ("low", "high", "direction", "number", "label_at")

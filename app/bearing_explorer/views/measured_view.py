@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import param
-from bokeh.models import ColumnDataSource, CustomJSExpr, Range1d
+from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 from panel.custom import JSComponent
 
@@ -27,13 +27,19 @@ MEASURED = style.INK
 def write_over(
     plot: figure,
     source: ColumnDataSource,
-    words: CustomJSExpr,
+    code: str,
     x: str,
     row: str | float,
     color: str,
     **look: Any,
 ) -> None:
-    """Write names into a figure; `row` is where, as a share of the frame's height."""
+    """Write names into a figure, by the code for `words_of`; those that are zoomed out of view go.
+
+    `row` is where, as a share of the frame's height.
+    """
+    share = {"center": 0.5}.get(look.get("text_align", ""), 1.0)
+    share = 0.0 if isinstance(look.get("x_offset"), str) else share  # on either side
+    words = style.words_in_view(plot, source, code, x, share=share)
     plot.extra_y_ranges.setdefault("rows", Range1d(0.0, 1.0, syncable=False))
     plot.text(
         x, row, y_range_name="rows", source=source, text=words, text_color=color,

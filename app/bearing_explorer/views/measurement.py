@@ -93,8 +93,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The acceleration of a bearing's housing, beside what the scene would give. Set the scene "
-        "to your machine: bearing, load, support."
+        "What a sensor on the bearing's housing heard. Its acceleration stands beside what the "
+        "scene would give. Set the scene to your machine: bearing, load, support."
     )
     needs = frozenset()
     without_size = True
@@ -134,8 +134,7 @@ class MeasuredSignal(MeasuredView):
     def _mark_events(self, packed: PackedSource, plot: figure) -> None:
         events = packed.source("measurement_events", *_EVENT_COLUMNS)
         plot.vspan("time", source=events, line_color=style.INK, line_alpha=0.55, line_width=1.0)
-        words = style.words_of(events, _EDGE_WORDS)
-        write_over(plot, events, words, "time", "row", style.INK, x_offset=3)
+        write_over(plot, events, _EDGE_WORDS, "time", "row", style.INK, x_offset=3)
 
     def measure(self, measurement: Measurement) -> None:
         super().measure(measurement)

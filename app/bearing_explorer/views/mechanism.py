@@ -34,10 +34,10 @@ class WhichMechanism(View):
     name = "mechanism"
     title = "Which mechanism"
     about = (
-        "Share of the housing's power that is there only because balls have mass. Along x and y "
-        "together, by octaves; the rest comes from the stiffness that varies as balls pass. Thin "
-        "lines: its standard error. Faint bars: 40 dB and more below the loudest octave. Below "
-        "zero mass takes power away."
+        "Power that is there only because balls have mass. Its share of the housing's power "
+        "along x and y together, by octaves; the rest comes from the stiffness that varies as "
+        "balls pass. Thin lines: its standard error. Faint bars: 40 dB and more below the "
+        "loudest octave. Below zero mass takes power away."
     )
     needs = frozenset({"ball_mass"})
 

@@ -41,10 +41,9 @@ class ModelEditor(ControlView):
     name = "model-editor"
     title = "Rotor, housing and support"
     about = (
-        "Rotor and housing: two bodies, and what the housing stands on. The rotor sits in the "
-        "inner ring, the housing around the outer one, on springs and dampers. They decide "
-        "natural frequencies and vibration, never the static loads. What is left empty is not "
-        "known."
+        "Two bodies, and what the housing stands on. The rotor sits in the inner ring, the "
+        "housing around the outer one, on springs and dampers. They decide natural frequencies "
+        "and vibration, never the static loads. What is left empty is not known."
     )
     needs = frozenset({"contact_damping"})
 

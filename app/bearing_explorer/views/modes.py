@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
+from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -23,6 +23,12 @@ if TYPE_CHECKING:
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
 LABEL_PIXELS = 16.0  # height that a label needs
+BESIDE = 148
+"""[px] right of the frame, for the names of bands."""
+_ROOM = """
+const room = cb_obj.outer_width < below ? 34 : usual  // names alone are shorter
+if (cb_obj.min_border_right != room) cb_obj.setv({min_border_right: room}, {sync: false})
+"""
 
 _BAND_NAME = """
 const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
@@ -49,9 +55,8 @@ class NaturalFrequencies(View):
     name = "modes"
     title = "Natural frequencies"
     about = (
-        "Each natural frequency as the bearing turns: blue x, orange y. A mode is named after the"
-        " direction that moves most. Shaded: the band in which it moves. Grey: {grey}. "
-        "Black: now."
+        "How each one moves as the bearing turns. Blue x, orange y. A mode is named after the "
+        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now."
     )
     needs = frozenset({"modes", "healthy_modes", "bands", "healthy_bands"})
     plans = ("modes",)
@@ -65,8 +70,10 @@ class NaturalFrequencies(View):
             self._angle_range,
             packed.range("modes_frequency", 0.0, 2000.0),
             height=HEIGHT,
-            right=148,
+            right=BESIDE,
         )
+        room = CustomJS(args={"usual": BESIDE, "below": style.NARROW}, code=_ROOM)
+        plot.js_on_change("outer_width", room)
         bands = packed.source("modes_bands", "low", "high", "direction", "number", "label_at")
         colors = direction_mapper()
         plot.hstrip(
@@ -104,7 +111,7 @@ class NaturalFrequencies(View):
             1.0,
             "label_at",
             x_range_name="shares",
-            text=style.words_of(bands, BAND_WORDS),
+            text=style.words_in_view(plot, bands, SHORT_BAND_WORDS, "label_at", "y"),
             source=bands,
             level="annotation",  # beside the frame, not cut off by it
             x_offset=8,

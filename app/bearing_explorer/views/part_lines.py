@@ -153,10 +153,10 @@ class PartLines:
             line_dash="dotted", level="underlay",
         )  # fmt: skip
         names = packed.source(f"{_lines(part)}_names", *_NAME_COLUMNS)
-        words = style.words_of(names, _WORDS % NAMES[part])
         write_over(
-            self.plot, names, words, "frequency", "row", INKS[part], x_offset=3, text_alpha="alpha"
-        )
+            self.plot, names, _WORDS % NAMES[part], "frequency", "row", INKS[part], x_offset=3,
+            text_alpha="alpha",
+        )  # fmt: skip
 
     def show_orders(self, known: bool) -> None:
         """The axis of orders, where the shaft's speed is known."""

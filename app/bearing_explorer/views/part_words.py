@@ -9,7 +9,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.measurement.diagnoses import SLIP, Question
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
 from bearingcore import Diagnosis
-from bearingcore.common.numbers import probability
+from bearingcore.common.numbers import percent_off, probability
 from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
 
 LIKELY = 0.9
@@ -114,8 +114,8 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
         ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster"],
         [
             "Bearing",
-            f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 3)} mm on "
-            f"{style.number(1e3 * bearing.pitch_diameter, 4)} mm, contact angle {angle}",
+            f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 5)} mm on "
+            f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}",
         ],
     ]
     if not question.measured.in_si:
@@ -158,8 +158,7 @@ def chance(false_alarm: float) -> str:
 
 def slip(value: float) -> str:
     """A slip with its sign."""
-    text = f"{100.0 * value:+.1f} %"
-    return text.replace("-", "−").replace("+0.0", "0.0").replace("−0.0", "0.0")
+    return percent_off(value)
 
 
 def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:

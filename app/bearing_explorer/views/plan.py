@@ -56,9 +56,9 @@ class PlanInFull(View):
     name = "plan"
     title = "The plan in full"
     about = (
-        "No more directions, cage angles and steps than the error allows. What the program chose "
-        "for this scene, and the periodic orbit where it is stable and cheaper than a march. "
-        "“Plan”, beside the status line, overrules it."
+        "No more work than the allowed error asks for. The directions, cage angles and steps "
+        "that the program chose for this scene, and the periodic orbit where it is stable and "
+        "cheaper than a march. “Plan”, beside the status line, overrules it."
     )
     needs = frozenset()
     plans = (*CURVES, SETTLED)

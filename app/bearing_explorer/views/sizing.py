@@ -77,7 +77,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     name = "sizing"
     title = "3  How large"
     about = (
-        "How long a defect of the outer race is: every extent is simulated. The time from a "
+        "How long a defect of the outer race is. Every extent is simulated. The time from a "
         "ball's entry to a ball's exit gives the extent up to whole ball spacings. So every "
         "extent is asked how well it explains the mean ball pass and the spectrum. Point at a "
         "candidate to see it, coloured, over what was measured, thin."
@@ -134,11 +134,9 @@ class DefectSize(JobView[Sized], MeasuredView):
             title=f"Mean ball pass along {dof}",
         )
         plot.vspan("time", source=knocks, line_color=style.DEFECT, line_width=5, line_alpha=0.28)
-        words = style.words_of(knocks, _KNOCK_WORDS)
-        write_over(plot, knocks, words, "time", 0.06, FAMILIES[0].ink, x_offset="shift")
+        write_over(plot, knocks, _KNOCK_WORDS, "time", 0.06, FAMILIES[0].ink, x_offset="shift")
         plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
-        words = style.words_of(events, _EDGE_WORDS)
-        write_over(plot, events, words, "time", "row", style.INK, x_offset="shift")
+        write_over(plot, events, _EDGE_WORDS, "time", "row", style.INK, x_offset="shift")
         self._curves(packed, plot, dof, "pass", "time", "size")
         return plot
 
@@ -156,8 +154,7 @@ class DefectSize(JobView[Sized], MeasuredView):
             f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at"
         )
         plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
-        words = style.words_of(bands, BAND_WORDS)
-        write_over(plot, bands, words, "label_at", 0.93, color, text_align="center")
+        write_over(plot, bands, BAND_WORDS, "label_at", 0.93, color, text_align="center")
         self._curves(packed, plot, dof, "spectrum", "frequency", "level")
         return plot
 

@@ -75,7 +75,7 @@ KINDS = (
 _SAY = """
 const [size, kind] = cell
 if (isNaN(kind)) return "not computed"
-return kinds[kind] + (isNaN(size) ? "" : `, |μ| = ${Number(size.toPrecision(3))}`)
+return kinds[kind] + (isNaN(size) ? "" : `, |μ| = ${rounded(size, 3)}`)
 """
 
 

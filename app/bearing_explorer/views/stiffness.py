@@ -79,9 +79,9 @@ class Stiffness(View):
     name = "stiffness"
     title = "Stiffness of the bearing"
     about = (
-        "How hard the inner ring resists each displacement with each load. The 15 independent "
-        "terms of its symmetric 5×5 stiffness matrix as the bearing turns: displacements are the "
-        "columns, loads the rows. Grey: {grey}."
+        "How hard the inner ring resists, term by term. The 15 independent terms of its "
+        "symmetric 5×5 stiffness matrix as the bearing turns: displacements are the columns, "
+        "loads the rows. Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     plans = ("stiffness",)

@@ -18,7 +18,7 @@ from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.views.measured_view import LookPanel
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
-from bearing_explorer.views.wide_spectrum import WideSpectra
+from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.model.scene import WITH_MASS
 from bearingcore.plan import SETTLED
@@ -54,9 +54,9 @@ class VibrationSpectra(View):
     name = "vibration-spectrum"
     title = "Spectrum of the vibration"
     about = (
-        "Spectrum of the housing's acceleration once the start is forgotten. Power spectral "
-        "density along x and y, 32 Hz resolution. Grey: {grey}. Shaded: the bands of "
-        "the natural frequencies."
+        "Spectrum of the housing's acceleration. Power spectral density along x and y once the "
+        "start is forgotten, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
+        "frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
     plans = (SETTLED,)
@@ -84,7 +84,7 @@ class VibrationSpectra(View):
                 style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
                 frequency,
                 level,
-                height=270,
+                height=HEIGHT,
             )
             plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
             color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
@@ -178,7 +178,7 @@ class VibrationSpectra(View):
             "frequency",
             0.06,
             y_range_name="rows",
-            text=style.words_of(first, _PASS_WORDS),
+            text=style.words_in_view(plot, first, _PASS_WORDS, "frequency", share=1.0),
             source=first,
             x_offset=4,
             text_baseline="middle",

@@ -33,9 +33,13 @@ LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow on
 NAME_WIDTH = 0.17
 ROW_HEIGHT = 0.065  # of its height
 EVENT_ROWS = 3
+NARROW = 270  # [px] of the frame: with larger type there is room for less
 
 _BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.row}` : ''}"
-_EVENT_WORDS = f"return `{_BALL} ${{row.enters ? 'enters' : 'leaves'}}`"
+_EVENT_WORDS = f"""
+const does = row.enters ? 'enters' : 'leaves'
+return narrow ? `${{row.ball}} ${{does}}` : `{_BALL} ${{does}}`
+"""
 
 
 class VibrationInTime(View):
@@ -95,7 +99,7 @@ class VibrationInTime(View):
             "label_from",
             "label_at",
             y_range_name="shares",
-            text=style.words_of(events, _EVENT_WORDS),
+            text=style.fitting_words(plot, events, _EVENT_WORDS, below=NARROW),
             source=events,
             x_offset=4,
             text_font={"value": style.FONT},

@@ -22,7 +22,7 @@ SHOWN = ("x", "y")
 LOWEST = 100.0  # [Hz]
 DEPTH_OF_VIEW = 90.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
-HEIGHT = 270
+HEIGHT = 286  # [px]: the label of the axis is whole in large type too
 
 _BAND_WORDS = (
     "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above what is drawn' : ''}`"
@@ -71,11 +71,11 @@ class WideSpectra:
             plot.line("frequency", dof, source=others, **beneath)
             plot.line("frequency", dof, source=lines, line_color=color, line_width=1.4)
             plot.text(
-                "label_at", 0.06, y_range_name="rows", text=style.words_of(band, _BAND_WORDS),
-                source=band, text_align="right", text_baseline="middle",
-                text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
-                text_color=style.INK, background_fill_color="white", background_fill_alpha=0.85,
-                level="annotation",
+                "label_at", 0.06, y_range_name="rows", source=band,
+                text=style.words_in_view(plot, band, _BAND_WORDS, "label_at"),
+                text_align="right", text_baseline="middle", text_font={"value": style.FONT},
+                text_font_size=style.SMALL_TEXT_SIZE, text_color=style.INK, level="annotation",
+                background_fill_color="white", background_fill_alpha=0.85,
             )  # fmt: skip
             self.plots.append(plot)
 

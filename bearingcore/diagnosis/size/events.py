@@ -1,7 +1,7 @@
 """When balls enter and leave a defect, from the signal alone.
 
 An edge knocks at the rings: what rings afterwards is the resonances' and predictable, the knock
-itself is not. So the mean ball pass is freed of what a linear prediction foresees, and what is left
+itself is not. So the mean ball pass is freed of what a linear prediction gives, and what is left
 stands at the two edges. Its direction tells the edges apart, and more: a ball on its way into the
 defect hits the housing along the line from the shaft to that edge. The directions of the two knocks
 enclose the whole extent, not only its remainder after ball spacings. They are rough; the time
@@ -153,7 +153,7 @@ def _knocks(
     spacing: float,
 ) -> _Knocks:
     """The two strongest knocks of a ball pass, the entry first."""
-    left = _unforeseen(harmonics, scatter)
+    left = _unpredicted(harmonics, scatter)
     spread = np.maximum(left.std(axis=0), 1e-300)
     width = SMOOTHED_OVER / spacing * SAMPLES
     strength = _smoothed(((left / spread) ** 2).mean(axis=1), width)
@@ -178,10 +178,10 @@ def _knocks(
     return _Knocks((float(phases[0]), float(phases[1])), extent is not None, extent, strength)
 
 
-def _unforeseen(
+def _unpredicted(
     harmonics: NDArray[np.complex128], scatter: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """What a linear prediction of the mean pass does not foresee, (SAMPLES, d)."""
+    """What a linear prediction of the mean pass does not give, (SAMPLES, d)."""
     from scipy.linalg import solve_toeplitz  # imported late: see `spectrum`
 
     count = min(len(harmonics), SAMPLES // 2 - 1)
@@ -197,8 +197,8 @@ def _unforeseen(
         power[1 : count + 1] = np.abs(clean[:, column]) ** 2
         lags = np.fft.irfft(power, n)
         lags[0] = lags[0] * (1.0 + 1e-4) + 1e-300
-        foreseen = solve_toeplitz(lags[:order], lags[1 : order + 1])
-        factor = 1.0 - (turn[:, None] ** np.arange(1, order + 1)) @ foreseen
+        coefficients = solve_toeplitz(lags[:order], lags[1 : order + 1])
+        factor = 1.0 - (turn[:, None] ** np.arange(1, order + 1)) @ coefficients
         left[1 : count + 1, column] = clean[:, column] * factor
     return np.fft.irfft(left, SAMPLES, axis=0) * SAMPLES
 

@@ -286,11 +286,13 @@ def _speed(
             if mean > 0.0:
                 steady = float(np.ptp(speeds)) <= 0.02 * mean
                 words = f"the column “{column.name}”" + (
-                    "" if steady else f", which goes from {speeds.min():.4g} to {speeds.max():.4g}"
+                    ""
+                    if steady
+                    else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
                 return Finding(mean * SPEEDS[column.unit], words, steady)
     return facts.shaft_speed_in(named, table.name)
 
 
 def _text(one: Named) -> str:
-    return f"{one.value:g}" + (f" {one.unit}" if one.unit else "")
+    return number(one.value, 6) + (f" {one.unit}" if one.unit else "")

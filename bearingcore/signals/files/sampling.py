@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 UNEVEN = 0.5
@@ -123,9 +124,9 @@ def _rounded_times(grain: float, time: NDArray[np.float64], unit: float) -> Samp
     shared = round(grain * rate)
     so = f"about {shared} rows share one" if shared > 1 else "some rows share one"
     trouble = (
-        f"The times are rounded to {grain * unit:.2g} s, so that {so}: over all rows it is "
-        f"{rate / unit:.6g} Hz, give or take {error / unit:.2g} Hz, and shorter gaps than that "
-        "would not show."
+        f"The times are rounded to {with_prefix(grain * unit, 's', 2)}, so that {so}: over all "
+        f"rows it is {number(rate / unit, 6)} Hz, give or take {number(error / unit, 2)} Hz, and "
+        "shorter gaps than that would not show."
     )
     return Sampling(rate / unit, False, 0, n, trouble, "the rounded time column")
 
@@ -155,8 +156,9 @@ def _with_jumps(time: NDArray[np.float64], steps: NDArray[np.float64], unit: flo
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     trouble = (
-        f"The times do not rise evenly (steps of {low * unit:.3g} to {high * unit:.3g} s), so "
-        f"frequencies cannot be told from them; in the mean it would be {mean / unit:.6g} Hz."
+        f"The times do not rise evenly (steps of {with_prefix(low * unit, 's')} to "
+        f"{with_prefix(high * unit, 's')}), so frequencies cannot be known from them; in the mean "
+        f"it would be {number(mean / unit, 6)} Hz."
     )
     return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
 
@@ -171,13 +173,16 @@ def _jumps(
 ) -> str:
     """What is said of jumps; where rows share times nobody knows how many samples are missing."""
     back = int((steps[jumps] <= 0.0).sum())
+    # rounded times have rounded steps: only their mean is as long as a step is
+    even = np.delete(steps, jumps)
+    step = float(even.mean()) if even.size and not shared else usual
     with np.errstate(over="ignore"):
-        missing = float(np.maximum(np.round(steps[jumps] / usual) - 1.0, 0.0).sum())
+        missing = float(np.maximum(np.round(steps[jumps] / step) - 1.0, 0.0).sum())
     times = "once" if jumps.size == 1 else f"{jumps.size} times"
     words = f"The times jump {times}, first after row {jumps[0] + 1}"
     remarks = []
     if missing > 0.0 and not shared:
-        remarks.append(f"{missing:.0f} sample{'s are' if missing > 1.0 else ' is'} missing")
+        remarks.append(f"{thousands(missing)} sample{'s are' if missing > 1.0 else ' is'} missing")
     if back:
         remarks.append("back" if back == jumps.size else f"{back} times back")
     words += f" ({', '.join(remarks)})" if remarks else ""

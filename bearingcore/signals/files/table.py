@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import number
 from bearingcore.signals.files.channels import TIME
 from bearingcore.signals.files.contents import FileColumns, FileContents, contents_of
 from bearingcore.signals.files.units import UNITS, differentiated, kind_of, level_doubt
@@ -157,7 +158,7 @@ class Table(FileColumns):
         if asked is None:
             if stated is None or not stated.stated:
                 guess = (
-                    f"; {stated.value:.6g} is likely ({stated.reason})"
+                    f"; {number(stated.value, 6)} is likely ({stated.reason})"
                     if stated is not None
                     else ""
                 )
@@ -170,8 +171,8 @@ class Table(FileColumns):
         notes = [trouble]
         if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
             notes.append(
-                f"The sample rate was typed as {rate:.6g} Hz; {stated.reason} says "
-                f"{stated.value:.6g} Hz."
+                f"The sample rate was typed as {number(rate, 6)} Hz; {stated.reason} says "
+                f"{number(stated.value, 6)} Hz."
             )
         return rate, notes
 

@@ -400,7 +400,7 @@ def test_a_gap_is_told_and_a_rounded_time_asks_for_its_rate():
     made = brought("rounded.csv", ("time,y\n" + "\n".join(lines)).encode())
     assert made.measured is None
     assert made.state.open == ["sample_rate", "unit"]
-    assert "rounded to 0.001 s" in made.state.words
+    assert "rounded to 1 ms" in made.state.words
     assert made.state.values["sample_rate"] == "10000"
     answer(made, sure="yes")
     assert made.measured is not None

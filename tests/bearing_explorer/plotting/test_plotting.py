@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from pathlib import Path
 
 import holoviews as hv
 import numpy as np
@@ -217,3 +219,13 @@ def test_colours_are_light_at_zero_where_numbers_have_both_signs() -> None:
 def test_every_term_has_its_name() -> None:
     for term in STIFFNESS_TERMS:
         plotting.stiffness(STATE, [term])
+
+
+def test_a_saved_figure_needs_nothing_from_outside(tmp_path: Path) -> None:
+    """Nor style sheets: each that the figure names by an address would be asked for."""
+    file = tmp_path / "figure.html"
+    both = plotting.stiffness(STATE, ["k_yy"]) + plotting.load_distribution(STATE)
+    hv.save(both, str(file), resources="inline")
+    text = file.read_text(encoding="utf-8")
+    assert re.findall(r"https?://[^\s\"\\\\]+\.css", text) == []
+    assert re.findall(r"<script[^>]+src=|<link[^>]+stylesheet", text) == []

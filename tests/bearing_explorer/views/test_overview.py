@@ -188,9 +188,9 @@ def test_names_of_bands_stand_clear_of_each_other(name: str) -> None:
     for row in set(bands["row"]):
         own = bands["row"] == row
         ends = [
-            (low - width, high) if np.isfinite(left) else (low, high + width)
-            for low, high, left in zip(
-                bands["low"][own], bands["high"][own], bands["left"][own], strict=True
+            (low - width, high) if to_left else (low, high + width)
+            for low, high, to_left in zip(
+                bands["low"][own], bands["high"][own], bands["to_left"][own], strict=True
             )
         ]
         ends.sort()

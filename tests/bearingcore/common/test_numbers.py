@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import math
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -53,6 +55,32 @@ def test_prefixes(value: float, unit: str, text: str) -> None:
 )
 def test_shares(share: float, text: str) -> None:
     assert numbers.percent(share) == text
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.0031, "+0.3 %"), (-0.012, "−1.2 %"), (-0.0001, "0.0 %"), (0.0, "0.0 %"), (1.5, "+150.0 %"),
+     (math.nan, "no value")],
+)  # fmt: skip
+def test_how_far_off(share: float, text: str) -> None:
+    assert numbers.percent_off(share) == text
+
+
+def test_no_sentence_writes_percents_or_powers_of_ten_by_itself() -> None:
+    """Python's own ways, "-0.1%" and "2.48e+03", are for files; tables of experiments print."""
+    root = Path(__file__).parents[3]
+    files = [*(root / "app").rglob("*.py"), *(root / "bearingcore").rglob("*.py")]
+    found = []
+    for file in files:
+        if file.name == "numbers.py" or "experiments" in file.parts:
+            continue
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.FormattedValue) or node.format_spec is None:
+                continue
+            spec = ast.unparse(node.format_spec)
+            if re.search(r"[%eE]'$", spec):
+                found.append(f"{file.relative_to(root)}:{node.lineno} {spec}")
+    assert found == []
 
 
 @pytest.mark.parametrize(

@@ -134,6 +134,8 @@ def test_a_longer_defect_continues_the_same_surface() -> None:
         "angle [deg]\tdepth [µm]\r\n260\t0\r\n265\t40\r\n270\t50\r\n280\t0\r\n",
         "260 0\n\n265 40\n270   50\n280 0",
         "260,0 0,0\n265,0 40,0\n270,0 50,0\n280,0 0,0",
+        "angle_deg;depth_mm\n260;0\n265;0,04\n270;0,05\n280;0\n",
+        "phi [rad],h (nm)\n4.53785606,0\n4.62512252,40000\n4.71238898,50000\n4.88692191,0\n",
     ],
 )
 def test_a_floor_is_read_from_two_columns(text: str) -> None:

@@ -11,7 +11,12 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.modes import BAND_WORDS, FREQUENCY, band_rows, direction_mapper
+from bearing_explorer.views.modes import (
+    FREQUENCY,
+    SHORT_BAND_WORDS,
+    band_rows,
+    direction_mapper,
+)
 from bearing_explorer.views.vibration_spectrum import HIGHEST
 from bearingcore.dynamics.modes import bands_table
 from bearingcore.sweep.outputs import mode_symbol
@@ -21,6 +26,15 @@ if TYPE_CHECKING:
 
 _LABEL_FROM = 0.8  # of the width: further right a label would be cut off
 _LABEL_WIDTH = 0.26  # of the width, of a narrow card
+_SIDE = f"""
+const {{start, end}} = plot.x_range
+let width = Infinity
+try {{ width = plot.inner_width }} catch {{}}  // not laid out
+const right = (row.high - start)/(end - start)*width
+const fits = !(right + 7 + {0.55 * int(style.SMALL_TEXT_SIZE[:-2]):.1f}*text.length > width)
+const to_right = !row.to_left && fits
+"""
+"""A name that the server puts right of its band has no room there on a narrow screen."""
 _MOST_ROWS = 5
 """Modes that have a row each; of more those of a direction share one, or nobody could read them."""
 
@@ -62,7 +76,15 @@ class OverviewBands(View):
             fill_color=style.HEALTHY, fill_alpha=0.5, line_color=None,
         )  # fmt: skip
         bands = packed.source(
-            "overview_bands", "low", "high", "direction", "number", "row", "now", "right", "left"
+            "overview_bands",
+            "low",
+            "high",
+            "direction",
+            "number",
+            "row",
+            "now",
+            "to_left",
+            "shared",
         )
         color = {"field": "direction", "transform": colors}
         plot.hbar(
@@ -73,9 +95,14 @@ class OverviewBands(View):
             "now", "row", source=bands, marker="dash", angle=np.pi / 2.0, size=15,
             line_color=style.INK, line_width=2.2,
         )  # fmt: skip
-        for place, side, offset in (("right", "left", 7), ("left", "right", -7)):
+        short = f"if (!row.shared) narrow = false\n{SHORT_BAND_WORDS}"
+        for place, side, offset, kept in (
+            ("high", "left", 7, "to_right"),
+            ("low", "right", -7, "!to_right"),
+        ):
+            words = style.fitting_words(plot, bands, short, keep=f"{_SIDE}return {kept}")
             plot.text(
-                place, "row", text=style.words_of(bands, BAND_WORDS), source=bands,
+                place, "row", text=words, source=bands,
                 x_offset=offset, text_align=side, text_baseline="middle", text_color=color,
                 text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
             )  # fmt: skip
@@ -94,15 +121,14 @@ class OverviewBands(View):
             rows.get(key, np.nan) for key in zip(usual["direction"], usual["number"], strict=True)
         ]
         own_row = np.array([rows[key] for key in keys])
-        left = _left_of(bands, own_row, top)
         return {
             "overview_bands": {
                 **bands,
                 "row": own_row,
                 "now": _now(results)[order],
                 # beside the band where there is room: right of it, else left
-                "right": np.where(left, np.nan, bands["high"]),
-                "left": np.where(left, bands["low"], np.nan),
+                "to_left": _left_of(bands, own_row, top),
+                "shared": np.full(own_row.size, len(keys) > _MOST_ROWS),
             },
             "overview_healthy_bands": {
                 "low": usual["low"],

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 COLUMNS = 5
 LIVELY = 0.02
 """Of the size of a term: it matters where it swings or is off the healthy one by more."""
+CALM = 10.0
+"""A cell in which nothing happens shows so much more: its small changes are no picture."""
 MOST_POINTS = 61
 """Of a trace: a cell is little more than a hundred pixels wide."""
 
@@ -141,9 +143,9 @@ class OverviewStiffness(View):
         for i, (cell, term, scale) in enumerate(zip(_CELLS, STIFFNESS_TERMS, scales, strict=True)):
             a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
             values[i] = cleaned(now.term(term), scale)[0]
-            limits = trace_limits(self._limits[i], scale, a, b)
-            ours = cell.x(shares[0]), cell.y(a[pick[0]], limits)
             lively[i] = term in free and is_lively(a, b, scale)
+            limits = trace_limits(self._limits[i], scale if lively[i] else CALM * scale, a, b)
+            ours = cell.x(shares[0]), cell.y(a[pick[0]], limits)
             if lively[i]:
                 traces["lively"].append(ours)
                 traces["healthy"].append((cell.x(shares[1]), cell.y(b[pick[1]], limits)))

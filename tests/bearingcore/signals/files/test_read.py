@@ -94,6 +94,14 @@ def test_rows_after_dropped_samples_are_not_joined_to_those_before():
     assert "rows 1001 to 2990" in got.notes[0]
 
 
+def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():
+    time = np.arange(24_000) / 12_000.0
+    time[15_001:] += 0.5
+    lines = "".join(f"{t:.6f},{np.sin(400.0 * t):.4f}\n" for t in time)
+    table = read_table("gap.csv", ("t [s],ay [m/s²]\n" + lines).encode())
+    assert "6\u202f000 samples are missing" in table.contents.sampling.trouble
+
+
 def test_dates_and_times_of_day_are_a_time_column():
     begin = np.datetime64("2024-02-28T23:59:59.900000000")
     steps = (TIME * 1e9).round().astype("timedelta64[ns]")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from bearingcore.common.numbers import with_prefix
 from bearingcore.signals.files.sampling import clock_columns, sampling_of
 
 RATE = 12_800.0
@@ -26,7 +27,7 @@ def test_times_rounded_to_more_than_a_step_propose_a_rate(decimals: int) -> None
     found = sampling_of(np.round(TIME, decimals))
     assert not found.stated
     assert found.sample_rate == RATE
-    assert f"rounded to {10.0**-decimals:.2g} s" in found.trouble
+    assert f"rounded to {with_prefix(10.0**-decimals, 's')}," in found.trouble
 
 
 @pytest.mark.parametrize(

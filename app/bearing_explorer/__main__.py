@@ -115,17 +115,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
     from bearing_explorer.server.serving import make_server, quiet_for
     from bearing_explorer.server.threads import still_at_work
-    from bearing_explorer.state.lessons import faults_in
+    from bearing_explorer.state.lessons import faults_in, lessons_in, own_folder
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
     _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
     import bearingcore
 
-    first_start = FirstStart(_say, _load_figures)
+    def load() -> None:
+        lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
+        _load_figures()
+
+    first_start = FirstStart(_say, load)
     if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
         bearingcore.warm(report=_say)
-        _load_figures()
+        load()
     if not bearingcore.kernels.kept_on_disk():
         _say(NOT_KEPT)
 
@@ -198,14 +202,21 @@ def _load_figures() -> None:
     """HoloViews, which Explore draws with: Panel looks for it from any thread once it is there.
 
     Where one thread still imports it then, both fail. A first image has it import three hundred
-    modules more, in a third of a second: not on the event loop, when somebody opens Explore.
+    modules more, in a third of a second, and a first map takes half a second more than all others:
+    not on the event loop, when somebody opens Explore.
     """
     import holoviews as hv
     import numpy as np
 
-    import bearing_explorer.plotting  # noqa: F401
+    from bearing_explorer.figures.style import AxisQuantity
+    from bearing_explorer.plotting.plane import Field, plane
 
-    hv.Image(np.zeros((2, 2)))
+    x, y, value = (AxisQuantity(name, "", "") for name in ("x", "y", "value"))
+    places = np.array([0.0, 1.0])
+    reasons = np.array([["", ""], ["", "not known"]], dtype=object)
+    values = np.where(reasons == "", 1.0, np.nan)
+    first = Field(("x", x, places), ("y", y, places), ("v", value), values, reasons, (0.0, 0.0))
+    hv.renderer("bokeh").get_plot(plane(first, responsive=True))
 
 
 def _end_with_parent(loop: Any) -> None:

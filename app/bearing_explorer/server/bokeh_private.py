@@ -174,6 +174,11 @@ def http_server_of(server: Any) -> Any:
     return getattr(server, "_http", None)
 
 
+def contexts_of(server: Any) -> list[Any]:
+    """What holds the sessions of a server, of each of its pages; none where it is not found."""
+    return list(getattr(tornado_of(server), "_applications", {}).values())
+
+
 def sockets_of(session: Any) -> list[Any]:
     """The websockets of a session; none where they cannot be found."""
     connections = tuple(getattr(session, "_subscribed_connections", ()))

@@ -23,17 +23,18 @@ from bearing_explorer.server.bokeh_private import collect_elsewhere
 
 QUIET = 0.6
 """[s] that nobody has sent anything for, before a collection that can wait."""
-DUE = 60_000
-"""New objects for which a collection is due, in a quiet moment: about what opening two sessions
+DUE = 40_000
+"""New objects for which a collection is due, in a quiet moment: about what opening one session
 makes."""
 PRESSING = 2 * DUE
 """New objects for which it waits no longer."""
-KEPT = 60_000
+KEPT = 40_000
 """Objects that may be left by a collection without being frozen. What is frozen too early, such as
 figures that are made anew each time, is found by no collection once it has become garbage.
 
 So a collection looks at `KEPT` and `PRESSING` and what comes in the quarter of a second between two
-looks: at 200,000 objects. That takes half a microsecond each, 0.1 s."""
+looks: at 150,000 objects. That takes half a microsecond each, 0.08 s, and up to three times as long
+on a machine whose memory is in demand."""
 LEFT = 200_000
 """Frozen objects beyond those of the start for which all are looked at once nobody is there: they
 hold some 50 MB. All are then half a million, which takes a quarter of a second."""

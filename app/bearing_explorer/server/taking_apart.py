@@ -13,7 +13,7 @@ import asyncio
 import functools
 import gc
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from types import CellType, FunctionType, MethodType
 from typing import Any
 
@@ -31,6 +31,10 @@ every 0.12 s."""
 LOOKS = 0.25
 """[s] between two looks at whether a thread has come back. Nobody waits for it."""
 
+AT_ONCE = 500
+"""Objects that are looked at, or parts that are taken apart, in one turn of the event loop: it
+takes some milliseconds."""
+
 _HELD: tuple[type, ...] = (Model, Viewable, BaseTemplate)
 """What belongs to one session, wherever it is found: none of these can be shown in two."""
 _PLAIN = (list, tuple, set, frozenset, deque)
@@ -45,8 +49,17 @@ def parts_of(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> list[obje
     mappings, methods and closures are followed alone. All else is left as it is, for it may be
     shared: scenes, results, modules.
     """
-    wanted = (*_HELD, *kinds)
     found: list[object] = []
+    for _ in _search(roots, kinds, found):
+        pass
+    return found
+
+
+def _search(
+    roots: Iterable[object], kinds: tuple[type, ...], found: list[object]
+) -> Iterator[None]:
+    """Put the parts into `found`; each step takes a few milliseconds."""
+    wanted = (*_HELD, *kinds)
     seen: dict[int, object] = {}
     waiting = list(roots)
     while waiting:
@@ -62,7 +75,8 @@ def parts_of(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> list[obje
             found.append(one)
             waiting += gc.get_referents(inside(one))
         waiting += held
-    return found
+        if len(seen) % AT_ONCE == 0:
+            yield
 
 
 def _followed(one: object) -> Iterable[object] | None:
@@ -120,7 +134,11 @@ async def _take_apart(roots: list[object], kinds: tuple[type, ...]) -> None:
     begun = threads.at_work()
     while not all(future.done() for future in begun):
         await asyncio.sleep(LOOKS)
-    parts = parts_of(roots, kinds)
+    parts: list[object] = []
+    for _ in _search(roots, kinds, parts):
+        await asyncio.sleep(0.0)
     roots.clear()
     while parts:
         vars(parts.pop()).clear()
+        if len(parts) % AT_ONCE == 0:
+            await asyncio.sleep(0.0)

@@ -11,7 +11,7 @@ from typing import Any
 import panel as pn
 import pytest
 from bearing_explorer.compute.executors import PICTURES
-from bearing_explorer.server import serving, taking_apart
+from bearing_explorer.server import places, serving, taking_apart
 from bearing_explorer.server.bokeh_private import drop_session
 from bearing_explorer.server.taking_apart import models_at_end, parts_of, take_apart
 from bokeh.document import Document
@@ -90,6 +90,40 @@ def test_who_stays_is_not_taken_apart() -> None:
         await stays.close()
 
     served(one_goes)
+
+
+def test_sessions_end_one_after_the_other_and_those_in_use_stay(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    turns, ends = [0], []
+    drop = places.drop_session
+
+    async def noted(context: Any, name: str) -> None:
+        ends.append(turns[0])
+        await drop(context, name)
+
+    async def count() -> None:
+        while True:
+            turns[0] += 1
+            await asyncio.sleep(0.0)
+
+    async def leave(url: str, server: Any) -> None:
+        stays, *others = [PageClient(url) for _ in range(3)]
+        for client in (stays, *others):
+            await client.open_page()
+        await stays.connect()
+        monkeypatch.setattr(places, "LINGERS", -1.0)
+        monkeypatch.setattr(places, "drop_session", noted)
+        counting = asyncio.create_task(count())
+        [context] = server._tornado._applications.values()
+        await places.drop_ended(context)
+        counting.cancel()
+        assert len(session_of(server)) == 1
+        first, second = ends
+        assert second > first, "others had a turn between"
+        await stays.close()
+
+    served(leave)
 
 
 def test_a_thread_that_is_at_work_still_has_all_it_works_with() -> None:

@@ -115,17 +115,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
     from bearing_explorer.server.serving import make_server, quiet_for
     from bearing_explorer.server.threads import still_at_work
-    from bearing_explorer.state.lessons import faults_in
+    from bearing_explorer.state.lessons import faults_in, lessons_in, own_folder
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
     _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
     import bearingcore
 
-    first_start = FirstStart(_say, _load_figures)
+    def load() -> None:
+        lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
+        _load_figures()
+
+    first_start = FirstStart(_say, load)
     if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
         bearingcore.warm(report=_say)
-        _load_figures()
+        load()
     if not bearingcore.kernels.kept_on_disk():
         _say(NOT_KEPT)
 

@@ -6,7 +6,7 @@ aside. Reference counting still frees it, and `taking_apart` sees to it that ref
 suffices for a session. A collection then looks at what has come since the last one.
 
 What is frozen and becomes garbage all the same, in circles that nothing takes apart, stays. It is
-looked for when nobody is connected.
+looked for when nobody is connected; with people there only before it takes a machine's memory.
 """
 
 from __future__ import annotations
@@ -38,6 +38,10 @@ on a machine whose memory is in demand."""
 LEFT = 200_000
 """Frozen objects beyond those of the start for which all are looked at once nobody is there: they
 hold some 50 MB. All are then half a million, which takes a quarter of a second."""
+TOO_MANY = 4_000_000
+"""Frozen objects beyond those of the start for which all are looked at in a quiet moment, whoever
+is there: they hold a gigabyte. That keeps everybody waiting for some seconds, and is meant for what
+nobody has foreseen: ninety people with three tabs each have as many."""
 ALONE = 20.0
 """[s] without anybody connected after which all may be looked at: pages that come back have come,
 and sessions that have ended are taken apart."""
@@ -89,6 +93,8 @@ class IdleCollection:
             self._collect(False)
         if quiet < math.inf:
             self._alone_since, self._looked_at_all = None, False
+            if quiet >= QUIET and self._left() > TOO_MANY:
+                self._collect(True)
             return
         now = self._now()
         if self._alone_since is None:

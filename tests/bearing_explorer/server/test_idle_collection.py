@@ -13,6 +13,7 @@ from bearing_explorer.server.idle_collection import (
     LEFT,
     PRESSING,
     QUIET,
+    TOO_MANY,
     IdleCollection,
 )
 
@@ -71,6 +72,15 @@ def test_all_is_looked_at_once_nobody_is_there_and_much_is_left() -> None:
     clock.pass_by(0.25, quiet=60.0)
     clock.pass_by(0.25, quiet=math.inf)
     assert clock.pass_by(ALONE, quiet=math.inf) == [], "what is left is little"
+
+
+def test_all_is_looked_at_before_it_takes_the_memory_of_the_machine() -> None:
+    clock = Clock()
+    clock.left = TOO_MANY
+    assert clock.pass_by(1.0, quiet=QUIET) == []
+    clock.left = TOO_MANY + 1
+    assert clock.pass_by(1.0, quiet=0.0) == [], "somebody drags"
+    assert clock.pass_by(1.0, quiet=QUIET) == ["all"]
 
 
 _PROCESS = """

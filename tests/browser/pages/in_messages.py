@@ -1,47 +1,50 @@
-"""A container that comes with one child, and with the next in a message that follows at once."""
+"""Containers that come with one child, and with the next in messages that follow at once.
 
-from typing import ClassVar
+Their views take a while, as those do whose script is loaded as a module.
+"""
 
 import panel as pn
-import param
 from bearing_explorer.assets import asset_text
 
 TEMPLATE = """
 {% extends base %}
-{% block inner_head %}{{ super() }}<script>{{ order_script }}</script>{% endblock %}
+{% block inner_head %}
+{{ super() }}
+<script>{{ order_script }}</script>
+<script>
+  const spacer = Bokeh.Models.get("Spacer").prototype.default_view.prototype
+  const begin = spacer.lazy_initialize
+  spacer.lazy_initialize = async function () {
+    await begin.call(this)
+    await new Promise((done) => setTimeout(done, 300))
+  }
+</script>
+{% endblock %}
 {% block contents %}{{ embed(roots.main) }}{% endblock %}
 """
 
 
-class Word(pn.custom.JSComponent):
-    """A component, whose script the browser loads as a module before its view stands."""
-
-    text = param.String()
-
-    _esm: ClassVar[str] = """
-    export function render({ model }) {
-      const word = document.createElement("p")
-      word.className = "word"
-      word.textContent = model.text
-      return word
-    }"""
+def child(name: str) -> pn.Spacer:
+    """Something to look for."""
+    return pn.Spacer(width=10, height=10, name=name, css_classes=["child", name])
 
 
 main = pn.Column()
-boxes = [pn.Column(), pn.Column()]
+given = pn.state.session_args or {}
+boxes = [pn.Column() for _ in range(int(given.get("boxes", [b"1"])[0]))]
 
 
 async def fill() -> None:
-    """Each `append` is a message of its own."""
+    """Each `append` to what is on the page is a message of its own."""
     for number, box in enumerate(boxes):
-        box.append(Word(text=f"{number}a"))
+        box.append(child(f"first-{number}"))
         main.append(box)
-        box.append(Word(text=f"{number}b"))
-        box.append(Word(text=f"{number}c"))
+        box.append(child(f"second-{number}"))
+        box.append(child(f"third-{number}"))
 
 
 pn.state.onload(fill)
 template = pn.Template(TEMPLATE)
-template.add_variable("order_script", asset_text("in_order.js"))
+template.add_variable("order_script", "" if "plain" in given else asset_text("in_order.js"))
 template.add_panel("main", main)
 template.servable()

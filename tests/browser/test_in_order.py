@@ -1,0 +1,47 @@
+"""What the server says while views are built: nothing of it is lost, and nothing is built twice."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.explorer_page import painted
+from tests.browser.helpers import PAGES, Server, Watch, page_server, serving
+
+CHILDREN = ("first", "second", "third")
+_SHOWN = """all => all.map(one =>
+  [...one.classList].find(word => /^(first|second|third)-/.test(word)))"""
+_KNOWN = """number => Bokeh.documents[0]?.roots().flatMap((root) => [...root.references()])
+  .filter((model) => model.type === "Spacer").length === number"""
+
+
+@pytest.fixture(scope="module")
+def in_messages_page() -> Iterator[Server]:
+    with serving(page_server(PAGES / "in_messages.py")) as server:
+        yield server
+
+
+@pytest.mark.parametrize("boxes", [1, 2])
+def test_children_that_come_in_messages_of_their_own_are_all_shown_once(
+    watch: tuple[Page, Watch], in_messages_page: Server, boxes: int
+) -> None:
+    page, _ = watch
+    page.goto(f"{in_messages_page.url}?boxes={boxes}")
+    children = page.locator(".child")
+    expect(page.locator(f".third-{boxes - 1}").first).to_be_visible()
+    painted(page)
+    wanted = [f"{name}-{number}" for number in range(boxes) for name in CHILDREN]
+    assert children.evaluate_all(_SHOWN) == wanted
+    assert page.evaluate("[window.in_order.missing, window.in_order.waiting]") == [[], 0]
+
+
+def test_bokeh_alone_loses_what_comes_while_it_builds(
+    watch: tuple[Page, Watch], in_messages_page: Server
+) -> None:
+    """Where this fails, Bokeh hears of it, and the script can go."""
+    page, _ = watch
+    page.goto(f"{in_messages_page.url}?plain=1")
+    page.wait_for_function(_KNOWN, arg=len(CHILDREN))
+    expect(page.locator(".first-0")).to_be_visible()
+    painted(page)
+    assert page.locator(".child").evaluate_all(_SHOWN) == ["first-0"]

@@ -176,6 +176,38 @@
     })
   })
 
+  // Where anything on the page grew by a line of text, or an axis by a digit, all figures of all tabs
+  // were laid out anew, with their toolbars. Style sheets place what is on the page, and a figure
+  // hears of its own size: it is laid out with those of its card, whose axes are in line.
+  const column = view_of("Column")
+  const resized = method(column, "_after_resize")
+  const heard = method(figure, "after_resize")
+  const lay_out = method(column, "compute_layout")
+  const measure = method(column, "measure_layout")
+  const update_bbox = method(column, "update_bbox")
+  const compute = method(column, "_compute_layout")
+  const follow = method(column, "after_layout")
+  part("layout of the page", [resized, heard, lay_out, measure, update_bbox, compute, follow], () => {
+    const is_figure = (view) => view instanceof figure.constructor
+    owner(column, "_after_resize")._after_resize = function () {
+      if (!this._was_built || is_figure(this)) resized.call(this)
+    }
+    figure.after_resize = function () {
+      heard.call(this)
+      // what it stands in may have measured it before
+      const { bbox, layout } = this
+      const stale = bbox.width !== layout?.bbox.width || bbox.height !== layout?.bbox.height
+      if (this._was_built && this.is_displayed && stale) this.compute_layout()
+    }
+    owner(column, "compute_layout").compute_layout = function () {
+      if (!this.el.classList.contains("view")) return lay_out.call(this)
+      this.measure_layout()
+      this.update_bbox()
+      this._compute_layout()
+      this.after_layout()
+    }
+  })
+
   // Scripts of a figure were compiled each time they ran.
   const made = method(formatter, "_make_func")
   part("scripts of ticks", [made], () => {

@@ -114,6 +114,31 @@
     })
   })
 
+  // ... and for ranges that follow the lines, which none here does: all are set.
+  const followed = getter(figure, "auto_ranged_renderers")
+  part("bounds of lines", [followed], () => {
+    Object.defineProperty(owner(figure, "auto_ranged_renderers"), "auto_ranged_renderers", {
+      configurable: true,
+      get() {
+        const all = followed.call(this)
+        const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
+        const set = ranges.every(({ type }) => type === "Range1d")
+        return set && all.every(({ model }) => model.coordinates === null) ? [] : all
+      },
+    })
+  })
+
+  // ... and to leave out what lies outside of a frame, which is clipped: a few dots may be painted.
+  const mask = method(line, "mask_data")
+  part("dots outside of a frame", [mask], () => {
+    const FEW = 200
+    owner(line, "mask_data").mask_data = function () {
+      if (this.data_size > FEW) delete this._mask_data  // the class has it still
+      else this._mask_data = null
+      return mask.call(this)
+    }
+  })
+
   // An axis works out its ticks and their words six times a repaint; they follow from its ranges.
   const ticks = getter(axis, "tick_coords")
   const extents = getter(axis, "extents")

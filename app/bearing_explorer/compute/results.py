@@ -462,7 +462,8 @@ class Results:
         """How what is shown is coarse, where it is."""
         scene = self.scene if "ball_mass" not in shown else self.scene.replace(balls=WITH_MASS)
         if scene.balls == MASSLESS:
-            return "coarse while it moves: half the motion in half the steps"
+            part = "a quarter of" if "dof_comparison" in shown else "half"
+            return f"coarse while it moves: {part} the motion in half the steps"
         seconds = quick_duration(scene, self.settings.coarse_marching)
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
@@ -671,8 +672,10 @@ class Results:
             return DofComparison(chosen, other, {}, {})
         against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
         static = static_differences(self.equilibrium, against.equilibrium)
-        settings = self.settings
-        how = settings.coarse_marching if self.coarse_comparison else settings.marching
+        how = self.settings.marching
+        if self.coarse_comparison:  # two motions, one of them in five directions
+            how = self.settings.coarse_marching
+            how = dataclasses.replace(how, duration=0.5 * how.duration)
         try:
             pair = [answers.spectra(one, how) for one in (self.scene, against.scene)]
             moving = spectrum_differences(*pair)

@@ -108,13 +108,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
-    from bearing_explorer.compute.executors import still_at_work
     from bearing_explorer.compute.first_start import FirstStart
     from bearing_explorer.page import TABS, page
     from bearing_explorer.server import idle_collection
     from bearing_explorer.server.limits import MEGABYTE, Limits
     from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
     from bearing_explorer.server.serving import make_server, quiet_for
+    from bearing_explorer.server.threads import still_at_work
     from bearing_explorer.state.lessons import faults_in
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():

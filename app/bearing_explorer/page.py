@@ -6,6 +6,7 @@ import html
 import logging
 from functools import cache
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlencode
 
 import panel as pn
@@ -14,10 +15,12 @@ import bearingcore
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.compute import compiling
 from bearing_explorer.server.live import on_loop
+from bearing_explorer.server.taking_apart import models_at_end, take_apart
 from bearing_explorer.server.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy
+from bearing_explorer.views.base import View
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
 from bearing_explorer.views.bearing_list import BearingList
@@ -97,6 +100,12 @@ def address() -> str:
     return urlencode([(name, value) for name, values in given.items() for value in values])
 
 
+@cache
+def _frame() -> Any:
+    """The frame of all pages, read once a process."""
+    return PageTemplate(asset_text("page.html")).template
+
+
 PYTHON_INSTALL = "pip install ."
 """What the page says of how to install it."""
 
@@ -115,12 +124,13 @@ def page(lessons: Path | None = None) -> PageTemplate:
     known = lessons_in(lessons or own_folder(), TABS)
     explorer = Explorer(SECTIONS, address=address(), lessons=known)
     explorer.lesson.teachers = _for_teachers()
-    template = PageTemplate(asset_text("page.html"))
+    template = PageTemplate(_frame())
     template.add_variable("style", asset_text("page.css") + dark_properties())
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())
     template.add_variable("theme_script", asset_text("theme.js"))
     template.add_variable("connection_script", asset_text("connection.js"))
+    template.add_variable("order_script", asset_text("in_order.js"))
     template.add_variable("figures_script", asset_text("fast_figures.js"))
     template.add_variable("python_install", PYTHON_INSTALL)
     template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
@@ -136,7 +146,14 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("packed", pn.pane.Bokeh(explorer.packed.anchor, margin=0))
     doc = pn.state.curdoc
     pn.state.onload(lambda: on_loop(doc, explorer.start))
-    pn.state.on_session_destroyed(lambda _: explorer.stop())
+
+    models = models_at_end(doc)
+
+    def over(_: object) -> None:
+        explorer.stop()
+        take_apart((explorer, template, models), (Explorer, View))
+
+    pn.state.on_session_destroyed(over)
     if doc is not None:
         doc.title = "Bearing explorer"
     return template

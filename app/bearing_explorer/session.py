@@ -8,7 +8,7 @@ import dataclasses
 import logging
 import math
 import time
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -27,7 +27,13 @@ from bearing_explorer.compute.scheduler import Scheduler
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.server import log as write
-from bearing_explorer.server.live import good_byes, one_message, send_at_once
+from bearing_explorer.server.live import (
+    good_byes,
+    make_models,
+    models_made,
+    one_message,
+    send_at_once,
+)
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
@@ -248,6 +254,7 @@ class Explorer:
             ask=self._asked,
             add_controls=self._panels.append,
             take_steps=self._take_steps,
+            fill=self._fill,
             say_endurance=self._take_endurance,
         )
 
@@ -284,12 +291,16 @@ class Explorer:
         self.draw()
 
     def stop(self) -> None:
-        """The session is over."""
+        """The session is over: nothing is begun any longer, and what waits for its turn is not."""
         good_byes.pop(self._doc, None)
         self._worker.stop()
         self._idle_task.end()
         self.jobs.stop()
         self.measurement.stop()
+        for task in self._tasks:
+            task.cancel()
+        for view in [view for views in self._views.values() for view in views]:
+            view.end()
 
     def draw(self) -> None:
         """Bring what is on screen up to date: at once, and by plan when the hand rests."""
@@ -426,9 +437,14 @@ class Explorer:
             found = await in_thread(compute)
             await one_message(self._doc, lambda: take(found))
 
-        task = asyncio.get_running_loop().create_task(work())
+        self._keep(work())
+
+    def _keep(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        """Have something done that nobody waits for; asyncio forgets tasks that nobody holds."""
+        task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
 
     # The bar above the controls
 
@@ -576,24 +592,53 @@ class Explorer:
         """Put a section on screen; its figures are made when it is first asked for.
 
         Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before it hears of its numbers.
+        must know a figure before it hears of its numbers. On the event loop the section only comes
+        into the document: figures, models and the message are made in threads.
         """
         if name not in self._views:
             self._views[name] = await in_thread(self._make, name, slow=True)
-        new = name not in self._containers
+        if name not in self._containers:
+            self._containers[name] = self._container(self._views[name])
+            await models_made(self._doc, self.main, self._containers[name])
+        new = self._containers[name] not in self.main
         await one_message(self._doc, lambda: self._put_up(name), new_models=new)
 
+    def _container(self, views: Sequence[View]) -> pn.Column:
+        """What holds the views of a section."""
+        for view in views:
+            view.attach(self._parts)
+        return pn.Column(
+            *(view.panel for view in views),
+            stylesheets=[asset_text("section.css")],
+            sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
+            margin=0,
+        )
+
+    def _fill(
+        self,
+        layout: pn.Column,
+        make: Callable[[], pn.viewable.Viewable],
+        then: Callable[[], None],
+    ) -> asyncio.Task[None]:
+        """Put what is made into a layout of a view on screen, and then act: turn after turn."""
+
+        async def fill() -> None:
+            made = make()
+            await asyncio.sleep(0.0)
+            if self._doc is not None:
+                make_models(layout, made, self._doc)
+            await asyncio.sleep(0.0)
+
+            def change() -> None:
+                layout[:] = [made]
+                then()
+
+            await one_message(self._doc, change, new_models=True)
+
+        return self._keep(fill())
+
     def _put_up(self, name: str) -> None:
-        if name not in self._containers:
-            views = self._views[name]
-            for view in views:
-                view.attach(self._parts)
-            self._containers[name] = pn.Column(
-                *(view.panel for view in views),
-                stylesheets=[asset_text("section.css")],
-                sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
-                margin=0,
-            )
+        if self._containers[name] not in self.main:
             self.main.append(self._containers[name])
         for other, container in self._containers.items():
             shown = "on-screen" if other == name else "off-screen"

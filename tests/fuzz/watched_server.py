@@ -3,7 +3,7 @@
 What follows the file's name is for the explorer. From outside, silence is that of the machine too;
 so here each turn of the loop is timed where it happens, by the clock and by the processor time of
 the loop's own thread. The longest turns and where they were at work are written to the file once a
-second, as JSON.
+second, as JSON, and when each turn began that worked for long.
 """
 
 from __future__ import annotations
@@ -15,11 +15,13 @@ import sys
 import threading
 import time
 import traceback
+from collections import deque
 from pathlib import Path
 from typing import Any
 
 LOOKED_AT = 0.08  # [s] after which a turn is asked where it is
 KEPT = 12
+LONG = 0.02  # [s] of work from which a turn is noted with its time
 
 
 class Watch:
@@ -29,6 +31,7 @@ class Watch:
         self._report = report
         self.turns = 0
         self.longest: list[dict[str, Any]] = []
+        self.long: deque[dict[str, Any]] = deque(maxlen=3000)
         self.collected = 0.0  # [s] of processor time that the longest garbage collection took
         self._begun = 0.0  # of the turn that is going on; 0 between turns
         self._where: dict[float, str] = {}
@@ -54,7 +57,12 @@ class Watch:
 
     def write(self) -> None:
         """Put what there is into the report, in one step."""
-        found = {"turns": self.turns, "collected": self.collected, "longest": self.longest}
+        found = {
+            "turns": self.turns,
+            "collected": self.collected,
+            "longest": self.longest,
+            "long": list(self.long),
+        }
         beside = self._report.with_suffix(".new")
         beside.write_text(json.dumps(found), encoding="utf-8")
         beside.replace(self._report)
@@ -62,6 +70,8 @@ class Watch:
     def _note(self, begun: float, took: float, worked: float) -> None:
         self.turns += 1
         where = self._where.pop(begun, "")
+        if worked >= LONG:
+            self.long.append({"at": time.time() - took, "worked": worked, "where": where})
         if len(self.longest) < KEPT or took > self.longest[-1]["seconds"]:
             self.longest.append({"seconds": took, "worked": worked, "where": where})
             self.longest.sort(key=lambda turn: -turn["seconds"])

@@ -62,6 +62,7 @@ class IdleTask(Generic[Inputs, Found]):
         self._number += 1
         if self._task is not None:
             self._task.cancel()
+            self._task = None  # its last error knows where it was, which is in here
 
     async def _run(self, inputs: Inputs, number: int) -> None:
         # The page asks for the next picture only when the last is there. Counted from the question,

@@ -70,6 +70,7 @@ class LatestWins(Generic[Inputs]):
         self._newest = []
         if self._task is not None:
             self._task.cancel()
+            self._task = None  # its last error knows where it was, which is in here
 
     async def _run(self) -> None:
         while True:

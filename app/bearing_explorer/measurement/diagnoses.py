@@ -134,6 +134,9 @@ class Diagnoses:
         """The session is over."""
         self._wanted = None
         self._known = {}
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None  # its last error knows where it was, which is in here
 
     async def _work(self) -> None:
         loop = asyncio.get_running_loop()

@@ -157,6 +157,8 @@ class Measurement:
         self._ended = True
         self._upload = self._table = None
         self.diagnoses.stop()
+        for task in self._tasks:
+            task.cancel()
 
     def redraw(self) -> None:
         """Draw again with what the views know now."""

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import holoviews as hv
 import numpy as np
 import param
-from bokeh.models import HoverTool
+from bokeh.models import CustomJS, HoverTool
 from holoviews.plotting.bokeh.links import LinkCallback
 from holoviews.plotting.links import Link
 from numpy.typing import NDArray
@@ -116,6 +116,7 @@ class Section(Link):
     mark = param.Parameter(
         doc="source with x and y of the place to draw when nothing is pointed at"
     )
+    listen = param.Parameter(doc="takes what is to follow the mark, instead of the mark itself")
 
     _requires_target = True
 
@@ -142,7 +143,10 @@ class _SectionCallback(LinkCallback):
         for event in self.on_source_events:
             source_plot.handles["plot"].js_on_event(event, follow)
         if link.mark is not None:
-            link.mark.js_on_change("data", follow)
+            if link.listen is None:
+                link.mark.js_on_change("data", follow)
+            else:
+                link.listen(follow)
             source_plot.handles["source"].js_on_change("data", follow)
 
 
@@ -156,6 +160,7 @@ def plane(
     *,
     news: hv.streams.Pipe | None = None,
     mark: Any = None,
+    listen: Callable[[CustomJS], object] | None = None,
     hooks: Sequence[Hook] = (),
     each: Hook | None = None,
     responsive: bool = False,
@@ -172,6 +177,9 @@ def plane(
     mark
         Bokeh source with the x and y of a place at which the lines are drawn while nothing is
         pointed at.
+    listen
+        takes the callbacks that are to follow the data of `mark`, where that must not be changed
+        before the figures are shown; by default they are given to it at once.
     hooks
         further HoloViews hooks for the map.
     each
@@ -207,6 +215,7 @@ def plane(
         Section(
             picture, line, along=along, value=value_name, sideways=sideways,
             words=f"{axis.words} at {place.words}", unit=_spaced(place.unit), mark=mark,
+            listen=listen,
         )  # fmt: skip
     big, small = (
         ({"responsive": True, "height": 292}, {"responsive": True, "height": 160})

@@ -33,6 +33,7 @@ from bokeh.server.server import BaseServer
 from bokeh.util.callback_manager import EventCallbackManager
 from panel.custom import JSComponent
 from panel.io import document as panel_document
+from panel.io.state import set_curdoc, state
 from panel.models.esm import DataEvent
 from panel.template.base import BaseTemplate
 from panel.viewable import Viewable
@@ -90,12 +91,17 @@ def _names() -> Iterator[PrivateName]:
         yield PrivateName("bokeh", f"{kind.__name__}().{name}", _set_in(kind, name))
     held = hasattr(Document().callbacks, "_held_events")
     yield PrivateName("bokeh", "Document().callbacks._held_events", held)
+    kept = hasattr(pn.Spacer(), "_param__private")
+    yield PrivateName("param", "Parameterized()._param__private", kept)
     collects = hasattr(panel_document, "_garbage_collect")
     yield PrivateName("panel", "panel.io.document._garbage_collect", collects)
+    for name in ("_views", "_fake_roots"):
+        yield PrivateName("panel", f"panel.state.{name}", hasattr(state, name))
     for kind, name in (
         (JSComponent, "_process_bokeh_event"),
         (JSComponent, "_send_msg"),
         (Viewable, "_preprocessing_hooks"),
+        (Viewable, "_get_model"),
     ):
         yield PrivateName("panel", f"{kind.__name__}.{name}", hasattr(kind, name))
     for kind, name in (
@@ -168,6 +174,11 @@ def http_server_of(server: Any) -> Any:
     return getattr(server, "_http", None)
 
 
+def contexts_of(server: Any) -> list[Any]:
+    """What holds the sessions of a server, of each of its pages; none where it is not found."""
+    return list(getattr(tornado_of(server), "_applications", {}).values())
+
+
 def sockets_of(session: Any) -> list[Any]:
     """The websockets of a session; none where they cannot be found."""
     connections = tuple(getattr(session, "_subscribed_connections", ()))
@@ -175,10 +186,16 @@ def sockets_of(session: Any) -> list[Any]:
     return [socket for socket in sockets if socket is not None]
 
 
-async def send_changes(session: Any, document: Document, change: Callable[[], None]) -> None:
+Write = Callable[[Callable[[], Message[Any]]], Awaitable[Message[Any]]]
+
+
+async def send_changes(
+    session: Any, document: Document, change: Callable[[], None], write: Write | None = None
+) -> None:
     """Run `change` and send all that it changed as one message, written when this returns.
 
-    Without the private names Bokeh sends it, in as many messages as it likes.
+    `write` is given what composes the message and may do so in a thread: nobody else changes the
+    document meanwhile. Without the private names Bokeh sends it, in as many messages as it likes.
     """
     callbacks: Any = document.callbacks
     document.hold("combine")
@@ -193,7 +210,13 @@ async def send_changes(session: Any, document: Document, change: Callable[[], No
             callbacks._held_events = [event for event in held if event not in patches]
         document.unhold()
     if patches:
-        message = _patch_of(document, patches)
+
+        def compose() -> Message[Any]:
+            message = _patch_of(document, patches)
+            _ = message.content_json  # the text of it, which is kept
+            return message
+
+        message = compose() if write is None else await write(compose)
         for socket in sockets:
             await socket.send_message(message)
 
@@ -223,6 +246,22 @@ def patched_by(session: Any, connection: Any) -> Iterator[None]:
         yield
     finally:
         session._current_patch_connection = None
+
+
+def make_models(layout: Viewable, child: Viewable, document: Document) -> None:
+    """Make the models of `child`, which is about to come into `layout`. For any thread.
+
+    They are in no document yet. Panel finds them when the child comes; without the private names
+    it makes them then.
+    """
+    views, roots_of_templates = getattr(state, "_views", {}), getattr(state, "_fake_roots", ())
+    with set_curdoc(document):
+        for ref, (model, _) in list(getattr(layout, "_models", {}).items()):
+            if ref not in views or ref in roots_of_templates or ref in child._models:
+                continue
+            _, root, shown_in, comm = views[ref]
+            if shown_in is document:
+                child._get_model(document, root, model, comm)
 
 
 # A component that hears and says much
@@ -269,6 +308,17 @@ def tornado_of(server: Any) -> Any:
 def parts_of(template: BaseTemplate) -> Iterable[str]:
     """Names of the parts of a template."""
     return list(getattr(template, "_render_items", ()))
+
+
+def shown_in(document: Document) -> list[object]:
+    """What Panel shows in a document, and its models; a template has some that only Panel knows."""
+    views = getattr(state, "_views", {})
+    return [part for view in views.values() if view[2] is document for part in view[:2]]
+
+
+def inside(parameterized: object) -> object:
+    """Where Param keeps the values of an object and who watches them; None where it is unknown."""
+    return getattr(parameterized, "_param__private", None)
 
 
 def collect_elsewhere(ask: Callable[[], None]) -> None:

@@ -12,10 +12,14 @@ import sys
 from functools import cache
 from typing import Any
 
+from bearing_explorer.server.threads import Pool
+
 ARENAS = 2
 """Heaps of a process, whatever its threads: they seldom ask at the same time."""
 LARGE = 4 * 2**20
 """[bytes] from which an array has pages of its own, which go back as soon as it is gone."""
+
+_BESIDE = Pool(1, "give back")
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD, _M_ARENA_MAX = -1, -3, -8  # as malloc.h has them
 
@@ -54,3 +58,8 @@ def give_back() -> None:
     library = _library()
     if library is not None:
         library.malloc_trim(0)
+
+
+def give_back_beside() -> None:
+    """Have it given back in a thread."""
+    _BESIDE.submit(give_back)

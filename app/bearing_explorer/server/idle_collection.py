@@ -1,14 +1,18 @@
-"""Full garbage collections wait for a quiet moment.
+"""Garbage collections that look at few objects, however many people are there.
 
-With a class on board a full collection looks at a million objects, and for a third of a second
-nobody is drawn anything. Young garbage goes as ever; what only a full collection finds can wait
-until all hands rest, but not for ever.
+A full collection looks at all objects that there are, and nobody is served meanwhile: with tens of
+sessions a second long. So what has survived is not looked at again: it is frozen, which means put
+aside. Reference counting still frees it, and `taking_apart` sees to it that reference counting
+suffices for a session. A collection then looks at what has come since the last one.
+
+What is frozen and becomes garbage all the same, in circles that nothing takes apart, stays. It is
+looked for when nobody is connected.
 """
 
 from __future__ import annotations
 
 import gc
-import threading
+import math
 import time
 from collections.abc import Callable
 
@@ -18,30 +22,59 @@ from bearing_explorer.server import heap
 from bearing_explorer.server.bokeh_private import collect_elsewhere
 
 QUIET = 0.6
-"""[s] that nobody has sent anything for, before a full collection."""
-LONGEST = 120.0
-"""[s] that a full collection waits for at most."""
-DUE = 10
-"""Collections of the younger generation after which a full one is due, as Python has it."""
+"""[s] that nobody has sent anything for, before a collection that can wait."""
+DUE = 40_000
+"""New objects for which a collection is due, in a quiet moment: about what opening one session
+makes."""
+PRESSING = 2 * DUE
+"""New objects for which it waits no longer."""
+KEPT = 40_000
+"""Objects that may be left by a collection without being frozen. What is frozen too early, such as
+figures that are made anew each time, is found by no collection once it has become garbage.
 
+So a collection looks at `KEPT` and `PRESSING` and what comes in the quarter of a second between two
+looks: at 150,000 objects. That takes half a microsecond each, 0.08 s, and up to three times as long
+on a machine whose memory is in demand."""
+LEFT = 200_000
+"""Frozen objects beyond those of the start for which all are looked at once nobody is there: they
+hold some 50 MB. All are then half a million, which takes a quarter of a second."""
+ALONE = 20.0
+"""[s] without anybody connected after which all may be looked at: pages that come back have come,
+and sessions that have ended are taken apart."""
+
+_LOOK = 250.0  # [ms]
+_GIVE_BACK = 20_000.0  # [ms]; what is free is used anew first
 _NEVER = 2**30
 
 
 class IdleCollection:
-    """Collects in full when that is due and nobody is waiting.
+    """Collects when that is due, and keeps each collection short.
 
-    `quiet_for` says for how long [s] nobody has sent anything.
+    Parameters
+    ----------
+    quiet_for
+        how long [s] nobody has sent anything; infinite while nobody is connected.
+    new
+        how many objects may have come since the last collection.
+    left
+        how many frozen objects there are beyond those of the start.
+    collect
+        collects among the new objects, or, where its argument says so, among all.
     """
 
     def __init__(
         self,
         quiet_for: Callable[[], float],
-        collect: Callable[[], object] = gc.collect,
+        new: Callable[[], int],
+        left: Callable[[], int],
+        collect: Callable[[bool], object],
         now: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._quiet_for, self._collect, self._now = quiet_for, collect, now
+        self._quiet_for, self._new, self._left = quiet_for, new, left
+        self._collect, self._now = collect, now
         self._asked = False
-        self._due_since: float | None = None
+        self._alone_since: float | None = None
+        self._looked_at_all = True
 
     def ask(self) -> None:
         """Much has become garbage, as when a session ends."""
@@ -49,28 +82,66 @@ class IdleCollection:
 
     def look(self) -> None:
         """Collect where it is time to; to be called a few times a second."""
-        if not self._asked and gc.get_count()[2] < DUE:
+        quiet = self._quiet_for()
+        new = self._new()
+        if new >= PRESSING or (quiet >= QUIET and (self._asked or new >= DUE)):
+            self._asked = False
+            self._collect(False)
+        if quiet < math.inf:
+            self._alone_since, self._looked_at_all = None, False
             return
         now = self._now()
-        if self._due_since is None:
-            self._due_since = now
-        if self._quiet_for() >= QUIET or now - self._due_since >= LONGEST:
-            self._collect()
-            self._asked, self._due_since = False, None
+        if self._alone_since is None:
+            self._alone_since = now
+        if not self._looked_at_all and now - self._alone_since >= ALONE:
+            self._looked_at_all = True
+            if self._left() > LEFT:
+                self._collect(True)
+
+
+class _Objects:
+    """The objects of this process that a garbage collection looks at."""
+
+    def __init__(self) -> None:
+        gc.collect()
+        gc.freeze()  # modules and kernels stay for as long as the process does
+        self._kept = gc.get_freeze_count()
+        self._young, self._middle, _ = gc.get_threshold()
+        gc.set_threshold(self._young, self._middle, _NEVER)
+        self._collected = False
+
+    def new(self) -> int:
+        """How many may have come since the last collection, less those that are gone again."""
+        young, middle, old = gc.get_count()
+        return young + self._young * (middle + self._middle * old)
+
+    def left(self) -> int:
+        """How many frozen ones there are beyond those that stay."""
+        return gc.get_freeze_count() - self._kept
+
+    def collect(self, among_all: bool) -> None:
+        """Collect among the new ones, or among all."""
+        if among_all:
+            gc.unfreeze()
+        gc.collect()
+        if among_all:
+            gc.freeze()
+            self._kept = gc.get_freeze_count()
+        elif len(gc.get_objects(2)) > KEPT:
+            gc.freeze()
+        self._collected = True
+
+    def give_back(self) -> None:
+        """What is free after a collection goes back to the system, beside the event loop."""
+        if self._collected:
+            self._collected = False
+            heap.give_back_beside()
 
 
 def begin(quiet_for: Callable[[], float]) -> None:
     """From now on this process collects that way. Call it where its event loop is current."""
-    gc.collect()
-    gc.freeze()  # modules and kernels stay for as long as the process does
-    young, middle, _ = gc.get_threshold()
-    gc.set_threshold(young, middle, _NEVER)
-    collector = IdleCollection(quiet_for, _collect)
+    objects = _Objects()
+    collector = IdleCollection(quiet_for, objects.new, objects.left, objects.collect)
     collect_elsewhere(collector.ask)
-    PeriodicCallback(collector.look, 250).start()
-
-
-def _collect() -> None:
-    """In full; what is free then goes back to the system, beside the event loop."""
-    gc.collect()
-    threading.Thread(target=heap.give_back, name="give back", daemon=True).start()
+    PeriodicCallback(collector.look, _LOOK).start()
+    PeriodicCallback(objects.give_back, _GIVE_BACK).start()

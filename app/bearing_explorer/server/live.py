@@ -5,31 +5,43 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
-from typing import Any
+from typing import Any, TypeVar
 
 from bokeh.document import Document
 from panel.io.state import set_curdoc
 from panel.models.esm import DataEvent
+from panel.viewable import Viewable
 from tornado.iostream import StreamClosedError
 
 from bearing_explorer.server.bokeh_private import (
     hear,
     locked,
+    make_models,
     send_changes,
     sockets_of,
     visit_quickly,
 )
+from bearing_explorer.server.threads import Pool
 
 __all__ = [
+    "counted_once",
     "good_byes",
     "hand_on",
+    "in_writer",
     "locked",
+    "make_models",
+    "models_made",
     "on_loop",
     "one_message",
     "one_write",
     "send_at_once",
     "visit_quickly",
 ]
+
+Made = TypeVar("Made")
+
+_WRITER = Pool(1, "document")
+"""Where models are made and large messages are written, one after the other, for all sessions."""
 
 #: how to say a last word on the page of a document whose session ends
 good_byes: dict[Any, Callable[[str], Awaitable[None]]] = {}
@@ -68,6 +80,26 @@ async def hand_on(session: Any, model: Any, data: Any) -> None:
     await locked(session, act)
 
 
+async def in_writer(make: Callable[[], Made]) -> Made:
+    """Have something of a document made in the one thread for that, and everybody else served."""
+    return await asyncio.get_running_loop().run_in_executor(_WRITER, make)
+
+
+async def models_made(doc: Document | None, layout: Viewable, child: Viewable) -> None:
+    """Make the models of `child`, which is about to come into `layout`, off the event loop.
+
+    Nothing else changes in the session meanwhile: it would miss the models that are half made.
+    """
+    session = getattr(getattr(doc, "session_context", None), "session", None)
+    if session is None:
+        return
+
+    async def act(document: Document) -> None:
+        await in_writer(lambda: make_models(layout, child, document))
+
+    await locked(session, act)
+
+
 async def one_message(
     doc: Document | None, change: Callable[[], None], new_models: bool = False
 ) -> None:
@@ -78,7 +110,8 @@ async def one_message(
     ``unlocked`` does not promise that: where two of its writes meet, the second may lie about
     until a third comes, and the last position of a slider would not be drawn.
 
-    With `new_models` Bokeh counts the models of the document once, after all of the change.
+    With `new_models` Bokeh counts the models of the document once, after all of the change, and the
+    message, which may be long, is written in a thread.
     """
     session = getattr(getattr(doc, "session_context", None), "session", None)
     if doc is None or session is None:
@@ -90,7 +123,7 @@ async def one_message(
             with set_curdoc(document), document.models.freeze() if new_models else nullcontext():
                 change()
 
-        await send_changes(session, document, in_document)
+        await send_changes(session, document, in_document, in_writer if new_models else None)
 
     await locked(session, act)
 
@@ -108,6 +141,26 @@ def send_at_once(doc: Document | None) -> int:
             socket.set_nodelay(True)
             count += 1
     return count
+
+
+@contextmanager
+def counted_once(doc: Document | None) -> Iterator[None]:
+    """Have Bokeh count the models of `doc` once, after the block, and only where some came or went.
+
+    HoloViews has them counted after each figure that it draws anew, in which there are none new.
+    """
+    if doc is None:
+        yield
+        return
+    models: Any = doc.models
+    changes: list[None] = []
+    models.invalidate, models.recompute = lambda: changes.append(None), lambda: None
+    try:
+        yield
+    finally:
+        del models.invalidate, models.recompute
+        if changes:
+            models.recompute()
 
 
 @contextmanager

@@ -6,6 +6,7 @@ address, and no more memory than `Limits.unclaimed` sessions.
 
 from __future__ import annotations
 
+import asyncio
 from collections import Counter
 from typing import Any
 
@@ -15,6 +16,24 @@ from bearing_explorer.server.bokeh_private import drop_session
 
 _connected: Counter[str] = Counter()
 _unclaimed: dict[str, str] = {}  # addresses by names of sessions, the oldest first
+
+
+LINGERS = 15.0
+"""[s] for which a session is kept that has no browser: it may come, or come back."""
+_PAUSE = 0.02  # [s] between the ends of two sessions, for everybody else
+
+
+async def drop_ended(context: Any) -> None:
+    """Let sessions go that nobody has come back to, one after the other.
+
+    Bokeh would let all of them go at once: with a class that leaves, a second without an answer.
+    """
+    for session in list(context.sessions):
+        left_for = 1e-3 * session.milliseconds_since_last_unsubscribe
+        in_use = session.connection_count or session.expiration_blocked
+        if left_for > LINGERS and not in_use:
+            await drop_session(context, session.id)
+            await asyncio.sleep(_PAUSE)
 
 
 def reset() -> None:

@@ -25,7 +25,7 @@ from tornado.routing import Rule
 
 from bearing_explorer.server import limits, live, page_handler, places
 from bearing_explorer.server import log as write
-from bearing_explorer.server.bokeh_private import http_server_of
+from bearing_explorer.server.bokeh_private import contexts_of, http_server_of
 from bearing_explorer.server.connections import BoundedServer
 from bearing_explorer.server.headers import Headers
 from bearing_explorer.server.limits import Limits
@@ -88,6 +88,8 @@ def make_server(
         include_headers=[],
         include_cookies=[],
         websocket_max_message_size=most.message,
+        # what it is to leave to `places.drop_ended`
+        unused_session_lifetime_milliseconds=int(4e3 * places.LINGERS),
         default_handler_class=Missing,
         extra_patterns=[(r"/favicon.ico", Icon)],
         http_server_kwargs={"max_header_size": longest_header, "max_body_size": 65536},
@@ -95,9 +97,15 @@ def make_server(
     )
     server._tornado.add_transform(Headers)
     server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
+    PeriodicCallback(lambda: _drop_ended(server), 1000.0).start()
     PeriodicCallback(_end_idle, min(5000.0, 250.0 * most.idle)).start()
     _fit(http_server_of(server).most)
     return server
+
+
+async def _drop_ended(server: Any) -> None:
+    for context in contexts_of(server):
+        await places.drop_ended(context)
 
 
 _FOR_REQUESTS = 24

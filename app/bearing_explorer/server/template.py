@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
 from bokeh.document import Document
 
-from bearing_explorer.server.bokeh_private import parts_of
+from bearing_explorer.server.bokeh_private import parts_of, shown_in
 
 
 class PageTemplate(pn.Template):
@@ -17,12 +18,17 @@ class PageTemplate(pn.Template):
     named makes Panel write out the whole template as text.
     """
 
+    beside: Sequence[object] = ()
+    """What Panel has made for the document beside the parts."""
+
     def server_doc(self, doc: Document | None = None, *arguments: Any, **named: Any) -> Document:
         """The document of a session."""
         if doc is None:
             return super().server_doc(doc, *arguments, **named)
         with doc.models.freeze():
-            return super().server_doc(doc, *arguments, **named)
+            made = super().server_doc(doc, *arguments, **named)
+        self.beside = shown_in(doc)
+        return made
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(parts_of(self))})"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import time
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -20,9 +19,6 @@ from bearing_explorer.server import log as write
 from bearing_explorer.server.allowed_messages import ById, by_name, message_of, welcome
 from bearing_explorer.server.small_pages import tell, tell_error
 
-_WRITER = ThreadPoolExecutor(1, "document")
-"""Where whole documents are written, one after the other. Here and not among the executors, which
-stand on the server: it imports nothing of what computes."""
 _PULL = 50.0
 """Messages that count as much as one that asks for the whole document."""
 
@@ -37,6 +33,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     _weight = 0.0  # as how many messages it counts
     _cut = False  # whether the browser is listened to no longer
     _document: Any = None  # of the session that it is connected to
+    connection: Any  # to the session
+    receiver: Any
     session_name = ""
     """Of the session that this is connected to; empty before."""
 
@@ -71,6 +69,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             self.end_with(1008, "The session is not known.")
             return
         if self._cut:  # it is gone meanwhile, and nobody would take it out again
+            self._let_go()
             return
         for other in [one for one in sockets if one.session_name == name]:
             other.end_with(1008, "The session was connected to again.")
@@ -157,8 +156,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
                 _ = reply.content_json  # the text of it, which is kept
                 return reply
 
-            loop = asyncio.get_running_loop()
-            await self.send_message(await loop.run_in_executor(_WRITER, written))
+            await self.send_message(await live.in_writer(written))
 
         await live.locked(connection.session, send)
 
@@ -209,14 +207,23 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             await super().send_message(message)
 
     def on_close(self) -> None:
-        """The browser is gone."""
+        """The browser is gone.
+
+        Bokeh would tell the document, where nobody listens, and fail if a ping found out before.
+        """
         self._cut = True
         if self in sockets:
             sockets.discard(self)
             places.left(self.session_name)
             write.happened("left", self._document, sessions=len(sockets))
         self._document = None
-        super().on_close()
+        self._let_go()
+
+    def _let_go(self) -> None:
+        """The session may end, and nothing of this connection waits for a garbage collection."""
+        if self.connection is not None:
+            self.application.client_lost(self.connection)
+        self.connection = self.receiver = self.handler = None
 
 
 sockets: set[LiveSocket] = set()

@@ -21,6 +21,7 @@ What is drawn in grey is ``{grey}`` in `about`: the healthy bearing, or a scene 
 
 from __future__ import annotations
 
+import asyncio
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -51,6 +52,12 @@ if TYPE_CHECKING:
 Sources = dict[str, dict[str, np.ndarray]]
 #: {range: (start, end)}
 Ranges = dict[str, tuple[float, float]]
+
+
+#: puts what is made into a layout and then acts, turn after turn of the event loop
+Fill = Callable[
+    [pn.Column, Callable[[], pn.viewable.Viewable], Callable[[], None]], asyncio.Task[None]
+]
 
 
 class Caption(LiveComponent):
@@ -110,6 +117,9 @@ class SessionParts:
         has a panel of controls follow the scene.
     take_steps
         has motions marched with a step rate [Hz], or with None by the program's own.
+    fill
+        has what is made come into a layout as its only child, and then something done, in several
+        turns of the event loop: for figures that are large and not made before they are needed.
     say_endurance
         takes what somebody says of steel, oil and surfaces.
     """
@@ -121,6 +131,7 @@ class SessionParts:
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
+    fill: Fill
     say_endurance: Callable[[Asked], None]
 
 
@@ -240,6 +251,9 @@ class View:
     def put_away(self) -> None:
         """It is off screen: let go of the results, of which a motion alone is megabytes."""
         self._results = None
+
+    def end(self) -> None:
+        """The session is over: give up what waits for a time to come."""
 
     @property
     def compares(self) -> bool:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import Plot, Spacer
+from bokeh.models import CustomJS, Plot, Spacer
 
 from bearing_explorer.compute.explore import (
     BUDGET,
@@ -33,12 +33,13 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.heat_map import Places, Side, goes_there, ring_this_scene
 from bearing_explorer.figures.style import AxisQuantity
 from bearing_explorer.measurement.form import number_of
+from bearing_explorer.server.live import counted_once
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import Sweep, focused, value_of
-from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.base import Fill, Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
 
 if TYPE_CHECKING:
@@ -111,6 +112,10 @@ class ExplorePlane(JobView[Plane]):
     _at: tuple[float, float] = (0.0, 0.0)
     _news: Any = None
     _next_show = 0.0
+    _fill: Fill
+    _filling: asyncio.Task[None] | None = None
+    _drawn: Plane | None = None  # what the figures on the page show
+    _making: Plane | None = None  # what those on their way are made for
 
     def build(self, packed: PackedSource) -> Any:
         self._mark = packed.source("explore_mark", "x", "y")
@@ -181,6 +186,14 @@ class ExplorePlane(JobView[Plane]):
             else:
                 self._refining = None
                 self._draw()
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self._fill = parts.fill
+
+    def end(self) -> None:
+        super().end()
+        self._wait_no_more()
 
     # The picture
 
@@ -266,33 +279,57 @@ class ExplorePlane(JobView[Plane]):
         """Draw a map; its figures are made anew where it is one of something else."""
         if plane is self.found:
             return
+        self.found = plane
+        if self._filling is not None and not self._filling.done():
+            return  # its turn comes when there are figures
+        if self._drawn is None or self._drawn.question.figure != plane.question.figure:
+            self._filling = self._fill(self._figures, self._linked_figures, self._filled)
+            return
+        started = time.perf_counter()
+        self._drawn = plane
+        with counted_once(self._mark.document):
+            self._news.send(field_of(plane, self._at))
+        now = time.perf_counter()
+        self._next_show = now + PAUSE * (now - started)
+
+    def _linked_figures(self) -> pn.viewable.Viewable:
+        """Figures of the newest map; Bokeh's come with their models.
+
+        They change nothing that is on the page yet: what they hear of the place is kept for later.
+        """
+        import holoviews as hv
+        from holoviews.plotting.util import initialize_dynamic
+
         from bearing_explorer.plotting.plane import plane as linked_figures
 
-        started = time.perf_counter()
+        assert self.found is not None
+        self._making = plane = self.found
         field = field_of(plane, self._at)
-        before, self.found = self.found, plane
-        if before is not None and before.question.figure == plane.question.figure:
-            self._news.send(field)
-            now = time.perf_counter()
-            self._next_show = now + PAUSE * (now - started)
-            return
-        import holoviews as hv
-
-        self._mark.js_property_callbacks = {}  # those of figures that are gone
         self._news = hv.streams.Pipe(data=field)
         sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
-        plots: list[Plot] = []
+        self._plots: list[Plot] = []
+        self._followers: list[CustomJS] = []
         layout = linked_figures(
             field,
             news=self._news,
             mark=self._mark,
             hooks=[_Marks(sides, self._mark, self._old)],
-            each=lambda plot, _: plots.append(plot.handles["plot"]),
+            listen=self._followers.append,
+            each=lambda plot, _: self._plots.append(plot.handles["plot"]),
             responsive=True,
         )
-        pane = pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
-        self._figures[:] = [pane]
-        self._caption.figures = [plot.id for plot in plots]
+        initialize_dynamic(layout)  # now, and not in the turn in which the models are made
+        return pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
+
+    def _filled(self) -> None:
+        """The figures are on the page; there may be a newer map than theirs."""
+        self._mark.js_property_callbacks = {}  # those of figures that are gone
+        self._mark.js_on_change("data", *self._followers)
+        self._caption.figures = [plot.id for plot in self._plots]
+        self._filling, self._drawn = None, self._making
+        newest, self.found = self.found, self._drawn
+        if newest is not None:
+            self._show(newest)
 
     # Refining
 

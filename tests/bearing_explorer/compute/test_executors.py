@@ -24,7 +24,8 @@ def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
 
 _PROCESS = """
 import os, threading
-from bearing_explorer.compute.executors import JOBS, PICTURES, still_at_work
+from bearing_explorer.compute.executors import JOBS, PICTURES
+from bearing_explorer.server.threads import still_at_work
 
 PICTURES.submit(int).result()
 if {busy}:

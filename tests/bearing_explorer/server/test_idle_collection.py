@@ -1,59 +1,76 @@
-"""Full garbage collections wait until nobody is waiting."""
+"""Garbage collections look at few objects, and wait where they can."""
 
-import gc
+from __future__ import annotations
+
+import math
 import subprocess
 import sys
 
 import panel.io.document as panel_document
-from bearing_explorer.server.idle_collection import LONGEST, QUIET, IdleCollection
+from bearing_explorer.server.idle_collection import (
+    ALONE,
+    DUE,
+    LEFT,
+    PRESSING,
+    QUIET,
+    IdleCollection,
+)
 
 
 class Clock:
     """What a collector sees of the world."""
 
     def __init__(self) -> None:
-        self.now, self.quiet, self.collected = 0.0, 0.0, 0
-        self.collector = IdleCollection(lambda: self.quiet, self._collect, lambda: self.now)
+        self.now, self.quiet, self.new, self.left = 0.0, 0.0, 0, 0
+        self.collected: list[str] = []
+        self.collector = IdleCollection(
+            lambda: self.quiet, lambda: self.new, lambda: self.left, self._collect, lambda: self.now
+        )
 
-    def _collect(self) -> None:
-        self.collected += 1
+    def _collect(self, among_all: bool) -> None:
+        self.collected.append("all" if among_all else "new")
 
-    def pass_by(self, seconds: float, quiet: float) -> int:
+    def pass_by(self, seconds: float, quiet: float) -> list[str]:
         self.now += seconds
         self.quiet = quiet
+        self.collected = []
         self.collector.look()
         return self.collected
 
 
 def test_it_waits_for_a_quiet_moment() -> None:
-    gc.collect()
     clock = Clock()
-    assert clock.pass_by(1.0, quiet=100.0) == 0, "nothing is due"
+    assert clock.pass_by(1.0, quiet=100.0) == [], "nothing is due"
     clock.collector.ask()
-    assert clock.pass_by(1.0, quiet=0.1) == 0, "somebody drags"
-    assert clock.pass_by(1.0, quiet=QUIET) == 1
-    assert clock.pass_by(1.0, quiet=QUIET) == 1, "once is enough"
+    assert clock.pass_by(1.0, quiet=0.1) == [], "somebody drags"
+    assert clock.pass_by(1.0, quiet=QUIET) == ["new"]
+    assert clock.pass_by(1.0, quiet=QUIET) == [], "once is enough"
+    clock.new = DUE
+    assert clock.pass_by(1.0, quiet=0.1) == []
+    assert clock.pass_by(1.0, quiet=QUIET) == ["new"], "without being asked for"
 
 
-def test_it_does_not_wait_for_ever() -> None:
+def test_it_does_not_wait_until_there_is_much_to_look_at() -> None:
     clock = Clock()
-    clock.collector.ask()
-    for _ in range(10):
-        assert clock.pass_by(LONGEST / 10.0, quiet=0.0) == 0
-    assert clock.pass_by(LONGEST / 10.0, quiet=0.0) == 1
+    clock.new = PRESSING - 1
+    assert clock.pass_by(1.0, quiet=0.0) == []
+    clock.new = PRESSING
+    assert clock.pass_by(1.0, quiet=0.0) == ["new"]
 
 
-def test_garbage_of_many_young_collections_is_due_without_being_asked_for() -> None:
-    gc.collect()
+def test_all_is_looked_at_once_nobody_is_there_and_much_is_left() -> None:
     clock = Clock()
-    was = gc.get_threshold()
-    gc.set_threshold(was[0], was[1], 2**30)
-    try:
-        for _ in range(12):
-            gc.collect(1)
-        assert clock.pass_by(1.0, quiet=QUIET) == 1
-    finally:
-        gc.set_threshold(*was)
+    clock.left = LEFT + 1
+    for _ in range(100):
+        assert clock.pass_by(ALONE, quiet=60.0) == [], "somebody is there"
+    assert clock.pass_by(0.25, quiet=math.inf) == []
+    assert clock.pass_by(0.5 * ALONE, quiet=math.inf) == []
+    assert clock.pass_by(0.5 * ALONE, quiet=math.inf) == ["all"]
+    assert clock.pass_by(10.0 * ALONE, quiet=math.inf) == [], "once is enough"
+    clock.left = LEFT
+    clock.pass_by(0.25, quiet=60.0)
+    clock.pass_by(0.25, quiet=math.inf)
+    assert clock.pass_by(ALONE, quiet=math.inf) == [], "what is left is little"
 
 
 _PROCESS = """
@@ -85,3 +102,37 @@ asyncio.run(live())
 def test_a_process_collects_what_a_session_leaves() -> None:
     assert callable(panel_document._garbage_collect)
     subprocess.run([sys.executable, "-c", _PROCESS], check=True)
+
+
+_MANY = """
+import asyncio, gc
+from bearing_explorer.server import idle_collection
+
+class Session:
+    def __init__(self):
+        self.parts = [[self] for _ in range(50_000)]  # circles, as those of models
+
+looked_at = []
+
+def note(phase, told):
+    if phase == "start" and told["generation"] == 2:
+        looked_at.append(len(gc.get_objects()))
+
+async def live():
+    idle_collection._LOOK = 10.0
+    idle_collection.begin(lambda: 0.0)  # somebody drags all the while
+    gc.callbacks.append(note)
+    sessions = []
+    for _ in range(24):
+        sessions.append(Session())
+        await asyncio.sleep(2e-3 * idle_collection._LOOK)
+    assert len(looked_at) > 3, "it does collect"
+    bound = idle_collection.KEPT + idle_collection.PRESSING + 50_000  # of a session
+    assert max(looked_at) < bound < 24 * 50_000 / 2, looked_at
+
+asyncio.run(live())
+"""
+
+
+def test_a_collection_looks_at_what_is_new_however_many_sessions_there_are() -> None:
+    subprocess.run([sys.executable, "-c", _MANY], check=True)

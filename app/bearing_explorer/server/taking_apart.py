@@ -1,0 +1,144 @@
+"""A session that is over is taken apart, so that nothing of it waits for a garbage collection.
+
+Models, components and views of a session refer to each other in circles: tens of thousands of
+objects that reference counting alone does not free. To find them a garbage collection has to look
+at all objects of everybody, and nobody is served meanwhile. But it is known what belonged to a
+session. Once nothing works with it any longer, each of its parts lets go of all that it holds, and
+reference counting frees the rest.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import gc
+from collections import deque
+from collections.abc import Iterable, Iterator
+from types import CellType, FunctionType, MethodType
+from typing import Any
+
+from bokeh.document import Document
+from bokeh.model import Model
+from panel.template.base import BaseTemplate
+from panel.viewable import Viewable
+
+from bearing_explorer.server import threads
+from bearing_explorer.server.bokeh_private import inside
+
+SETTLES = 1.0
+"""[s] after the end of a session until its cancelled tasks have come back: some look about them
+every 0.12 s."""
+LOOKS = 0.25
+"""[s] between two looks at whether a thread has come back. Nobody waits for it."""
+
+AT_ONCE = 500
+"""Objects that are looked at, or parts that are taken apart, in one turn of the event loop: it
+takes some milliseconds."""
+
+_HELD: tuple[type, ...] = (Model, Viewable, BaseTemplate)
+"""What belongs to one session, wherever it is found: none of these can be shown in two."""
+_PLAIN = (list, tuple, set, frozenset, deque)
+
+_at_work: set[asyncio.Task[None]] = set()
+
+
+def parts_of(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> list[object]:
+    """What belongs to the session of `roots`, found by following what they hold.
+
+    Models, components, templates and what is of `kinds` is followed and given back; lists,
+    mappings, methods and closures are followed alone. All else is left as it is, for it may be
+    shared: scenes, results, modules.
+    """
+    found: list[object] = []
+    for _ in _search(roots, kinds, found):
+        pass
+    return found
+
+
+def _search(
+    roots: Iterable[object], kinds: tuple[type, ...], found: list[object]
+) -> Iterator[None]:
+    """Put the parts into `found`; each step takes a few milliseconds."""
+    wanted = (*_HELD, *kinds)
+    seen: dict[int, object] = {}
+    waiting = list(roots)
+    while waiting:
+        one = waiting.pop()
+        if id(one) in seen:
+            continue
+        mine = isinstance(one, wanted)
+        held = gc.get_referents(one) if mine else _followed(one)
+        if held is None:
+            continue
+        seen[id(one)] = one
+        if mine:
+            found.append(one)
+            waiting += gc.get_referents(inside(one))
+        waiting += held
+        if len(seen) % AT_ONCE == 0:
+            yield
+
+
+def _followed(one: object) -> Iterable[object] | None:
+    """What something holds that is no part by itself; None where it is not looked into."""
+    if isinstance(one, _PLAIN):
+        return one
+    if isinstance(one, dict):
+        return one.values()
+    if isinstance(one, MethodType):
+        return (one.__self__, one.__func__)
+    if isinstance(one, FunctionType):
+        return one.__closure__ or ()
+    if isinstance(one, CellType):
+        try:
+            return (one.cell_contents,)
+        except ValueError:  # nothing is in it yet
+            return ()
+    if isinstance(one, functools.partial):
+        return (one.func, *one.args, *one.keywords.values())
+    return None
+
+
+def models_at_end(document: Document | None) -> list[Model]:
+    """A list that is empty until a document is destroyed; then its models are in it.
+
+    Bokeh cuts them from each other on that occasion, so that they are not found any more.
+    """
+    found: list[Model] = []
+    if document is not None:
+        models: Any = document.models
+        destroy = models.destroy
+
+        def listed() -> None:
+            found.extend(models)
+            del models.destroy
+            destroy()
+
+        models.destroy = listed
+    return found
+
+
+def take_apart(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> None:
+    """Have the parts of `roots` let go of what they hold, once nothing works with them any longer.
+
+    On the event loop, after all that works with them was told to end. See `parts_of`.
+    """
+    task = asyncio.get_running_loop().create_task(_take_apart(list(roots), kinds))
+    _at_work.add(task)
+    task.add_done_callback(_at_work.discard)
+
+
+async def _take_apart(roots: list[object], kinds: tuple[type, ...]) -> None:
+    await asyncio.sleep(SETTLES)
+    # what begins later belongs to others: all of this session's is cancelled
+    begun = threads.at_work()
+    while not all(future.done() for future in begun):
+        await asyncio.sleep(LOOKS)
+    parts: list[object] = []
+    for _ in _search(roots, kinds, parts):
+        await asyncio.sleep(0.0)
+    roots.clear()
+    while parts:
+        vars(parts.pop()).clear()
+        if len(parts) % AT_ONCE == 0:
+            await asyncio.sleep(0.0)

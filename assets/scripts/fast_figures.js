@@ -30,8 +30,6 @@
   const line = view_of("Line")
   const axis = view_of("LinearAxis")
   const figure = view_of("Plot")
-  const expression = globalThis.Bokeh?.Models?.get("CustomJSExpr")?.prototype
-  const formatter = globalThis.Bokeh?.Models?.get("CustomJSTickFormatter")?.prototype
 
   // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
   // own: styles and layout of the page are worked out anew each time they move.
@@ -231,33 +229,6 @@
       this._compute_layout()
       this.after_layout()
     }
-  })
-
-  // Scripts of a figure were compiled each time they ran.
-  const made = method(formatter, "_make_func")
-  part("scripts of ticks", [made], () => {
-    const functions = new WeakMap()
-    formatter._make_func = function () {
-      const known = functions.get(this)
-      if (known?.code === this.code && known.args === this.args) return known.act
-      const act = made.call(this)
-      functions.set(this, { code: this.code, args: this.args, act })
-      return act
-    }
-  })
-  const compiled = getter(expression, "func")
-  part("scripts of words", [compiled], () => {
-    const functions = new WeakMap()
-    Object.defineProperty(owner(expression, "func"), "func", {
-      configurable: true,
-      get() {
-        const known = functions.get(this)
-        if (known?.code === this.code && known.args === this.args) return known.act
-        const act = compiled.call(this)
-        functions.set(this, { code: this.code, args: this.args, act })
-        return act
-      },
-    })
   })
 
   window.fast_figures = { missing }

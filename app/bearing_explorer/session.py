@@ -61,7 +61,9 @@ log = logging.getLogger(__name__)
 
 Found = TypeVar("Found")
 
-#: a slow view that cost more than this [s] may be skipped while newer inputs wait ...
+#: slow views are drawn together with the others while a hand moves, or all would be painted twice.
+#: Where they cost more than this [s] they come after them, and may be skipped while newer inputs
+#: wait ...
 _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
@@ -203,7 +205,7 @@ class Explorer:
         self._drawn_mark = 0
         self._settings = Settings()
         self._asked_endurance = Asked()
-        self._slow_cost = 0.0
+        self._slow_cost = math.inf
         self._slow_at = self._limits_at = -math.inf
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
@@ -654,12 +656,16 @@ class Explorer:
         self._scheduler.worked = 0.0
         if self._on_screen != self._shown:
             await self._bring(self._shown)
+            self._slow_cost = math.inf  # nobody knows yet
         views = self._views[self._on_screen]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
         # where nothing else follows the hand there is nothing to hold up
         held_up = any(view.needs for view in quick)
-        if held_up and self._worker.waiting and self._slow_cost > _HEAVY:
+        heavy = held_up and self._slow_cost > _HEAVY
+        if slow and not heavy and math.isfinite(self._slow_cost) and not inputs.rested:
+            quick, slow = [], views
+        if heavy and self._worker.waiting:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:

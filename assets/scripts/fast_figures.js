@@ -30,8 +30,6 @@
   const line = view_of("Line")
   const axis = view_of("LinearAxis")
   const figure = view_of("Plot")
-  const expression = globalThis.Bokeh?.Models?.get("CustomJSExpr")?.prototype
-  const formatter = globalThis.Bokeh?.Models?.get("CustomJSTickFormatter")?.prototype
 
   // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
   // own: styles and layout of the page are worked out anew each time they move.
@@ -114,6 +112,31 @@
     })
   })
 
+  // ... and for ranges that follow the lines, which none here does: all are set.
+  const followed = getter(figure, "auto_ranged_renderers")
+  part("bounds of lines", [followed], () => {
+    Object.defineProperty(owner(figure, "auto_ranged_renderers"), "auto_ranged_renderers", {
+      configurable: true,
+      get() {
+        const all = followed.call(this)
+        const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
+        const set = ranges.every(({ type }) => type === "Range1d")
+        return set && all.every(({ model }) => model.coordinates === null) ? [] : all
+      },
+    })
+  })
+
+  // ... and to leave out what lies outside of a frame, which is clipped: a few dots may be painted.
+  const mask = method(line, "mask_data")
+  part("dots outside of a frame", [mask], () => {
+    const FEW = 200
+    owner(line, "mask_data").mask_data = function () {
+      if (this.data_size > FEW) delete this._mask_data  // the class has it still
+      else this._mask_data = null
+      return mask.call(this)
+    }
+  })
+
   // An axis works out its ticks and their words six times a repaint; they follow from its ranges.
   const ticks = getter(axis, "tick_coords")
   const extents = getter(axis, "extents")
@@ -176,31 +199,36 @@
     })
   })
 
-  // Scripts of a figure were compiled each time they ran.
-  const made = method(formatter, "_make_func")
-  part("scripts of ticks", [made], () => {
-    const functions = new WeakMap()
-    formatter._make_func = function () {
-      const known = functions.get(this)
-      if (known?.code === this.code && known.args === this.args) return known.act
-      const act = made.call(this)
-      functions.set(this, { code: this.code, args: this.args, act })
-      return act
+  // Where anything on the page grew by a line of text, or an axis by a digit, all figures of all tabs
+  // were laid out anew, with their toolbars. Style sheets place what is on the page, and a figure
+  // hears of its own size: it is laid out with those of its card, whose axes are in line.
+  const column = view_of("Column")
+  const resized = method(column, "_after_resize")
+  const heard = method(figure, "after_resize")
+  const lay_out = method(column, "compute_layout")
+  const measure = method(column, "measure_layout")
+  const update_bbox = method(column, "update_bbox")
+  const compute = method(column, "_compute_layout")
+  const follow = method(column, "after_layout")
+  part("layout of the page", [resized, heard, lay_out, measure, update_bbox, compute, follow], () => {
+    const is_figure = (view) => view instanceof figure.constructor
+    owner(column, "_after_resize")._after_resize = function () {
+      if (!this._was_built || is_figure(this)) resized.call(this)
     }
-  })
-  const compiled = getter(expression, "func")
-  part("scripts of words", [compiled], () => {
-    const functions = new WeakMap()
-    Object.defineProperty(owner(expression, "func"), "func", {
-      configurable: true,
-      get() {
-        const known = functions.get(this)
-        if (known?.code === this.code && known.args === this.args) return known.act
-        const act = compiled.call(this)
-        functions.set(this, { code: this.code, args: this.args, act })
-        return act
-      },
-    })
+    figure.after_resize = function () {
+      heard.call(this)
+      // what it stands in may have measured it before
+      const { bbox, layout } = this
+      const stale = bbox.width !== layout?.bbox.width || bbox.height !== layout?.bbox.height
+      if (this._was_built && this.is_displayed && stale) this.compute_layout()
+    }
+    owner(column, "compute_layout").compute_layout = function () {
+      if (!this.el.classList.contains("view")) return lay_out.call(this)
+      this.measure_layout()
+      this.update_bbox()
+      this._compute_layout()
+      this.after_layout()
+    }
   })
 
   window.fast_figures = { missing }

@@ -53,6 +53,7 @@ function put_tip(where, { label, symbol, unit, about, limit } = {}) {
 // A box as wide as its number, so that "−100000" is not cut.
 const WIDEST = 13  // digits
 function write_in(input, text) {
+  if (input.value === text) return
   input.value = text
   fit(input)
 }
@@ -151,12 +152,14 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   // The same number in its second unit, which can be typed too.
   const show_twin = (name) => {
     const { twin } = rows[name], known = twins[name]
-    twin.root.hidden = !known
+    if (twin.root.hidden !== !known) twin.root.hidden = !known
     if (!known || twin.root.contains(twin.number.getRootNode().activeElement)) return
     const value = values[name]
-    twin.unit.textContent = known.unit
-    twin.number.setAttribute("aria-label", `${rows[name].label} in ${known.unit}, ${known.words}`)
-    twin.number.title = known.words
+    if (twin.unit.textContent !== known.unit || twin.number.title !== known.words) {
+      twin.unit.textContent = known.unit
+      twin.number.setAttribute("aria-label", `${rows[name].label} in ${known.unit}, ${known.words}`)
+      twin.number.title = known.words
+    }
     write_in(twin.number, value === null || value === undefined ? ""
       : String(Number((value * known.factor).toPrecision(5))).replace("-", "\u2212"))
   }
@@ -170,7 +173,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   const refuse = (name, sentence) => {
     const row = rows[name] ?? selects[name]
-    if (!row) return
+    if (!row || (!sentence && row.refusal.hidden)) return
     row.refusal.textContent = sentence
     row.refusal.hidden = !sentence
     row.root.classList.toggle("refused", !!sentence)

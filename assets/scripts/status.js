@@ -11,8 +11,14 @@ export function render({ model }) {
   const line = model.folded ? element("div", { class: "line" }, chip, more, list)
     : element("div", { class: "line", role: "status" }, chip, rest)
   if (model.folded) chip.setAttribute("role", "status")
+  // what nobody sees is not written thirty times a second
+  const write_list = () => {
+    if (!list.hidden)
+      list.replaceChildren(...model.line.details.map((detail) => element("li", {}, detail)))
+  }
   const open = (shown) => {
     list.hidden = !shown
+    write_list()
     more.setAttribute("aria-expanded", String(shown))
   }
   more.addEventListener("click", () => open(list.hidden))
@@ -24,11 +30,11 @@ export function render({ model }) {
   })
   const write = () => {
     const { mood, words, details } = model.line
-    line.dataset.mood = mood
+    if (line.dataset.mood !== mood) line.dataset.mood = mood
     if (chip.textContent !== words) chip.textContent = words
     more.hidden = !details.length
-    if (!details.length) open(false)
-    if (model.folded) list.replaceChildren(...details.map((detail) => element("li", {}, detail)))
+    if (!details.length && !list.hidden) open(false)
+    if (model.folded) write_list()
     else rest.textContent = details.join("  ·  ")
   }
   model.on("line", write)

@@ -121,11 +121,21 @@ class Orbit:
     def outer_acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
         """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated."""
         time = np.asarray(time, dtype=float).ravel() % self.period
+        return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
+
+    def finer_history(self, factor: int) -> NDArray[np.float64]:
+        """Rows as those of `history`, `factor` times as many, without the one that closes it."""
+        steps = factor * (len(self.history) - 1)
+        return self._states(self.period * np.arange(steps) / steps)
+
+    def _states(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
         parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
         # from the equations of motion: it jumps as balls touch, and no interpolation follows that
         moving = moving_system(self.scene, self.dofs, velocities=True)
         rates = np.asarray(kernels.motion_rates(time, np.hstack(parts), 0.0, moving))
-        return rates[:, -len(self.dofs) :] / packing.length_units(self.scene, self.dofs)
+        inner, outer = (rates[:, k * len(self.dofs) :][:, : len(self.dofs)] for k in (1, 3))
+        return np.stack([parts[0], parts[1], inner, parts[2], parts[3], outer], axis=1)
 
     def inner_displacement(self, time: ArrayLike) -> NDArray[np.float64]:
         """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""

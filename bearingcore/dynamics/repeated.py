@@ -33,12 +33,12 @@ def repeated(found: Orbit, duration: float, sample_rate: float = 65536.0) -> Mot
     wished = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     if not found.multipliers.size:
         raise checks.refuse("orbit", found.status, "an orbit that was found")
-    steps = len(found.history) - 1
-    step_rate = steps / found.period
-    if step_rate >= wished:
-        rate = step_rate / round(step_rate / wished)
-    else:
-        rate = step_rate * round(wished / step_rate)
+    history = found.history[:-1]
+    step_rate = len(history) / found.period
+    if (factor := round(wished / step_rate)) > 1:
+        # accelerations jump as balls touch: between steps they are asked for, not interpolated
+        history, step_rate = found.finer_history(factor), factor * step_rate
+    rate = step_rate / max(round(step_rate / wished), 1)
     n = max(round(duration * rate), 1)
     n_steps = max(math.ceil((n - 1) * step_rate / rate - 1e-9), 1)
     return Motion(
@@ -51,5 +51,5 @@ def repeated(found: Orbit, duration: float, sample_rate: float = 65536.0) -> Mot
         right_hand_side_calls=found.right_hand_side_calls,
         time=np.arange(n) / rate,
         ball_load=None,
-        history=found.history[np.arange(n_steps + 1) % steps],
+        history=history[np.arange(n_steps + 1) % len(history)],
     )

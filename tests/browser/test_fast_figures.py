@@ -70,3 +70,28 @@ def test_hidden_glyphs_wait_until_they_are_to_be_seen(
     painted(page)
     assert page.evaluate("window.heard") > 0
     assert page.evaluate("window.looked_at.nonselection_glyph.sx.length") > 2
+
+
+_SIZES = """() => [...Bokeh.index.query((view) => view.model.type === "Figure")].map((view) => {
+  const {width, height} = view.el.getBoundingClientRect(), {canvas} = view.canvas_view.primary
+  return [Math.floor(width), Math.floor(height), canvas.width, canvas.height]
+}).filter(([width]) => width)"""
+
+
+@pytest.mark.parametrize("tab", ["overview", "orbits"])
+def test_figures_fill_their_place_whatever_grows_beside_them(
+    watch: tuple[Page, Watch], explorer: Server, tab: str
+) -> None:
+    page, _ = watch
+    open_page(page, explorer, tab)
+    seen = set()
+    for size in ((1366, 768), (1100, 900), (390, 844), (1366, 768)):
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        move(slider(page, "extent_deg"), 12 + len(seen))
+        settle(page)
+        rest(page)
+        painted(page)
+        sizes = page.evaluate(_SIZES)
+        assert [size[2:] for size in sizes] == [size[:2] for size in sizes]
+        seen.add(str(sizes))
+    assert len(seen) == 3, "the places did not change"

@@ -32,6 +32,7 @@ from bearing_explorer.compute.executors import BESIDE
 from bearing_explorer.compute.load_curve import Curve, load_curve
 from bearing_explorer.compute.motion_cost import is_costly, quick_duration, step_rates
 from bearing_explorer.compute.profile import Profile, profile
+from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
@@ -54,6 +55,13 @@ MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0)
 
 LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
+
+
+def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool) -> Chain:
+    return Results(scene, cage_angle, settings, moving=moving).chain
+
+
+_chains = SingleFlightCache(_chain_of, 128)  # a drag is told against one scene all the while
 
 
 def _load_curves(found: Equilibrium) -> list[Curve]:
@@ -335,8 +343,21 @@ class Results:
     @cached_property
     def band_modes(self) -> Modes:
         """`modes`, but at every third cage angle while a hand moves."""
+        return self._few_modes(self.scene) if self._takes_few("modes") else self.modes
+
+    @property
+    def _healthy_band_modes(self) -> Modes:
+        if self._takes_few("healthy_modes"):
+            return self._of_pinned(self._few_modes, self.beside)
+        return self.healthy_modes
+
+    def _takes_few(self, modes: str) -> bool:
+        """Whether bands are to be taken from few cage angles: not where all of them are known."""
+        return self.moving and modes not in vars(self)
+
+    def _few_modes(self, scene: Scene) -> Modes:
         first, last, n = self.stretch
-        return answers.modes(self.scene, first, last, n // 3 + 1) if self.moving else self.modes
+        return answers.modes(scene, first, last, n // 3 + 1)
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
@@ -351,7 +372,7 @@ class Results:
     def healthy_bands(self) -> dict[str, tuple[float, float]]:
         """The same without the defect."""
         if self.moving:
-            return self.healthy_modes.bands()
+            return self._healthy_band_modes.bands()
         return self._of_pinned(self._bands, self.beside)
 
     def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
@@ -441,7 +462,8 @@ class Results:
         """How what is shown is coarse, where it is."""
         scene = self.scene if "ball_mass" not in shown else self.scene.replace(balls=WITH_MASS)
         if scene.balls == MASSLESS:
-            return "coarse while it moves: half the motion in half the steps"
+            part = "a quarter of" if "dof_comparison" in shown else "half"
+            return f"coarse while it moves: {part} the motion in half the steps"
         seconds = quick_duration(scene, self.settings.coarse_marching)
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
@@ -640,7 +662,7 @@ class Results:
         scene = self.beside if self.before is None else self.before
         if scene == self.scene:
             return self.chain
-        return Results(scene, self.cage_angle, self.settings, moving=self.moving).chain
+        return _chains(scene, self.cage_angle, self.settings, self.moving)
 
     @cached_property
     def dof_comparison(self) -> DofComparison:
@@ -650,8 +672,10 @@ class Results:
             return DofComparison(chosen, other, {}, {})
         against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
         static = static_differences(self.equilibrium, against.equilibrium)
-        settings = self.settings
-        how = settings.coarse_marching if self.coarse_comparison else settings.marching
+        how = self.settings.marching
+        if self.coarse_comparison:  # two motions, one of them in five directions
+            how = self.settings.coarse_marching
+            how = dataclasses.replace(how, duration=0.5 * how.duration)
         try:
             pair = [answers.spectra(one, how) for one in (self.scene, against.scene)]
             moving = spectrum_differences(*pair)

@@ -88,10 +88,12 @@ class BearingEditor(ControlView):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if results is not None:
-            self.rows.shown = {
-                "shape": shape_of(results.scene.bearing),
-                "facts": facts_of(results.scene),
-            }
+            self.rows.put(
+                shown={
+                    "shape": shape_of(results.scene.bearing),
+                    "facts": facts_of(results.scene),
+                }
+            )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         bearing = results.scene.bearing

@@ -87,12 +87,15 @@ class DofDifferences(ControlView):
         super().say(results, sentence)
         if results is not None:
             found = results.dof_comparison
-            self.rows.shown = {
-                "needed": " ".join(results.scene.needed_dofs),
-                "active": " ".join(found.chosen),
-                "against": "all five free" if found.other == DOF_NAMES else _listed(found.other),
-                "facts": facts_of(found),
-            }
+            against = "all five free" if found.other == DOF_NAMES else _listed(found.other)
+            self.rows.put(
+                shown={
+                    "needed": " ".join(results.scene.needed_dofs),
+                    "active": " ".join(found.chosen),
+                    "against": against,
+                    "facts": facts_of(found),
+                }
+            )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.dof_comparison.table().named()

@@ -69,7 +69,7 @@ class ModelEditor(ControlView):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if results is not None and results.scene.contact_damping is None:
-            self.rows.automatic = style.number(results.contact_damping, 4)
+            self.rows.put(automatic=style.number(results.contact_damping, 4))
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         values = values_of(results.scene)

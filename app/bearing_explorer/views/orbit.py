@@ -180,11 +180,8 @@ class SteadyOrbit(View):
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        self.status.line = (
-            {"mood": "bad", "words": "No orbit", "details": []}
-            if results is None
-            else orbit_status(results)
-        )
+        none = {"mood": "bad", "words": "No orbit", "details": []}
+        self.status.put(line=none if results is None else orbit_status(results))
 
     def sentence(self, results: Results) -> str:
         words = self._orbit_words(results)

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from bearingcore import orbit, presets, simulate, spectrum
+from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.orbit import NO_PERIOD
 from bearingcore.dynamics.repeated import repeated
+from bearingcore.plan import SETTLED, plan
+from bearingcore.plan.pilot import BAND, spectra_apart
 
 
 @pytest.mark.parametrize("sample_rate", [65536.0, 16384.0])
@@ -52,3 +55,22 @@ def test_no_orbit_is_refused() -> None:
     assert found.status == NO_PERIOD
     with pytest.raises(ValueError, match="an orbit that was found"):
         repeated(found, 1.0)
+
+
+@pytest.mark.parametrize("name", ["fan-rig", "6205"])
+def test_it_is_as_exact_as_the_plan_of_its_orbit_promises(name: str) -> None:
+    """Held against a march with short steps, which has its samples at the same places.
+
+    The fan rig's orbit has fewer steps than samples, that of the 6205 more.
+    """
+    scene = presets[name]
+    made = plan(scene, SETTLED)
+    assert made.orbit is not None
+    motion = repeated(made.orbit, 0.7)
+    rate, ours = motion.sample_rate, motion.outer_acceleration
+    settled = 20.0 * made.orbit.period * rate  # samples
+    assert settled == pytest.approx(round(settled), abs=1e-6)
+    marched = simulate(scene, (round(settled) + len(ours)) / rate, rate, step_rate=4.0 * rate)
+    theirs = marched.outer_acceleration[round(settled) :][: len(ours)]
+    off = spectra_apart(ours, theirs, rate, BAND * highest_natural_frequency(scene))
+    assert off <= made.predicted_error <= made.error_budget

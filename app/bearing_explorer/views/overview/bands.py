@@ -24,6 +24,8 @@ from bearingcore.sweep.outputs import mode_symbol
 if TYPE_CHECKING:
     from bearing_explorer.compute.results import Results
 
+LEFT = 68
+"""[px] left of the frame: the widest numbers fit, so that no drag moves it on either card."""
 _LABEL_FROM = 0.8  # of the width: further right a label would be cut off
 _LABEL_WIDTH = 0.26  # of the width, of a narrow card
 _SIDE = f"""
@@ -65,6 +67,7 @@ class OverviewBands(View):
             height=60,
             sizing_mode="stretch_both",
         )
+        plot.min_border_left = LEFT
         plot.xaxis.visible = False
         plot.yaxis.visible = False
         plot.ygrid.visible = False

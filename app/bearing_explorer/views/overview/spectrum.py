@@ -11,7 +11,7 @@ from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import band_rows
-from bearing_explorer.views.overview.bands import highest_band
+from bearing_explorer.views.overview.bands import LEFT, highest_band
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
     FREQUENCY,
@@ -55,6 +55,7 @@ class OverviewSpectrum(View):
             height=120,
             sizing_mode="stretch_both",
         )
+        plot.min_border_left = LEFT
         healthy = packed.source("overview_healthy_lines", "frequency", *SHOWN)
         lines = packed.source("overview_lines", "frequency", *SHOWN)
         colors = dict(zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True))

@@ -28,6 +28,7 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.defect_words import extent_words
 from bearing_explorer.figures.element_words import row_words
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.server.taking_apart import take_apart_now
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
@@ -72,6 +73,7 @@ def report(
     """
     packed = PackedSource()
     parts: list[str] = []
+    made: list[View] = []
     shown: list[View] = []
     sources: Sources = {}
     ranges: Ranges = {}
@@ -79,6 +81,7 @@ def report(
         if not (kind.in_report and (kind.needs or kind.name in found)):
             continue
         view = kind(packed)
+        made.append(view)
         view.found = found.get(kind.name)
         try:
             data, sentence = view.data(results), view.sentence(results)
@@ -104,14 +107,17 @@ def report(
     for plot in plots:
         plot.frame_align = False  # or all would leave as much room as the one that needs most
     layout = Column(children=[*plots, packed.anchor], sizing_mode="stretch_width")
-    Document().add_root(layout)  # else Bokeh looks at that of whichever session is at work now
-    return {
+    document = Document()
+    document.add_root(layout)  # else Bokeh looks at that of whichever session is at work now
+    whole = {
         "name": FILE,
         "html": page(results, about, parts),
         "item": json_item(layout),
         "packet": packed.anchor.tags[0].id,
         "figures": [plot.id for plot in plots],
     }
+    take_apart_now((*document.models, made), (View,))
+    return whole
 
 
 def mark_of(figure_id: str) -> str:

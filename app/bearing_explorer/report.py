@@ -116,7 +116,7 @@ def report(
         "packet": packed.anchor.tags[0].id,
         "figures": [plot.id for plot in plots],
     }
-    take_apart_now((*document.models, made), (View,))
+    take_apart_now((*document.models, document.config, made), (View,))
     return whole
 
 

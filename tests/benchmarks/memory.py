@@ -4,8 +4,9 @@ Each scene is another one, drawn from the whole box of `tests.helpers.box`, and 
 of it that the program can answer: of each what is quick, of some what takes longer, and of a few
 what the page draws of them. Printed is what the process holds after each tenth of them: before and
 after a garbage collection, what of that the C library's heap has given out and what it keeps free,
-and what the page's caches hold. They are bounded in number and bytes, so it must be flat once they
-are full; the last line says how much was added over the second half.
+what the page's caches hold, and what is given out beyond them. Caches are bounded in number and
+bytes and go up and down with the scenes; what is beyond them must be flat. The last line says how
+much of it was added over the second half.
 """
 
 from __future__ import annotations
@@ -183,7 +184,10 @@ def main() -> int:
     logging.disable(logging.CRITICAL)  # Bokeh finds scenes that no plot was made for
     rng = np.random.default_rng(chosen.seed)
     begun, done, held = time.perf_counter(), 0, []
-    print(f"{'scenes':>10}{'MB':>9}{'after a collection':>20}{'in use':>9}{'free':>9}{'kept':>9}")
+    print(
+        f"{'scenes':>10}{'MB':>9}{'after a collection':>20}{'in use':>9}{'free':>9}{'kept':>9}"
+        f"{'beyond':>9}"
+    )
     while done < chosen.scenes:
         points = draw(rng, min(CHUNK, chosen.scenes - done))
         for k in range(min(CHUNK, chosen.scenes - done)):
@@ -193,11 +197,13 @@ def main() -> int:
         if done % max(chosen.scenes // 10, CHUNK) < CHUNK:
             before = resident()
             gc.collect()
-            held.append(resident())
+            after = resident()
             used, free = heap()
+            kept = SHARED.total / 1e6
+            held.append((after if math.isnan(used) else used) - kept)
             print(
-                f"{done:>10,}{before:>9.0f}{held[-1]:>20.0f}{used:>9.0f}{free:>9.0f}"
-                f"{SHARED.total / 1e6:>9.0f}",
+                f"{done:>10,}{before:>9.0f}{after:>20.0f}{used:>9.0f}{free:>9.0f}{kept:>9.0f}"
+                f"{held[-1]:>9.0f}",
                 flush=True,
             )
     added = held[-1] - held[(len(held) - 1) // 2]

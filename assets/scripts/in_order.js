@@ -9,19 +9,27 @@
   const LONGEST = 10000  // ms that a view is waited for: one that fails must not silence the page
 
   const frames = []
-  let building = 0
-  const hear = () => {
-    while (building === 0 && frames.length > 0) {
-      try { frames.shift()() } catch (error) { reportError(error) }
-    }
-  }
-
+  let building = 0, hearing = false
   // In a task of its own: all that follows at once upon the last view is done by then. Timers would
   // come once a second on a page that is not looked at.
   const soon = (act) => {
     const { port1, port2 } = new MessageChannel()
     port1.onmessage = () => { port1.close(); act() }
     port2.postMessage(null)
+  }
+
+  // Each in a task of its own, as they came: a callback of BokehJS runs a little later than the
+  // change that it belongs to, and would find the numbers of the next one.
+  const hear = () => {
+    hearing = false
+    if (building > 0 || frames.length === 0) return
+    try { frames.shift()() } catch (error) { reportError(error) }
+    hear_next()
+  }
+  const hear_next = () => {
+    if (hearing || frames.length === 0) return
+    hearing = true
+    soon(hear)
   }
   const begin = () => {
     building += 1
@@ -31,7 +39,7 @@
       over = true
       clearTimeout(given_up)
       building -= 1
-      hear()
+      if (building === 0) hear_next()
     }
     const given_up = setTimeout(end, LONGEST)
     return () => soon(end)
@@ -42,7 +50,7 @@
     set onmessage(act) {
       super.onmessage = act && ((event) => {
         frames.push(() => act.call(this, event))
-        hear()
+        if (frames.length === 1 && !hearing) hear()
       })
     }
   }

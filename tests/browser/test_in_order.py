@@ -35,6 +35,15 @@ def test_children_that_come_in_messages_of_their_own_are_all_shown_once(
     assert page.evaluate("[window.in_order.missing, window.in_order.waiting]") == [[], 0]
 
 
+def test_callbacks_find_each_of_the_numbers_that_came_meanwhile(
+    watch: tuple[Page, Watch], in_messages_page: Server
+) -> None:
+    page, _ = watch
+    page.goto(f"{in_messages_page.url}?boxes=2")
+    page.wait_for_function("window.heard?.length === 3")
+    assert page.evaluate("window.heard") == [3, 1, 4]
+
+
 def test_bokeh_alone_loses_what_comes_while_it_builds(
     watch: tuple[Page, Watch], in_messages_page: Server
 ) -> None:

@@ -22,6 +22,7 @@ TEMPLATE = """
 {% endblock %}
 {% block contents %}{{ embed(roots.main) }}{% endblock %}
 """
+NUMBERS = (3, 1, 4)
 
 
 def child(name: str) -> pn.Spacer:
@@ -29,18 +30,22 @@ def child(name: str) -> pn.Spacer:
     return pn.Spacer(width=10, height=10, name=name, css_classes=["child", name])
 
 
-main = pn.Column()
+number = pn.widgets.IntInput(value=0, css_classes=["number"])
+number.jscallback(value="(window.heard ??= []).push(cb_obj.value)")
+main = pn.Column(number)
 given = pn.state.session_args or {}
 boxes = [pn.Column() for _ in range(int(given.get("boxes", [b"1"])[0]))]
 
 
 async def fill() -> None:
     """Each `append` to what is on the page is a message of its own."""
-    for number, box in enumerate(boxes):
-        box.append(child(f"first-{number}"))
+    for place, box in enumerate(boxes):
+        box.append(child(f"first-{place}"))
         main.append(box)
-        box.append(child(f"second-{number}"))
-        box.append(child(f"third-{number}"))
+        box.append(child(f"second-{place}"))
+        box.append(child(f"third-{place}"))
+    for value in NUMBERS:
+        number.value = value
 
 
 pn.state.onload(fill)

@@ -11,14 +11,19 @@ export function render({ model }) {
   const line = model.folded ? element("div", { class: "line" }, chip, more, list)
     : element("div", { class: "line", role: "status" }, chip, rest)
   if (model.folded) chip.setAttribute("role", "status")
-  // what nobody sees is not written thirty times a second
+  const REST = 200  // ms: what nobody sees is written when the hand rests
+  let later
   const write_list = () => {
-    if (!list.hidden)
-      list.replaceChildren(...model.line.details.map((detail) => element("li", {}, detail)))
+    clearTimeout(later)
+    list.replaceChildren(...model.line.details.map((detail) => element("li", {}, detail)))
+  }
+  const write_list_later = () => {
+    clearTimeout(later)
+    later = setTimeout(write_list, REST)
   }
   const open = (shown) => {
+    if (shown) write_list()
     list.hidden = !shown
-    write_list()
     more.setAttribute("aria-expanded", String(shown))
   }
   more.addEventListener("click", () => open(list.hidden))
@@ -34,7 +39,8 @@ export function render({ model }) {
     if (chip.textContent !== words) chip.textContent = words
     more.hidden = !details.length
     if (!details.length && !list.hidden) open(false)
-    if (model.folded) write_list()
+    if (model.folded && list.hidden) write_list_later()
+    else if (model.folded) write_list()
     else rest.textContent = details.join("  ·  ")
   }
   model.on("line", write)

@@ -81,6 +81,9 @@ export function render({ model }) {
       element("summary", {}, "For teachers"), element("div", { class: "body" }))
     teachers.hidden = !model.teachers
     teachers.lastChild.innerHTML = model.teachers
+    teachers.addEventListener("toggle", () => {
+      if (teachers.open) teachers.scrollIntoView({ block: "start" })
+    })
     words.replaceChildren(
       element("h2", { tabindex: "-1" }, "Lessons"),
       element("p", { class: "note" }, "Each asks a question, shows what to drag, and answers. "

@@ -116,7 +116,7 @@ def attack(
     at = log.find("Traceback")
     return Outcome(
         tally, seconds, [held[0], max(held), after], alive, pictures, loop,
-        len(log.splitlines()), log.count("Traceback"), log[max(at - 300, 0) : at + 3000],
+        len(log.splitlines()), log.count("Traceback"), log[max(at - 300, 0) : at + 9000],
     )  # fmt: skip
 
 

@@ -62,6 +62,8 @@ class IdleCollection:
         how many objects may have come since the last collection.
     left
         how many frozen objects there are beyond those of the start.
+    too_many
+        whether they are too many to wait until nobody is connected.
     collect
         collects among the new objects, or, where its argument says so, among all.
     """
@@ -71,10 +73,12 @@ class IdleCollection:
         quiet_for: Callable[[], float],
         new: Callable[[], int],
         left: Callable[[], int],
+        too_many: Callable[[], bool],
         collect: Callable[[bool], object],
         now: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._quiet_for, self._new, self._left = quiet_for, new, left
+        self._quiet_for, self._new = quiet_for, new
+        self._left, self._too_many = left, too_many
         self._collect, self._now = collect, now
         self._asked = False
         self._alone_since: float | None = None
@@ -93,7 +97,7 @@ class IdleCollection:
             self._collect(False)
         if quiet < math.inf:
             self._alone_since, self._looked_at_all = None, False
-            if quiet >= QUIET and self._left() > TOO_MANY:
+            if quiet >= QUIET and self._too_many():
                 self._collect(True)
             return
         now = self._now()
@@ -121,6 +125,7 @@ class _Objects:
     def __init__(self) -> None:
         put_aside()
         self._kept = gc.get_freeze_count()
+        self._at_most = 0  # that are frozen beyond those: what is gone again is not taken off
         self._young, self._middle, _ = gc.get_threshold()
         gc.set_threshold(self._young, self._middle, _NEVER)
         self._collected = False
@@ -131,8 +136,13 @@ class _Objects:
         return young + self._young * (middle + self._middle * old)
 
     def left(self) -> int:
-        """How many frozen ones there are beyond those that stay."""
-        return gc.get_freeze_count() - self._kept
+        """How many frozen ones there are beyond those that stay. Python walks along all of them."""
+        self._at_most = gc.get_freeze_count() - self._kept
+        return self._at_most
+
+    def too_many(self) -> bool:
+        """Whether they are too many, counted only where they may be."""
+        return self._at_most > TOO_MANY and self.left() > TOO_MANY
 
     def collect(self, among_all: bool) -> None:
         """Collect among the new ones, or among all."""
@@ -142,8 +152,10 @@ class _Objects:
         if among_all:
             gc.freeze()
             self._kept = gc.get_freeze_count()
-        elif len(gc.get_objects(2)) > KEPT:
+            self._at_most = 0
+        elif (survived := len(gc.get_objects(2))) > KEPT:
             gc.freeze()
+            self._at_most += survived
         self._collected = True
 
     def give_back(self) -> None:
@@ -156,7 +168,9 @@ class _Objects:
 def begin(quiet_for: Callable[[], float]) -> None:
     """From now on this process collects that way. Call it where its event loop is current."""
     objects = _Objects()
-    collector = IdleCollection(quiet_for, objects.new, objects.left, objects.collect)
+    collector = IdleCollection(
+        quiet_for, objects.new, objects.left, objects.too_many, objects.collect
+    )
     collect_elsewhere(collector.ask)
     PeriodicCallback(collector.look, _LOOK).start()
     PeriodicCallback(objects.give_back, _GIVE_BACK).start()

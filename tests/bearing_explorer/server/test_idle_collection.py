@@ -13,7 +13,6 @@ from bearing_explorer.server.idle_collection import (
     LEFT,
     PRESSING,
     QUIET,
-    TOO_MANY,
     IdleCollection,
 )
 
@@ -23,10 +22,12 @@ class Clock:
 
     def __init__(self) -> None:
         self.now, self.quiet, self.new, self.left = 0.0, 0.0, 0, 0
+        self.too_many = False
         self.collected: list[str] = []
         self.collector = IdleCollection(
-            lambda: self.quiet, lambda: self.new, lambda: self.left, self._collect, lambda: self.now
-        )
+            lambda: self.quiet, lambda: self.new, lambda: self.left, lambda: self.too_many,
+            self._collect, lambda: self.now,
+        )  # fmt: skip
 
     def _collect(self, among_all: bool) -> None:
         self.collected.append("all" if among_all else "new")
@@ -76,9 +77,9 @@ def test_all_is_looked_at_once_nobody_is_there_and_much_is_left() -> None:
 
 def test_all_is_looked_at_before_it_takes_the_memory_of_the_machine() -> None:
     clock = Clock()
-    clock.left = TOO_MANY
+    clock.left = LEFT + 1
     assert clock.pass_by(1.0, quiet=QUIET) == []
-    clock.left = TOO_MANY + 1
+    clock.too_many = True
     assert clock.pass_by(1.0, quiet=0.0) == [], "somebody drags"
     assert clock.pass_by(1.0, quiet=QUIET) == ["all"]
 

@@ -419,12 +419,14 @@ def too_many_in_all(steps: float, where: str, most: int) -> str:
 def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
     """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
 
-    Where balls have mass a multiple, see `ball_step_rate`.
+    Where balls have mass a multiple, see `ball_step_rate`. Raises ValueError where none is finite.
     """
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
     needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
     if scene.balls == WITH_MASS:
         needed = max(needed, ball_step_rate(scene, sample_rate))
+    if not math.isfinite(needed):
+        raise checks.refuse("the step rate that the scene needs", needed, "a finite one [Hz]")
     if needed <= sample_rate:
         return sample_rate / math.floor(sample_rate / needed)
     return sample_rate * math.ceil(needed / sample_rate - 1e-9)

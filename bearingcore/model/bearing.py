@@ -488,8 +488,8 @@ class Bearing:
         """A self-aligning bearing with what it is drawn by changed: all else follows."""
         for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
                      "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
-            given = changes.pop(name, None)
-            if given is not None and not math.isclose(given, getattr(self, name), rel_tol=1e-9):
+            given, own = changes.pop(name, None), getattr(self, name)
+            if given is not None and (own is None or not math.isclose(given, own, rel_tol=1e-9)):
                 raise checks.refuse(
                     name, given, "what follows from ball, sphere, groove and contact angle"
                 )

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
+from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.model import packing
@@ -149,11 +150,15 @@ def ball_positions(
     Raises
     ------
     ValueError
-        for cage angles that are not finite or unknown names in `dofs`.
+        for cage angles that are not finite, unknown names in `dofs`, or contacts so soft or
+        stiff that a computer has no numbers for them.
     """
     massless = equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
     active = massless.dofs
-    races = packing.races(scene, 0.0, weight=weight)
+    try:
+        races = packing.races(scene, 0.0, weight=weight)
+    except ArithmeticError:
+        raise _out_of_range(scene) from None
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     if massless.cost:
@@ -164,12 +169,16 @@ def ball_positions(
             massless.status, massless.residual, massless.iterations, massless.cost,
         )  # fmt: skip
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
-    q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
-        massless.cage_angles,
-        start,
-        static_balls(scene, races),
-        packing.static_load(scene, active),
-    )
+    try:
+        found = kernels.ball_positions(
+            massless.cage_angles,
+            start,
+            static_balls(scene, races),
+            packing.static_load(scene, active),
+        )
+    except ArithmeticError:
+        raise _out_of_range(scene) from None
+    q, load, angle, place, stiffness, status, residual, iterations = found
     status = np.where(massless.status == kernels.NOT_CARRIED, kernels.NOT_CARRIED, status)
     left = _unbalanced(scene, races, massless.cage_angles, load, angle)
     status = np.where((status < kernels.NOT_CARRIED) & (left > BALANCED), UNSETTLED, status)
@@ -302,6 +311,14 @@ class CentrifugalEffect:
             f"{percent(self.stiffness, 2)}, and parts the contact angles of the races by up to "
             f"{number(math.degrees(self.contact_angle), 2)}°."
         )
+
+
+def _out_of_range(scene: Scene) -> ValueError:
+    return checks.refuse(
+        "load_deflection_factor",
+        scene.bearing.load_deflection_factor,
+        "one of which a computer has numbers for the contacts of both races",
+    )
 
 
 def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> CentrifugalEffect:

@@ -312,6 +312,9 @@ def _explain(
     for k in failed:
         if status[k] == kernels.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
+            if not np.isfinite(K).all():  # numbers beyond those of a computer: nothing is free
+                status[k] = kernels.NOT_CONVERGED
+                continue
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan

@@ -359,7 +359,10 @@ def _centrifugal_change(scene: Scene) -> Limit:
     """What centrifugal load changes of loads and stiffness, found by solving with it."""
     force = centrifugal_force(scene)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
-    effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))
+    try:
+        effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))
+    except ValueError as error:
+        return unknown(name, limit, "", str(error))
     if not effect.converged:
         return unknown(name, limit, "", "a cage angle has no static state with it, or without")
     value = max(effect.load, effect.stiffness)

@@ -128,7 +128,8 @@ def _number_text(random_: random.Random) -> Any:
     return random_.choice((*NUMBERS, f"{random_.uniform(-400, 400):.6g}", "", " ", "1/0"))
 
 
-def _values(random_: random.Random) -> Any:
+def quantities(random_: random.Random) -> Any:
+    """Some of the quantities of a scene, with what belongs there and what does not."""
     return {
         random_.choice(_QUANTITIES): random_.choice(
             (random_.uniform(-500, 500), _number_text(random_), plain_value(random_))
@@ -180,8 +181,8 @@ def _start(random_: random.Random) -> Any:
 
 
 _COMMON: dict[str, Callable[[random.Random], Any]] = {
-    "set": _values,
-    "typed": _values,
+    "set": quantities,
+    "typed": quantities,
     "choose": _choices,
     "reset": lambda r: True,
     "released": lambda r: True,
@@ -258,7 +259,7 @@ def wrong_ids(random_: random.Random, ids: Ids) -> Frames:
     )
     way = random_.randrange(4)
     if way == 0:
-        event = told(name, {"mark": 1, "set": _values(random_)})
+        event = told(name, {"mark": 1, "set": quantities(random_)})
         return patch(event)
     if way == 1:
         attribute = random_.choice(

@@ -292,3 +292,8 @@ def test_rollers_follow_their_dimensions_and_never_become_balls() -> None:
         ROLLERS.replace(roller_length=None)
     with pytest.raises(ValueError, match="roller_length"):
         FAN_RIG.bearing.replace(roller_length=10e-3)
+
+
+def test_a_self_aligning_bearing_has_no_length_of_rollers() -> None:
+    with pytest.raises(ValueError, match=r"roller_length is 0\.01"):
+        presets["1208"].bearing.replace(roller_length=0.01)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -155,10 +156,8 @@ def ball_positions(
     """
     massless = equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
     active = massless.dofs
-    try:
+    with _within_range(scene):
         races = packing.races(scene, 0.0, weight=weight)
-    except ArithmeticError:
-        raise _out_of_range(scene) from None
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     if massless.cost:
@@ -169,16 +168,13 @@ def ball_positions(
             massless.status, massless.residual, massless.iterations, massless.cost,
         )  # fmt: skip
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
-    try:
-        found = kernels.ball_positions(
+    with _within_range(scene):
+        q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
             massless.cage_angles,
             start,
             static_balls(scene, races),
             packing.static_load(scene, active),
         )
-    except ArithmeticError:
-        raise _out_of_range(scene) from None
-    q, load, angle, place, stiffness, status, residual, iterations = found
     status = np.where(massless.status == kernels.NOT_CARRIED, kernels.NOT_CARRIED, status)
     left = _unbalanced(scene, races, massless.cage_angles, load, angle)
     status = np.where((status < kernels.NOT_CARRIED) & (left > BALANCED), UNSETTLED, status)
@@ -313,12 +309,17 @@ class CentrifugalEffect:
         )
 
 
-def _out_of_range(scene: Scene) -> ValueError:
-    return checks.refuse(
-        "load_deflection_factor",
-        scene.bearing.load_deflection_factor,
-        "one of which a computer has numbers for the contacts of both races",
-    )
+@contextmanager
+def _within_range(scene: Scene) -> Iterator[None]:
+    """Say by name what leads to numbers that a computer does not have."""
+    try:
+        yield
+    except ArithmeticError:
+        raise checks.refuse(
+            "load_deflection_factor",
+            scene.bearing.load_deflection_factor,
+            "one of which a computer has numbers for the contacts of both races",
+        ) from None
 
 
 def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> CentrifugalEffect:

@@ -29,8 +29,8 @@ from tests.fuzz.hostile_messages import SHAPES
 from tests.fuzz.pulse import pulse
 from tests.fuzz.slider import slider
 from tests.fuzz.stranger import Stranger, Tally
+from tests.fuzz.watched_server import LONGEST_HOLD
 
-LONGEST_HOLD = 0.25  # [s] of the event loop
 STRANGERS = 6
 TELL_EVERY = 5_000  # messages
 

@@ -21,9 +21,9 @@ from typing import Any
 
 from tests.benchmarks.machine import pace
 from tests.browser.helpers import Server, free_port, serving
+from tests.fuzz.watched_server import LONGEST_HOLD
 from tests.helpers.page_client import PageClient
 
-LONGEST_HOLD = 0.25  # [s] of the event loop
 QUIET = 1.0  # [s] without a message after which a tab has no more to say
 LONGEST_WAIT = 8.0  # [s] for that: a first job goes on for longer
 

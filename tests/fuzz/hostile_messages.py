@@ -128,7 +128,7 @@ def _number_text(random_: random.Random) -> Any:
     return random_.choice((*NUMBERS, f"{random_.uniform(-400, 400):.6g}", "", " ", "1/0"))
 
 
-def quantities(random_: random.Random) -> Any:
+def quantities(random_: random.Random) -> dict[Any, Any]:
     """Some of the quantities of a scene, with what belongs there and what does not."""
     return {
         random_.choice(_QUANTITIES): random_.choice(

@@ -18,9 +18,7 @@ def test_limits_of_any_scene_are_numbers_or_not_known() -> None:
     for _ in range(SCENES):
         editor = SceneEditor(chance.choice(list(presets)))
         for _ in range(chance.choice((1, 2, 3, 6))):
-            given = quantities(chance)
-            if isinstance(given, dict):
-                editor.set({str(name): value for name, value in given.items()})
+            editor.set(quantities(chance))
         limits = Results(editor.scene, 0.1).limits
         assert limits
         assert all(one.sentence for one in limits)

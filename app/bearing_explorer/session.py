@@ -68,8 +68,10 @@ _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
 
-#: the limits of the model are looked at when the hand rests, and while it moves this often [s]
+#: the limits of the model are looked at when the hand rests; while it moves after so long [s], and
+#: where many share the machine, after so many pictures: they cost as much as two
 _LIMITS_EVERY = 1.0
+_LIMITS_PICTURES = 10
 
 _BROKEN = "This could not be computed; what is shown belongs to an earlier position."
 _DRAWN_LATER = "This is drawn by itself as soon as that is done."
@@ -207,6 +209,7 @@ class Explorer:
         self._asked_endurance = Asked()
         self._slow_cost = math.inf
         self._slow_at = self._limits_at = -math.inf
+        self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
         self._scheduler = Scheduler()
@@ -697,9 +700,11 @@ class Explorer:
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()
-        due = inputs.rested or now - self._limits_at > _LIMITS_EVERY
+        self._pictures += 1
+        long_ago = now - self._limits_at > _LIMITS_EVERY
+        due = inputs.rested or (long_ago and self._pictures >= _LIMITS_PICTURES)
         if due:
-            self._limits_at = now
+            self._limits_at, self._pictures = now, 0
         return due
 
     async def _assign(self, results: Results, picture: Picture, mark: int | None) -> None:

@@ -36,7 +36,15 @@ def number(
     ValueError
         naming `field`, its value and the allowed range.
     """
-    limits = []
+    given: object = value
+    try:
+        if not isinstance(value, bool):  # Python would take it for 0 or 1
+            given = x = float(value)
+            if at_least <= x <= at_most and above < x < below and math.isfinite(x):
+                return x
+    except (TypeError, ValueError, OverflowError):
+        pass
+    limits = []  # in words, which are long to make and seldom needed
     if at_least > -math.inf:
         limits.append(f"at least {at_least:g}")
     if above > -math.inf:
@@ -48,16 +56,7 @@ def number(
     allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
     if unit:
         allowed += f" [{unit}]"
-    if isinstance(value, bool):  # Python would take it for 0 or 1
-        raise refuse(field, value, allowed)
-    try:
-        x = float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise refuse(field, value, allowed) from None
-    inside = at_least <= x <= at_most and above < x < below
-    if not (math.isfinite(x) and inside):
-        raise refuse(field, x, allowed)
-    return x
+    raise refuse(field, given, allowed)
 
 
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:

@@ -35,6 +35,8 @@ from bearingcore.model.rows import LENGTHS, MOST_ROWS, Row, arrangement_of, pair
 STEEL_DENSITY = 7800.0
 """Density [kg/m³] of balls of bearing steel."""
 
+_ONE_ROW = (Row(),)
+
 
 @dataclass(frozen=True)
 class Bearing:
@@ -307,7 +309,7 @@ class Bearing:
     @property
     def all_rows(self) -> tuple[Row, ...]:
         """The rows, also where there is but one."""
-        return self.rows or (Row(),)
+        return self.rows or _ONE_ROW
 
     def of_row(self, row: int) -> Bearing:
         """The bearing with the numbers of a row and what follows from them, without rows.
@@ -330,7 +332,7 @@ class Bearing:
     @property
     def rows_are_alike(self) -> bool:
         """True where no row has balls or dimensions of its own; places and turns may differ."""
-        return not any(self._unlike(row) for row in self.rows)
+        return not any(row.own and self._unlike(row) for row in self.rows)
 
     def _unlike(self, row: Row) -> dict[str, float]:
         """What a row has of its own that is not the bearing's."""

@@ -21,11 +21,12 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import accumulate
 from typing import Any, Self, cast
 
 from bearingcore.common import checks
+from bearingcore.common.lazy import cached_property
 from bearingcore.model import scene_file
 from bearingcore.model.bearings import drawing
 from bearingcore.model.contacts.hertz import RaceContact, in_series, race_contact, spherical_contact

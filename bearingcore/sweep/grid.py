@@ -7,7 +7,6 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from importlib import metadata
 from typing import Any
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.lazy import cached_property
 from bearingcore.model.defect import Defect
 from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.statics.life import race_ratings

@@ -15,7 +15,6 @@ import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -28,6 +27,7 @@ from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.quantity_list import DEGREE
 from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
+from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
 from bearingcore.common.table import SUFFIXES
 from bearingcore.diagnosis.size.sizing_error import extent_error

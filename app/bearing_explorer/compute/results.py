@@ -10,7 +10,6 @@ import dataclasses
 import math
 import time
 from collections.abc import Callable, Hashable
-from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -36,6 +35,7 @@ from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
+from bearingcore.common.lazy import cached_property
 from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
 from bearingcore.model.defect import RACES
 from bearingcore.model.scene import MASSLESS, WITH_MASS

@@ -6,7 +6,6 @@ As with `compute.results`, everything that is drawn of a measurement passes thro
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +15,7 @@ import bearingcore as core
 from bearing_explorer.compute.results import Results
 from bearing_explorer.compute.single_flight import SingleFlightCache
 from bearing_explorer.state.settings import Settings
+from bearingcore.common.lazy import cached_property
 from bearingcore.signals.envelope_band import PIECES
 
 if TYPE_CHECKING:

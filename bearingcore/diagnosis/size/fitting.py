@@ -11,11 +11,12 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.lazy import cached_property
 from bearingcore.common.processors import processors
 from bearingcore.diagnosis.size.chance import ByChance
 from bearingcore.diagnosis.size.matching import (

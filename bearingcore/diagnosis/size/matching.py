@@ -16,12 +16,12 @@ import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.fft import irfft
 from numpy.typing import NDArray
 
+from bearingcore.common.lazy import cached_property
 from bearingcore.diagnosis.size.path_fit import DIRECT, Explained, PathFit, PathModel
 from bearingcore.diagnosis.size.synthesis import Band
 from bearingcore.signals.averaging import BallPasses

@@ -23,10 +23,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+
+from bearingcore.common.lazy import cached_property
 
 STRIKE_REACH = 0.15
 """[rad] of a ball pass: standard deviation of where the strike is, about the exit."""

@@ -23,12 +23,12 @@ import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import probability, thousands, with_deviation
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, diagnose

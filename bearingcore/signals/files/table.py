@@ -5,12 +5,12 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
 from bearingcore.signals.files.channels import TIME
 from bearingcore.signals.files.contents import FileColumns, FileContents, contents_of

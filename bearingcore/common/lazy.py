@@ -1,0 +1,33 @@
+"""Attributes that are computed when first asked for, in any thread, and by nobody else's leave.
+
+Before Python 3.12 `functools.cached_property` holds one lock for all objects of a class while it
+computes: who asks for the attribute of one waits for that of any other, seconds where a thread has
+a long one at work. Here two threads that ask for the same one at once may both compute it.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+__all__ = ["cached_property"]
+
+if TYPE_CHECKING or sys.version_info >= (3, 12):
+    from functools import cached_property
+else:
+
+    class cached_property:  # noqa: N801  # as in functools
+        """As `functools.cached_property`, without the lock."""
+
+        def __init__(self, func: Any) -> None:
+            self.func, self.__doc__, self._name = func, func.__doc__, func.__name__
+
+        def __set_name__(self, owner: type, name: str) -> None:
+            self._name = name
+
+        def __get__(self, instance: Any, owner: type | None = None) -> Any:
+            if instance is None:
+                return self
+            # where it is known, it is found in there before this is asked
+            value = vars(instance)[self._name] = self.func(instance)
+            return value

@@ -24,6 +24,7 @@ from bearing_explorer.compute.latest_wins import LatestWins
 from bearing_explorer.compute.planning import with_choices
 from bearing_explorer.compute.results import Results
 from bearing_explorer.compute.scheduler import Scheduler
+from bearing_explorer.compute.single_flight import WouldWait
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.server import log as write
@@ -696,7 +697,11 @@ class Explorer:
         """A picture of the newest inputs: others may have waited for their turn too."""
         inputs = self._worker.newest(inputs)
         results = inputs.results
-        return inputs, results, _picture(results, views, self._limits_due(inputs))
+        try:
+            return inputs, results, _picture(results, views, self._limits_due(inputs))
+        except WouldWait:  # it is tried again in a thread
+            self._worker.put_back(inputs)
+            raise
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()

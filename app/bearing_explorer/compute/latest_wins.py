@@ -46,6 +46,11 @@ class LatestWins(Generic[Inputs]):
         except IndexError:
             return inputs
 
+    def put_back(self, inputs: Inputs) -> None:
+        """Have `newest` inputs wait again, unless newer ones do."""
+        if not self._newest:
+            self._newest = [inputs]
+
     @property
     def idle(self) -> bool:
         """Whether all that was submitted has been worked on or overtaken."""

@@ -15,10 +15,12 @@ import asyncio
 import time
 from collections.abc import Callable, Hashable
 from concurrent.futures import Executor
+from contextlib import suppress
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
 from bearing_explorer.compute.executors import in_thread
+from bearing_explorer.compute.single_flight import WouldWait, never_waiting
 
 Result = TypeVar("Result")
 
@@ -71,9 +73,13 @@ class Scheduler:
             line.pictures -= 1
         try:
             await asyncio.sleep(0.0)  # what browsers have said meanwhile
-            return measured()
+            with never_waiting():
+                return measured()
+        except WouldWait:
+            pass  # for what a thread has at work: so a thread waits
         finally:
             line.turn.release()
+        return await in_thread(measured)
 
     async def run_slow(self, function: Callable[..., Result], *args: object) -> Result:
         """Run what takes long, in the threads that are for it."""
@@ -91,15 +97,21 @@ class Scheduler:
         What has no kind is never light. Cancelled before it had its turn it never begins.
         """
         kind = None if kind is None else ("idle", kind)
-        if kind is None or not self.is_light(kind, LIGHT_IDLE_WORK):
+
+        async def in_threads() -> Result:
             return await asyncio.wrap_future(threads.submit(self._noted, kind, function, *args))
+
+        if kind is None or not self.is_light(kind, LIGHT_IDLE_WORK):
+            return await in_threads()
         line = _line()
         async with line.idle:
             end = time.monotonic() + PATIENCE
             while line.pictures and time.monotonic() < end:
                 await asyncio.sleep(0.01)
             async with line.turn:
-                return self._noted(kind, function, *args)
+                with suppress(WouldWait), never_waiting():
+                    return self._noted(kind, function, *args)
+        return await in_threads()
 
     def _measured(
         self, kind: Hashable | None, function: Callable[..., Result], *args: object

@@ -2,14 +2,43 @@
 
 from __future__ import annotations
 
+import threading
 from collections import OrderedDict
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
 from concurrent.futures import Future
+from contextlib import contextmanager
 from typing import Generic, TypeVar
 
 from bearing_explorer.compute.budget import SHARED, Budget
 
 Answer = TypeVar("Answer")
+
+
+class WouldWait(BaseException):
+    """An answer is being computed by another thread, and here nobody may wait for one.
+
+    Not an `Exception`: nothing has failed, and who takes failures for answers must not take this.
+    """
+
+
+class _Here(threading.local):
+    may_wait = True
+
+
+_here = _Here()
+
+
+@contextmanager
+def never_waiting() -> Iterator[None]:
+    """Have what this thread asks for raise `WouldWait` where it would wait for another thread.
+
+    For the event loop, which is everybody's.
+    """
+    before, _here.may_wait = _here.may_wait, False
+    try:
+        yield
+    finally:
+        _here.may_wait = before
 
 
 class SingleFlightCache(Generic[Answer]):
@@ -26,25 +55,39 @@ class SingleFlightCache(Generic[Answer]):
         self._known: OrderedDict[Hashable, Future[Answer]] = OrderedDict()
 
     def __call__(self, *key: Hashable) -> Answer:
+        while True:
+            future, mine = self._asked(key)
+            if mine:
+                self._answer(key, future)
+            elif not (_here.may_wait or future.done()):
+                raise WouldWait
+            try:
+                return future.result()
+            except WouldWait:
+                if mine:
+                    raise
+                # who was at it must not wait for a third: it is begun anew here
+
+    def _asked(self, key: tuple[Hashable, ...]) -> tuple[Future[Answer], bool]:
+        """The answer to come, and whether it is for the caller to find it."""
         with self._lock:
             future = self._known.get(key)
-            mine = future is None
             if future is None:
-                future = self._add(key)
-            else:
-                self._known.move_to_end(key)
-                self._budget.use(self, key)
-        if mine:
-            try:
-                answer = self._compute(*key)
-            except BaseException as error:
-                with self._lock:
-                    self._known.pop(key, None)
-                future.set_exception(error)
-            else:
-                future.set_result(answer)
-                self._budget.add(self, key, answer)
-        return future.result()
+                return self._add(key), True
+            self._known.move_to_end(key)
+            self._budget.use(self, key)
+            return future, False
+
+    def _answer(self, key: tuple[Hashable, ...], future: Future[Answer]) -> None:
+        try:
+            answer = self._compute(*key)
+        except BaseException as error:
+            with self._lock:
+                self._known.pop(key, None)
+            future.set_exception(error)
+        else:
+            future.set_result(answer)
+            self._budget.add(self, key, answer)
 
     def keep(self, answer: Answer, *key: Hashable) -> None:
         """Keep what was computed elsewhere."""

@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from bearing_explorer.compute.scheduler import LIGHT, LIGHT_IDLE_WORK, Scheduler
+from bearing_explorer.compute.single_flight import SingleFlightCache
 
 from tests.helpers.loops import run
 
@@ -193,3 +194,39 @@ def test_kinds_are_not_remembered_for_ever() -> None:
         return len(scheduler._cost)
 
     assert run(session()) < 100
+
+
+def test_the_loop_does_not_wait_for_what_a_thread_has_at_work() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    def slow(key: str) -> str:
+        begun.set()
+        assert go_on.wait(60.0)
+        return key
+
+    answers = SingleFlightCache(slow, 4)
+
+    async def session(idle: bool) -> tuple[bool, str]:
+        scheduler = Scheduler()
+        with ThreadPoolExecutor(1) as threads:
+            for work_ in (lambda _: "", answers):  # light at first
+                if work_ is answers:
+                    other = threading.Thread(target=answers, args=("asked",))
+                    other.start()
+                    assert begun.wait(60.0)
+                if idle:
+                    task = asyncio.create_task(scheduler.run_idle(threads, "kind", work_, "asked"))
+                else:
+                    task = asyncio.create_task(scheduler.run("kind", work_, "asked"))
+                if work_ is answers:
+                    await asyncio.sleep(0.1)  # the loop turns
+                    free = not task.done()
+                    go_on.set()
+                found = await task
+            other.join()
+        return free, found
+
+    for idle in (False, True):
+        begun.clear(), go_on.clear()
+        answers = SingleFlightCache(slow, 4)
+        assert run(session(idle)) == (True, "asked")

@@ -6,7 +6,7 @@ import time
 import numpy as np
 import pytest
 from bearing_explorer.compute.budget import Budget, held_bytes
-from bearing_explorer.compute.single_flight import SingleFlightCache
+from bearing_explorer.compute.single_flight import SingleFlightCache, WouldWait, never_waiting
 
 
 def test_threads_that_ask_together_share_one_computation() -> None:
@@ -96,3 +96,61 @@ def test_long_lists_count_and_nothing_counts_twice() -> None:
     numbers, array = (1.0,) * 10_000, np.zeros((10, 10))
     assert held_bytes(numbers) == 320_000
     assert held_bytes([array, array.T, array[2:4], {"again": array}]) == 800
+
+
+def test_who_may_not_wait_is_told_so_and_takes_what_is_known() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    def slow(key: int) -> int:
+        begun.set()
+        assert go_on.wait(60.0)
+        return 10 * key
+
+    once = SingleFlightCache(slow, 4)
+    thread = threading.Thread(target=lambda: once(7))
+    thread.start()
+    assert begun.wait(60.0)
+    with never_waiting():
+        with pytest.raises(WouldWait):
+            once(7)
+        go_on.set()
+        thread.join()
+        assert once(7) == 70
+        assert once(8) == 80, "what nobody is at is computed"
+
+
+def test_who_waits_for_somebody_that_may_not_wait_begins_anew() -> None:
+    begun, asked, go_on = threading.Event(), threading.Event(), threading.Event()
+
+    def first(key: int) -> int:
+        begun.set()
+        assert go_on.wait(60.0)
+        return 10 * key
+
+    def second(key: int) -> int:
+        asked.set()
+        if threading.current_thread() is threading.main_thread():
+            while not waiting:
+                time.sleep(0.001)
+            time.sleep(0.05)  # until the other one waits for this
+        return 1 + firsts(key)
+
+    waiting: list[bool] = []
+    answers: list[int] = []
+    firsts, seconds = SingleFlightCache(first, 4), SingleFlightCache(second, 4)
+
+    def wait() -> None:
+        assert asked.wait(60.0)
+        waiting.append(True)
+        answers.append(seconds(7))
+
+    threads = [threading.Thread(target=lambda: firsts(7)), threading.Thread(target=wait)]
+    threads[0].start()
+    assert begun.wait(60.0)
+    threads[1].start()
+    with never_waiting(), pytest.raises(WouldWait):
+        seconds(7)
+    go_on.set()
+    for thread in threads:
+        thread.join(60.0)
+    assert answers == [71]

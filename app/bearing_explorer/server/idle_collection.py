@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import gc
 import math
+import sys
 import time
 from collections.abc import Callable
 
@@ -35,13 +36,13 @@ figures that are made anew each time, is found by no collection once it has beco
 So a collection looks at `KEPT` and `PRESSING` and what comes in the quarter of a second between two
 looks: at 150,000 objects. That takes half a microsecond each, 0.08 s, and up to three times as long
 on a machine whose memory is in demand."""
-LEFT = 200_000
-"""Frozen objects beyond those of the start for which all are looked at once nobody is there: they
-hold some 50 MB. All are then half a million, which takes a quarter of a second."""
-TOO_MANY = 4_000_000
-"""Frozen objects beyond those of the start for which all are looked at in a quiet moment, whoever
-is there: they hold a gigabyte. That keeps everybody waiting for some seconds, and is meant for what
-nobody has foreseen: ninety people with three tabs each have as many."""
+LEFT = 400_000
+"""Blocks of memory beyond those of the start for which all are looked at once nobody is there: some
+50 MB, of 200,000 objects. All are then half a million, which takes a quarter of a second."""
+TOO_MANY = 8_000_000
+"""Blocks beyond those of the start for which all are looked at in a quiet moment, whoever is there:
+they are a gigabyte. That keeps everybody waiting for some seconds, and is meant for what nobody has
+foreseen: ninety people with three tabs each have as many."""
 ALONE = 20.0
 """[s] without anybody connected after which all may be looked at: pages that come back have come,
 and sessions that have ended are taken apart."""
@@ -61,9 +62,7 @@ class IdleCollection:
     new
         how many objects may have come since the last collection.
     left
-        how many frozen objects there are beyond those of the start.
-    too_many
-        whether they are too many to wait until nobody is connected.
+        how many blocks of memory there are beyond those of the start, or of the last look at all.
     collect
         collects among the new objects, or, where its argument says so, among all.
     """
@@ -73,13 +72,11 @@ class IdleCollection:
         quiet_for: Callable[[], float],
         new: Callable[[], int],
         left: Callable[[], int],
-        too_many: Callable[[], bool],
         collect: Callable[[bool], object],
         now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._quiet_for, self._new = quiet_for, new
-        self._left, self._too_many = left, too_many
-        self._collect, self._now = collect, now
+        self._left, self._collect, self._now = left, collect, now
         self._asked = False
         self._alone_since: float | None = None
         self._looked_at_all = True
@@ -97,7 +94,7 @@ class IdleCollection:
             self._collect(False)
         if quiet < math.inf:
             self._alone_since, self._looked_at_all = None, False
-            if quiet >= QUIET and self._too_many():
+            if quiet >= QUIET and self._left() > TOO_MANY:
                 self._collect(True)
             return
         now = self._now()
@@ -119,13 +116,22 @@ def put_aside() -> None:
     gc.freeze()
 
 
+def _old() -> int:
+    """How many objects have survived and are not frozen.
+
+    Counted in one step of the interpreter: a tuple that another thread is filling is among them,
+    and Python takes it for an error ("bad argument to internal function") where that thread finds
+    it in a list of somebody else's.
+    """
+    return next(map(len, map(gc.get_objects, (2,))))
+
+
 class _Objects:
     """The objects of this process that a garbage collection looks at."""
 
     def __init__(self) -> None:
         put_aside()
-        self._kept = gc.get_freeze_count()
-        self._at_most = 0  # that are frozen beyond those: what is gone again is not taken off
+        self._kept = sys.getallocatedblocks()
         self._young, self._middle, _ = gc.get_threshold()
         gc.set_threshold(self._young, self._middle, _NEVER)
         self._collected = False
@@ -136,13 +142,10 @@ class _Objects:
         return young + self._young * (middle + self._middle * old)
 
     def left(self) -> int:
-        """How many frozen ones there are beyond those that stay. Python walks along all of them."""
-        self._at_most = gc.get_freeze_count() - self._kept
-        return self._at_most
-
-    def too_many(self) -> bool:
-        """Whether they are too many, counted only where they may be."""
-        return self._at_most > TOO_MANY and self.left() > TOO_MANY
+        """How many blocks there are beyond those that stay: frozen objects are not counted, for
+        which Python would walk along all of them.
+        """
+        return sys.getallocatedblocks() - self._kept
 
     def collect(self, among_all: bool) -> None:
         """Collect among the new ones, or among all."""
@@ -151,11 +154,9 @@ class _Objects:
         gc.collect()
         if among_all:
             gc.freeze()
-            self._kept = gc.get_freeze_count()
-            self._at_most = 0
-        elif (survived := len(gc.get_objects(2))) > KEPT:
+            self._kept = sys.getallocatedblocks()
+        elif _old() > KEPT:
             gc.freeze()
-            self._at_most += survived
         self._collected = True
 
     def give_back(self) -> None:
@@ -168,9 +169,7 @@ class _Objects:
 def begin(quiet_for: Callable[[], float]) -> None:
     """From now on this process collects that way. Call it where its event loop is current."""
     objects = _Objects()
-    collector = IdleCollection(
-        quiet_for, objects.new, objects.left, objects.too_many, objects.collect
-    )
+    collector = IdleCollection(quiet_for, objects.new, objects.left, objects.collect)
     collect_elsewhere(collector.ask)
     PeriodicCallback(collector.look, _LOOK).start()
     PeriodicCallback(objects.give_back, _GIVE_BACK).start()

@@ -13,6 +13,7 @@ from bearing_explorer.server.idle_collection import (
     LEFT,
     PRESSING,
     QUIET,
+    TOO_MANY,
     IdleCollection,
 )
 
@@ -22,11 +23,10 @@ class Clock:
 
     def __init__(self) -> None:
         self.now, self.quiet, self.new, self.left = 0.0, 0.0, 0, 0
-        self.too_many = False
         self.collected: list[str] = []
         self.collector = IdleCollection(
-            lambda: self.quiet, lambda: self.new, lambda: self.left, lambda: self.too_many,
-            self._collect, lambda: self.now,
+            lambda: self.quiet, lambda: self.new, lambda: self.left, self._collect,
+            lambda: self.now,
         )  # fmt: skip
 
     def _collect(self, among_all: bool) -> None:
@@ -79,7 +79,7 @@ def test_all_is_looked_at_before_it_takes_the_memory_of_the_machine() -> None:
     clock = Clock()
     clock.left = LEFT + 1
     assert clock.pass_by(1.0, quiet=QUIET) == []
-    clock.too_many = True
+    clock.left = TOO_MANY + 1
     assert clock.pass_by(1.0, quiet=0.0) == [], "somebody drags"
     assert clock.pass_by(1.0, quiet=QUIET) == ["all"]
 
@@ -147,3 +147,31 @@ asyncio.run(live())
 
 def test_a_collection_looks_at_what_is_new_however_many_sessions_there_are() -> None:
     subprocess.run([sys.executable, "-c", _MANY], check=True)
+
+
+_FILLED = """
+import gc, sys, threading
+from bearing_explorer.server import idle_collection
+
+sys.setswitchinterval(1e-6)
+filled, wrong = [], []
+
+def fill():
+    while len(filled) < 2000 and not wrong:
+        try:
+            filled.append(len(tuple([k] for k in range(300))))
+        except SystemError as error:
+            wrong.append(error)
+
+thread = threading.Thread(target=fill)
+thread.start()
+objects = idle_collection._Objects()
+while thread.is_alive():
+    objects.collect(among_all=False)
+assert not wrong, wrong
+assert filled == [300] * 2000
+"""
+
+
+def test_a_collection_does_not_disturb_what_other_threads_are_making() -> None:
+    subprocess.run([sys.executable, "-c", _FILLED], check=True)

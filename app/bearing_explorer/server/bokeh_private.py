@@ -108,6 +108,7 @@ def _names() -> Iterator[PrivateName]:
         (JSComponent, "_msg__callbacks"),
         (JSComponent, "_models"),
         (BaseTemplate, "_render_items"),
+        (pn.pane.HoloViews, "_plots"),
     ):
         yield PrivateName("panel", f"{kind.__name__}().{name}", _set_in(kind, name))
 
@@ -314,6 +315,14 @@ def shown_in(document: Document) -> list[object]:
     """What Panel shows in a document, and its models; a template has some that only Panel knows."""
     views = getattr(state, "_views", {})
     return [part for view in views.values() if view[2] is document for part in view[:2]]
+
+
+def plots_of(pane: Any) -> list[object]:
+    """HoloViews' plots of a pane, and the panes that show them; none where they are not found."""
+    found: list[object] = []
+    for plot, shown_by in getattr(pane, "_plots", {}).values():
+        found += [shown_by, *plot.traverse(lambda one: one)]
+    return found
 
 
 def inside(parameterized: object) -> object:

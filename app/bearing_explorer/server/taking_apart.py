@@ -13,7 +13,7 @@ import asyncio
 import functools
 import gc
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Coroutine, Iterable, Iterator
 from types import CellType, FunctionType, MethodType
 from typing import Any
 
@@ -24,6 +24,7 @@ from panel.viewable import Viewable
 
 from bearing_explorer.server import threads
 from bearing_explorer.server.bokeh_private import inside
+from bearing_explorer.server.drawn_by import DrawnBy, forget_options, parts_of_figure
 
 SETTLES = 1.0
 """[s] after the end of a session until its cancelled tasks have come back: some look about them
@@ -35,7 +36,7 @@ AT_ONCE = 500
 """Objects that are looked at, or parts that are taken apart, in one turn of the event loop: it
 takes some milliseconds."""
 
-_HELD: tuple[type, ...] = (Model, Viewable, BaseTemplate)
+_HELD: tuple[type, ...] = (Model, Viewable, BaseTemplate, DrawnBy)
 """What belongs to one session, wherever it is found: none of these can be shown in two."""
 _PLAIN = (list, tuple, set, frozenset, deque)
 
@@ -123,7 +124,19 @@ def take_apart(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> None:
 
     On the event loop, after all that works with them was told to end. See `parts_of`.
     """
-    task = asyncio.get_running_loop().create_task(_take_apart(list(roots), kinds))
+    _begin(_take_apart(list(roots), kinds))
+
+
+def take_figure_apart(drawn_by: DrawnBy) -> None:
+    """Have the parts of a figure that is gone from the page let go, in a session that goes on.
+
+    On the event loop.
+    """
+    _begin(_take_figure_apart([drawn_by]))
+
+
+def _begin(work: Coroutine[Any, Any, None]) -> None:
+    task = asyncio.get_running_loop().create_task(work)
     _at_work.add(task)
     task.add_done_callback(_at_work.discard)
 
@@ -138,16 +151,40 @@ def take_apart_now(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> Non
 
 
 async def _take_apart(roots: list[object], kinds: tuple[type, ...]) -> None:
+    await _settled()
+    parts: list[object] = []
+    for _ in _search(roots, kinds, parts):
+        await asyncio.sleep(0.0)
+    roots.clear()
+    await _take_figures_apart([part for part in parts if isinstance(part, DrawnBy)])
+    await _clear(parts)
+
+
+async def _take_figure_apart(figures: list[DrawnBy]) -> None:
+    await _settled()
+    await _take_figures_apart(figures)
+
+
+async def _take_figures_apart(figures: list[DrawnBy]) -> None:
+    parts: list[object] = []
+    while figures:
+        for _ in parts_of_figure(figures.pop(), parts, AT_ONCE):
+            await asyncio.sleep(0.0)
+    forget_options(parts)
+    await _clear(parts)
+
+
+async def _clear(parts: list[object]) -> None:
+    while parts:
+        vars(parts.pop()).clear()
+        if len(parts) % AT_ONCE == 0:
+            await asyncio.sleep(0.0)
+
+
+async def _settled() -> None:
+    """Wait until nothing works any longer with what has come to its end."""
     await asyncio.sleep(SETTLES)
     # what begins later belongs to others: all of this session's is cancelled
     begun = threads.at_work()
     while not all(future.done() for future in begun):
         await asyncio.sleep(LOOKS)
-    parts: list[object] = []
-    for _ in _search(roots, kinds, parts):
-        await asyncio.sleep(0.0)
-    roots.clear()
-    while parts:
-        vars(parts.pop()).clear()
-        if len(parts) % AT_ONCE == 0:
-            await asyncio.sleep(0.0)

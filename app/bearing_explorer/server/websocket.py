@@ -11,6 +11,8 @@ import time
 from typing import Any
 from urllib.parse import urlsplit
 
+from bokeh.protocol.receiver import Receiver
+from bokeh.server.protocol_handler import ProtocolHandler
 from bokeh.util.token import get_session_id
 from panel.io import server as panel_server
 
@@ -18,6 +20,7 @@ from bearing_explorer.server import limits, live, message_cost, places
 from bearing_explorer.server import log as write
 from bearing_explorer.server.allowed_messages import ById, by_name, message_of, welcome
 from bearing_explorer.server.small_pages import tell, tell_error
+from bearing_explorer.server.taking_apart import take_apart
 
 _PULL = 50.0
 """Messages that count as much as one that asks for the whole document."""
@@ -35,6 +38,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     _document: Any = None  # of the session that it is connected to
     connection: Any  # to the session
     receiver: Any
+    handler: Any
     session_name = ""
     """Of the session that this is connected to; empty before."""
 
@@ -223,6 +227,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         """The session may end, and nothing of this connection waits for a garbage collection."""
         if self.connection is not None:
             self.application.client_lost(self.connection)
+        if self.receiver is not None:
+            take_apart((self.receiver, self.handler), (Receiver, ProtocolHandler))
         self.connection = self.receiver = self.handler = None
 
 

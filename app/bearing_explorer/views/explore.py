@@ -33,8 +33,11 @@ from bearing_explorer.figures import style
 from bearing_explorer.figures.heat_map import Places, Side, goes_there, ring_this_scene
 from bearing_explorer.figures.style import AxisQuantity
 from bearing_explorer.measurement.form import number_of
+from bearing_explorer.server.bokeh_private import plots_of
+from bearing_explorer.server.drawn_by import DrawnBy
 from bearing_explorer.server.live import counted_once
 from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.server.taking_apart import take_figure_apart
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -116,6 +119,8 @@ class ExplorePlane(JobView[Plane]):
     _filling: asyncio.Task[None] | None = None
     _drawn: Plane | None = None  # what the figures on the page show
     _making: Plane | None = None  # what those on their way are made for
+    _drawn_by: DrawnBy | None = None  # those on the page
+    _made_by: DrawnBy | None = None  # those on their way
 
     def build(self, packed: PackedSource) -> Any:
         self._mark = packed.source("explore_mark", "x", "y")
@@ -319,7 +324,9 @@ class ExplorePlane(JobView[Plane]):
             responsive=True,
         )
         initialize_dynamic(layout)  # now, and not in the turn in which the models are made
-        return pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
+        pane = pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
+        self._made_by = DrawnBy(pane, pane.layout, pane.widget_box, layout, self._news)
+        return pane
 
     def _filled(self) -> None:
         """The figures are on the page; there may be a newer map than theirs."""
@@ -327,6 +334,11 @@ class ExplorePlane(JobView[Plane]):
         self._mark.js_on_change("data", *self._followers)
         self._caption.figures = [plot.id for plot in self._plots]
         self._filling, self._drawn = None, self._making
+        if self._drawn_by is not None:
+            take_figure_apart(self._drawn_by)
+        self._drawn_by, self._made_by = self._made_by, None
+        assert self._drawn_by is not None
+        self._drawn_by.roots += plots_of(self._drawn_by.roots[0])
         newest, self.found = self.found, self._drawn
         if newest is not None:
             self._show(newest)

@@ -42,6 +42,22 @@ async def _opened(url: str, *tabs: str) -> PageClient:
     return client
 
 
+def _done(client: PageClient) -> list[str]:
+    states = {name: word for name, word in client.words.items() if isinstance(word, dict)}
+    return [name for name, state in states.items() if state.get("mood") == "done"]
+
+
+async def _map(client: PageClient, output: str = "") -> None:
+    """Wait until a map of HoloViews is there, and whole; of another output where one is named."""
+    if output:
+        for name in _done(client):
+            del client.words[name]
+        form = client.components["JobPanel"]["values"]
+        await client.say("JobPanel", {"start": {**form, "output": output}})
+    while not _done(client):
+        await client.news(10.0)
+
+
 async def _end(server: Any, client: PageClient) -> None:
     await client.close()
     [context] = server._tornado._applications.values()
@@ -53,14 +69,21 @@ async def _end(server: Any, client: PageClient) -> None:
         await asyncio.sleep(0.01)
 
 
-def test_a_session_that_ends_leaves_nearly_nothing_to_be_collected() -> None:
+@pytest.mark.parametrize("tab", ["stiffness", "explore"])
+def test_a_session_that_ends_leaves_nearly_nothing_to_be_collected(tab: str) -> None:
+    async def open_tabs(url: str) -> PageClient:
+        client = await _opened(url, tab)
+        if tab == "explore":
+            await _map(client)
+        return client
+
     async def come_and_go(url: str, server: Any) -> None:
-        await _end(server, await _opened(url, "stiffness"))  # what is made once a process
+        await _end(server, await open_tabs(url))  # what is made once a process
         gc.collect()
         gc.freeze()
         gc.disable()
         try:
-            client = await _opened(url, "stiffness")
+            client = await open_tabs(url)
             gc.collect()  # what was garbage before
             had = len(gc.get_objects())
             await _end(server, client)
@@ -73,6 +96,41 @@ def test_a_session_that_ends_leaves_nearly_nothing_to_be_collected() -> None:
         assert left < 0.02 * had, f"{left} of {had} objects wait for a garbage collection"
 
     served(come_and_go)
+
+
+def test_figures_that_are_replaced_leave_nearly_nothing_to_be_collected() -> None:
+    async def look_at_maps(url: str, server: Any) -> None:
+        client = await _opened(url, "explore")
+        await _map(client)
+
+        async def another(output: str) -> None:
+            await _map(client, output)
+            await asyncio.sleep(0.1)  # until it is on the page
+            while taking_apart._at_work:
+                await asyncio.sleep(0.01)
+
+        await another("k_xx_mean")
+        gc.collect()
+        had = len(gc.get_objects())
+        gc.disable()
+        try:
+            for output in ("k_yy_mean", "k_xx_mean", "k_yy_mean"):
+                gc.collect()  # what is garbage as soon as it is made
+                gc.freeze()
+                await another(output)
+            gc.collect()
+            gc.unfreeze()
+            left = gc.collect()
+        finally:
+            gc.enable()
+        assert left < 6_000, f"{left} objects of three maps wait for a garbage collection"
+        assert had > 100_000
+        await client.ask(set={"extent_deg": 33.0})
+        assert await client.until_drawn(), "what is on the page still works"
+        assert not client.errors
+        await _end(server, client)
+
+    served(look_at_maps)
 
 
 def test_who_stays_is_not_taken_apart() -> None:

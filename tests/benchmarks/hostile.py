@@ -13,23 +13,22 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import json
 import math
 import os
 import sys
-import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.machine import pace
-from tests.browser.helpers import Server, free_port, serving
+from tests.browser.helpers import serving
 from tests.fuzz.hostile_messages import SHAPES
 from tests.fuzz.pulse import pulse
 from tests.fuzz.slider import slider
 from tests.fuzz.stranger import Stranger, Tally
 from tests.fuzz.watched_server import LONGEST_HOLD
+from tests.helpers.watched import watched_server
 
 STRANGERS = 6
 TELL_EVERY = 5_000  # messages
@@ -78,12 +77,9 @@ def attack(
     messages: int, strangers: int = STRANGERS, first: int = 0, seconds: float = math.inf
 ) -> Outcome:
     """Send so many messages to a server of its own, or for so long."""
-    report = Path(tempfile.mkstemp(suffix=".json")[1])
-    port = free_port()
-    command = [sys.executable, "-m", "tests.fuzz.watched_server", str(report)]
-    server = Server([*command, "--port", str(port), "--no-browser"], port)
+    server, told = watched_server()
     tally = Tally()
-    url = f"http://localhost:{port}/"
+    url = server.url
 
     until = time.monotonic() + seconds
 
@@ -92,17 +88,17 @@ def attack(
         sending = asyncio.gather(
             *(Stranger(url, first + k, tally).send(messages, until) for k in range(strangers))
         )
-        told = TELL_EVERY
+        tell_at = TELL_EVERY
         while not sending.done():
             await asyncio.wait({sending}, timeout=1.0)
             held.append(resident(server.process.pid))
-            if tally.messages >= told:
+            if tally.messages >= tell_at:
                 print(f"{tally.messages:>10,} messages {held[-1]:>8.0f} MB", flush=True)
-                told += TELL_EVERY
+                tell_at += TELL_EVERY
         await sending
         return held
 
-    with serving(server), pulse(port) as heard, slider(url) as moved:
+    with serving(server), pulse(server.port) as heard, slider(url) as moved:
         begun = time.perf_counter()
         held = asyncio.run(send())
         seconds = time.perf_counter() - begun
@@ -111,11 +107,9 @@ def attack(
         after = resident(server.process.pid)
         server.stop()
         log = server.log
-    loop = json.loads(report.read_text(encoding="utf-8"))
-    report.unlink()
     at = log.find("Traceback")
     return Outcome(
-        tally, seconds, [held[0], max(held), after], alive, pictures, loop,
+        tally, seconds, [held[0], max(held), after], alive, pictures, told(),
         len(log.splitlines()), log.count("Traceback"), log[max(at - 300, 0) : at + 9000],
     )  # fmt: skip
 

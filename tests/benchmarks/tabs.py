@@ -11,18 +11,16 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import json
 import sys
-import tempfile
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.machine import pace
-from tests.browser.helpers import Server, free_port, serving
+from tests.browser.helpers import serving
 from tests.fuzz.watched_server import LONGEST_HOLD
 from tests.helpers.page_client import PageClient
+from tests.helpers.watched import watched_server
 
 QUIET = 1.0  # [s] without a message after which a tab has no more to say
 LONGEST_WAIT = 8.0  # [s] for that: a first job goes on for longer
@@ -79,16 +77,11 @@ async def open_all(url: str, tabs: list[str]) -> list[Opening]:
 
 def measure(people: int, tabs: list[str]) -> tuple[list[list[Opening]], dict[str, Any]]:
     """What each person opened, and what the watch on the server's loop has noted."""
-    report = Path(tempfile.mkstemp(suffix=".json")[1])
-    port = free_port()
-    command = [sys.executable, "-m", "tests.fuzz.watched_server", str(report)]
-    server = Server([*command, "--port", str(port), "--no-browser"], port)
+    server, told = watched_server()
     with serving(server):
         came = [asyncio.run(open_all(server.url, tabs)) for _ in range(people)]
         time.sleep(1.2)  # the report is written once a second
-    loop: dict[str, Any] = json.loads(report.read_text(encoding="utf-8"))
-    report.unlink()
-    return came, loop
+    return came, told()
 
 
 def main() -> int:

@@ -4,10 +4,12 @@ import asyncio
 import math
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from bearing_explorer.compute.results import Results
+from bearing_explorer.compute.single_flight import WouldWait
 from bearing_explorer.server.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 
@@ -267,6 +269,29 @@ def test_what_is_shown_names_the_change_it_answers(news: list[dict]) -> None:
     """The browser passes over it where a hand has moved on meanwhile."""
     session(lambda e: e._asked({"mark": 7, "typed": {"extent_deg": "20"}}))
     assert news[-1]["state"]["mark"] == 7
+
+
+def test_a_picture_that_would_wait_is_of_the_newest_inputs_all_the_same(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the event loop nobody waits: it is tried again in a thread, and nothing is lost."""
+    explorer = session()
+    views = explorer._views["one"]
+    before = explorer.inputs
+    newest = replace(before, scene=before.scene.healthy())
+    explorer._worker.put_back(newest)
+
+    def waits(*_: object) -> None:
+        raise WouldWait
+
+    with monkeypatch.context() as patched:
+        patched.setattr("bearing_explorer.session._picture", waits)
+        with pytest.raises(WouldWait):
+            explorer._quick_picture(before, views)
+    inputs, results, _ = explorer._quick_picture(before, views)
+    assert inputs is newest
+    assert results.scene == before.scene.healthy()
+    assert not explorer._worker.waiting
 
 
 def test_limits_are_looked_at_when_the_hand_rests(

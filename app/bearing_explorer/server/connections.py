@@ -73,8 +73,9 @@ class Connection(IOStream):
         self.request: Any = None
 
     def close_fd(self) -> None:
-        """Close the socket."""
+        """Close the socket, and let go of the request, which holds this stream."""
         self._server.forget(self)
+        self.request = None
         super().close_fd()
 
     @property
@@ -155,7 +156,7 @@ class BoundedServer(HTTPServer):
     def start_request(self, server_conn: object, request_conn: Any) -> Any:
         """Hear that a connection begins to wait for a request."""
         stream = getattr(request_conn, "stream", None)
-        if isinstance(stream, Connection):
+        if isinstance(stream, Connection) and not stream.closed():
             stream.request, stream.since = request_conn, time.monotonic()
         return super().start_request(server_conn, request_conn)
 

@@ -13,9 +13,12 @@ import pytest
 from bearing_explorer.compute.executors import PICTURES
 from bearing_explorer.server import places, serving, taking_apart
 from bearing_explorer.server.bokeh_private import drop_session
+from bearing_explorer.server.connections import Connection
 from bearing_explorer.server.taking_apart import models_at_end, parts_of, take_apart
 from bokeh.document import Document
 from bokeh.models import Column, Div
+from bokeh.protocol.receiver import Receiver
+from bokeh.server.protocol_handler import ProtocolHandler
 from panel.io import server as panel_server
 
 from tests.helpers.loops import run
@@ -131,6 +134,42 @@ def test_figures_that_are_replaced_leave_nearly_nothing_to_be_collected() -> Non
         await _end(server, client)
 
     served(look_at_maps)
+
+
+def test_connections_leave_nothing_to_be_collected() -> None:
+    async def ask(url: str, server: Any) -> None:
+        async def come_and_go(n: int) -> None:
+            for _ in range(n):
+                reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+                writer.write(b"GET /liveness HTTP/1.1\r\nHost: here\r\nConnection: close\r\n\r\n")
+                await reader.read()
+                writer.close()
+                client = PageClient(url)  # that is cut off in the middle of a message
+                await client.open_page()
+                await client.open_socket()
+                await client.send_frames('{"msgid": "1"}')
+                await client.send_frames("{}")
+                await client.close()
+            await asyncio.sleep(0.1)
+            while taking_apart._at_work:
+                await asyncio.sleep(0.01)
+
+        await come_and_go(1)
+        gc.collect()
+        gc.disable()
+        gc.set_debug(gc.DEBUG_SAVEALL)
+        try:
+            await come_and_go(3)
+            gc.collect()
+            left = [one for one in gc.garbage if isinstance(one, Connection | Receiver)]
+            left += [one for one in gc.garbage if isinstance(one, ProtocolHandler)]
+        finally:
+            gc.set_debug(0)
+            gc.garbage.clear()
+            gc.enable()
+        assert not left
+
+    served(ask)
 
 
 def test_who_stays_is_not_taken_apart() -> None:

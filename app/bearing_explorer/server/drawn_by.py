@@ -14,9 +14,8 @@ from collections import OrderedDict, defaultdict, deque
 from collections.abc import Iterator
 from types import CellType, FunctionType, MethodType
 
-from bokeh.document import Document
-from bokeh.document.models import DocumentModelManager
 from bokeh.model import Model
+from bokeh.models.css import StyleSheet
 from panel.viewable import Viewable
 
 MOST = 60_000
@@ -24,11 +23,14 @@ MOST = 60_000
 
 _LIBRARIES = frozenset({"bokeh", "holoviews", "panel", "param", "pandas"})
 """Whose objects are looked into."""
+_OF_ALL = ("bokeh.document", "bokeh.io", "bokeh.server", "panel.config", "panel.io")
+"""But not of these modules, which know all sessions."""
 _PLAIN = frozenset(
     {dict, list, tuple, set, frozenset, defaultdict, deque, OrderedDict}
     | {functools.partial, CellType, FunctionType, MethodType}
 )
-_NOT_FOLLOWED = (type, Document, DocumentModelManager, Viewable)
+_NOT_FOLLOWED = (type, Viewable, StyleSheet)
+"""Panel keeps style sheets for the next figure of a session."""
 
 
 class DrawnBy:
@@ -92,6 +94,8 @@ def _followed(one: object) -> bool:
         return kind is not dict or "__builtins__" not in one  # type: ignore[operator]
     module = kind.__module__
     if not isinstance(module, str) or module.partition(".")[0] not in _LIBRARIES:
+        return False
+    if module.startswith(_OF_ALL):
         return False
     if isinstance(one, (*_NOT_FOLLOWED, *_kind("holoviews.plotting.renderer", "Renderer"))):
         return False

@@ -12,6 +12,8 @@ import os
 import subprocess
 import threading
 
+from numba.core.compiler_lock import global_compiler_lock
+
 from bearingcore import kernels, presets
 from bearingcore.experiments.ball_steps import march_split_balls
 from bearingcore.experiments.balls import balls_experiment
@@ -60,6 +62,15 @@ def all_on_disk() -> bool:
 def ready() -> bool:
     """Whether all is compiled, or nobody is at it."""
     return _helper is None or _helper.poll() is not None
+
+
+def here() -> bool:
+    """Whether another thread of this process compiles: who needs that too waits for seconds."""
+    lock = getattr(global_compiler_lock, "_lock", None)
+    if lock is None or not lock.acquire(blocking=False):
+        return lock is not None
+    lock.release()
+    return False
 
 
 def compile_behind() -> None:

@@ -13,12 +13,13 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
 from concurrent.futures import Executor
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
+from bearing_explorer.compute import compiling
 from bearing_explorer.compute.executors import in_thread
 from bearing_explorer.compute.single_flight import WouldWait, never_waiting
 
@@ -73,7 +74,7 @@ class Scheduler:
             line.pictures -= 1
         try:
             await asyncio.sleep(0.0)  # what browsers have said meanwhile
-            with never_waiting():
+            with _on_the_loop():
                 return measured()
         except WouldWait:
             pass  # for what a thread has at work: so a thread waits
@@ -109,7 +110,7 @@ class Scheduler:
             while line.pictures and time.monotonic() < end:
                 await asyncio.sleep(0.01)
             async with line.turn:
-                with suppress(WouldWait), never_waiting():
+                with suppress(WouldWait), _on_the_loop():
                     return self._noted(kind, function, *args)
         return await in_threads()
 
@@ -133,6 +134,15 @@ class Scheduler:
             # what was found among results that are known says little about the next
             self._cost[kind] = max(cost, 0.5 * self._cost.get(kind, 0.0))
         return result
+
+
+@contextmanager
+def _on_the_loop() -> Iterator[None]:
+    """What is computed here waits for no thread: it raises `WouldWait` instead."""
+    if compiling.here():
+        raise WouldWait
+    with never_waiting():
+        yield
 
 
 def _line() -> _Line:

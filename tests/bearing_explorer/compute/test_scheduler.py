@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from bearing_explorer.compute.scheduler import LIGHT, LIGHT_IDLE_WORK, Scheduler
 from bearing_explorer.compute.single_flight import SingleFlightCache
+from numba.core.compiler_lock import global_compiler_lock
 
 from tests.helpers.loops import run
 
@@ -230,3 +231,27 @@ def test_the_loop_does_not_wait_for_what_a_thread_has_at_work() -> None:
         begun.clear(), go_on.clear()
         answers = SingleFlightCache(slow, 4)
         assert run(session(idle)) == (True, "asked")
+
+
+def test_what_is_light_goes_to_a_thread_while_another_compiles() -> None:
+    """Numba lets one thread compile: who comes to need that too waits until it is done."""
+    held, go_on = threading.Event(), threading.Event()
+
+    def compile_() -> None:
+        with global_compiler_lock:
+            held.set()
+            assert go_on.wait(60.0)
+
+    async def session() -> list[bool]:
+        here = threading.current_thread().name
+        scheduler = Scheduler()
+        await scheduler.run("kind", work, 0.0)
+        thread = threading.Thread(target=compile_)
+        thread.start()
+        assert held.wait(60.0)
+        meanwhile = await scheduler.run("kind", work, 0.0) == here
+        go_on.set()
+        thread.join()
+        return [meanwhile, await scheduler.run("kind", work, 0.0) == here]
+
+    assert run(session()) == [False, True]

@@ -30,6 +30,7 @@ from tests.helpers.served import served, session_of
 def soon(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(taking_apart, "SETTLES", 0.2)
     monkeypatch.setattr(taking_apart, "LOOKS", 0.02)
+    taking_apart._at_work.clear()  # of tests whose event loop is over
 
 
 async def _opened(url: str, *tabs: str) -> PageClient:

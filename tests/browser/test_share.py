@@ -108,20 +108,32 @@ def test_the_address_follows_the_hand_and_steps_go_back(
     assert page.evaluate("history.length") == entries, "Back leaves the page"
 
 
+# a page that is quick enough has drawn each position before the next, and none would wait
+_NOTHING_IS_DRAWN = """() => {
+  const frame = requestAnimationFrame, drawn = window.__mark
+  let newest = drawn
+  window.requestAnimationFrame = () => 0
+  Object.defineProperty(window, "__mark",
+    { configurable: true, get: () => drawn, set: (mark) => { newest = mark } })
+  window.__go_on = () => {
+    window.requestAnimationFrame = frame
+    Object.defineProperty(window, "__mark", { configurable: true, writable: true, value: newest })
+  }
+}"""
+
+
 def test_nothing_overtakes_a_position_that_waits(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
     """A hand's last position may wait for the screen: a choice or an undo comes after it."""
     page, _ = watch
     opened(page, explorer, "")
-    page.evaluate(
-        "() => { window.__frame = requestAnimationFrame; window.requestAnimationFrame = () => 0 }"
-    )
+    page.evaluate(_NOTHING_IS_DRAWN)
     drag(page, slider(page, "depth_um"), 0.1, 0.4)
     last = value(page, "depth_um")
     assert page.evaluate("window.__waiting.size") == 1
     page.locator("#choice-edge").select_option("exact")
-    page.evaluate("() => { window.requestAnimationFrame = window.__frame }")
+    page.evaluate("window.__go_on()")
     page.wait_for_function("location.search.includes('edge=exact')")
     page.keyboard.press("Control+z")
     page.wait_for_function("!location.search.includes('edge=exact')")

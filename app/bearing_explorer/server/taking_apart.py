@@ -147,7 +147,7 @@ def take_apart_now(roots: Iterable[object], kinds: tuple[type, ...] = ()) -> Non
     For any thread. See `parts_of`.
     """
     for part in parts_of(roots, kinds):
-        vars(part).clear()
+        _let_go(part)
 
 
 async def _take_apart(roots: list[object], kinds: tuple[type, ...]) -> None:
@@ -174,9 +174,19 @@ async def _take_figures_apart(figures: list[DrawnBy]) -> None:
     await _clear(parts)
 
 
+def _let_go(part: object) -> None:
+    """Have a part let go of all that it holds.
+
+    Name by name: Python 3.13.0 breaks what a cleared mapping of attributes is given later.
+    """
+    held = vars(part)
+    for name in list(held):
+        held.pop(name, None)
+
+
 async def _clear(parts: list[object]) -> None:
     while parts:
-        vars(parts.pop()).clear()
+        _let_go(parts.pop())
         if len(parts) % AT_ONCE == 0:
             await asyncio.sleep(0.0)
 

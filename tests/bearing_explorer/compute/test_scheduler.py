@@ -205,8 +205,6 @@ def test_the_loop_does_not_wait_for_what_a_thread_has_at_work() -> None:
         assert go_on.wait(60.0)
         return key
 
-    answers = SingleFlightCache(slow, 4)
-
     async def session(idle: bool) -> tuple[bool, str]:
         scheduler = Scheduler()
         with ThreadPoolExecutor(1) as threads:

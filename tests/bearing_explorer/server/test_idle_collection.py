@@ -25,9 +25,8 @@ class Clock:
         self.now, self.quiet, self.new, self.left = 0.0, 0.0, 0, 0
         self.collected: list[str] = []
         self.collector = IdleCollection(
-            lambda: self.quiet, lambda: self.new, lambda: self.left, self._collect,
-            lambda: self.now,
-        )  # fmt: skip
+            lambda: self.quiet, lambda: self.new, lambda: self.left, self._collect, lambda: self.now
+        )
 
     def _collect(self, among_all: bool) -> None:
         self.collected.append("all" if among_all else "new")
@@ -77,7 +76,7 @@ def test_all_is_looked_at_once_nobody_is_there_and_much_is_left() -> None:
 
 def test_all_is_looked_at_before_it_takes_the_memory_of_the_machine() -> None:
     clock = Clock()
-    clock.left = LEFT + 1
+    clock.left = TOO_MANY
     assert clock.pass_by(1.0, quiet=QUIET) == []
     clock.left = TOO_MANY + 1
     assert clock.pass_by(1.0, quiet=0.0) == [], "somebody drags"

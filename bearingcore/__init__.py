@@ -1,28 +1,28 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad."""
 
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.catalogue import (
+    CatalogueBearing,
+    catalogue,
+    catalogue_text,
+    read_catalogue,
+)
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.bearings.catalogue import (
-    CatalogueBearing,
-    catalogue,
-    catalogue_text,
-    read_catalogue,
-)
-from bearingcore.model.bearings.presets import preset_notes, presets
-from bearingcore.model.defect import EDGES, RACES, Defect
-from bearingcore.model.floor import MeasuredFloor, RoughFloor, read_floor
-from bearingcore.model.load import Load
-from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, Scene
-from bearingcore.model.support import Support
+from bearingcore.files.read import read_table
+from bearingcore.files.table import Table
 from bearingcore.plan.warm_up import warm
+from bearingcore.scene.defect import EDGES, RACES, Defect
+from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
+from bearingcore.scene.load import Load
+from bearingcore.scene.presets import preset_notes, presets
+from bearingcore.scene.scene import CONTACT_LAWS, DOF_NAMES, Scene
+from bearingcore.scene.support import Support
 from bearingcore.signals.envelope_band import impulsive_band
-from bearingcore.signals.files.read import read_table
-from bearingcore.signals.files.table import Table
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
 from bearingcore.statics.ball_positions import BallPositions, ball_positions, static_state

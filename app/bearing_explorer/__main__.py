@@ -16,8 +16,8 @@ from typing import Any
 for _library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
-from bearing_explorer.server import heap  # noqa: E402
-from bearing_explorer.server.log import LEVELS, begin  # noqa: E402
+from bearing_explorer.serve import heap  # noqa: E402
+from bearing_explorer.serve.log import LEVELS, begin  # noqa: E402
 
 NOT_KEPT = (
     "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be "
@@ -108,13 +108,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
-    from bearing_explorer.compute.first_start import FirstStart
     from bearing_explorer.page import TABS, page
-    from bearing_explorer.server import idle_collection
-    from bearing_explorer.server.limits import MEGABYTE, Limits
-    from bearing_explorer.server.long_addresses import LONGEST_HEADER, send_on
-    from bearing_explorer.server.serving import make_server, quiet_for
-    from bearing_explorer.server.threads import still_at_work
+    from bearing_explorer.results.first_start import FirstStart
+    from bearing_explorer.serve import idle_collection
+    from bearing_explorer.serve.limits import MEGABYTE, Limits
+    from bearing_explorer.serve.long_addresses import LONGEST_HEADER, send_on
+    from bearing_explorer.serve.serving import make_server, quiet_for
+    from bearing_explorer.serve.threads import still_at_work
     from bearing_explorer.state.lessons import faults_in, lessons_in, own_folder
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():

@@ -13,10 +13,10 @@ import panel as pn
 
 import bearingcore
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute import compiling
-from bearing_explorer.server.live import on_loop
-from bearing_explorer.server.taking_apart import models_at_end, take_apart
-from bearing_explorer.server.template import PageTemplate
+from bearing_explorer.results import compiling
+from bearing_explorer.serve.live import on_loop
+from bearing_explorer.serve.taking_apart import models_at_end, take_apart
+from bearing_explorer.serve.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy

@@ -23,12 +23,12 @@ from bokeh.embed import json_item
 from bokeh.models import Column
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.compute.results import Results
-from bearing_explorer.figures import style
-from bearing_explorer.figures.defect_words import extent_words
-from bearing_explorer.figures.element_words import row_words
-from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.server.taking_apart import take_apart_now
+from bearing_explorer.plots import style
+from bearing_explorer.plots.defect_words import extent_words
+from bearing_explorer.plots.element_words import row_words
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.serve.taking_apart import take_apart_now
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity

@@ -15,27 +15,27 @@ from typing import Any, TypeVar
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.compute import compiling
-from bearing_explorer.compute.endurance import Asked
-from bearing_explorer.compute.executors import in_thread
-from bearing_explorer.compute.idle_task import IdleTask
-from bearing_explorer.compute.jobs import Jobs
-from bearing_explorer.compute.latest_wins import LatestWins
-from bearing_explorer.compute.planning import with_choices
-from bearing_explorer.compute.results import Results
-from bearing_explorer.compute.scheduler import Scheduler
-from bearing_explorer.compute.single_flight import WouldWait
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
-from bearing_explorer.server import log as write
-from bearing_explorer.server.live import (
+from bearing_explorer.results import compiling
+from bearing_explorer.results.endurance import Asked
+from bearing_explorer.results.executors import in_thread
+from bearing_explorer.results.idle_task import IdleTask
+from bearing_explorer.results.jobs import Jobs
+from bearing_explorer.results.latest_wins import LatestWins
+from bearing_explorer.results.planning import with_choices
+from bearing_explorer.results.results import Results
+from bearing_explorer.results.scheduler import Scheduler
+from bearing_explorer.results.single_flight import WouldWait
+from bearing_explorer.serve import log as write
+from bearing_explorer.serve.live import (
     good_byes,
     make_models,
     models_made,
     one_message,
     send_at_once,
 )
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
@@ -54,7 +54,7 @@ from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
 from bearingcore import Limit, Scene
-from bearingcore.model.bearings.catalogue import MOST_BYTES
+from bearingcore.bearings.catalogue import MOST_BYTES
 from bearingcore.plan import CURVES
 from bearingcore.statics.limit import summary
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.diagnosis.simulated import SETTLING
 from bearingcore.dynamics.motion import simulate
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
 from bearingcore.statics.passes import crossings
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.dynamics.motion import simulate
-from bearingcore.model.defect import Defect
-from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.scene.defect import Defect
+from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
 
 SETTLING = 0.12

@@ -16,7 +16,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.motion import Motion
 from bearingcore.dynamics.problem import Array, MotionProblem, motion_problem
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 
 MOST_CALLS = 200_000_000
 

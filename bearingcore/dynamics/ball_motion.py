@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import kernels
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.dynamics.modes import contact_damping
-from bearingcore.model import packing
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.scene import packing
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.ball_positions import static_balls
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 

@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common.kept import kept
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model.defect import floor_bytes
-from bearingcore.model.packing import contacts
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.scene.defect import floor_bytes
+from bearingcore.scene.packing import contacts
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import (
     ANGLES_A_PERIOD,
     MOST_CONTACTS,

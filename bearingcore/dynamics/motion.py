@@ -22,8 +22,8 @@ from bearingcore.dynamics.ball_motion import (
     place_parts,
 )
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
-from bearingcore.model import packing
-from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.scene import packing
+from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 

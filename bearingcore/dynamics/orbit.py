@@ -32,8 +32,8 @@ from bearingcore.dynamics.motion import (
     moving_system,
     static_start,
 )
-from bearingcore.model import packing
-from bearingcore.model.scene import Scene
+from bearingcore.scene import packing
+from bearingcore.scene.scene import Scene
 from bearingcore.signals.spectrum import Spectrum
 
 STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START = (

@@ -12,8 +12,8 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import moving_system, static_start
-from bearingcore.model import packing
-from bearingcore.model.scene import Scene
+from bearingcore.scene import packing
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import path_kinks
 

@@ -24,7 +24,7 @@ from bearingcore.dynamics.motion import (
     too_many_in_all,
 )
 from bearingcore.dynamics.orbit import Orbit, orbit
-from bearingcore.model.scene import MASSLESS, Scene
+from bearingcore.scene.scene import MASSLESS, Scene
 from bearingcore.signals.spectrum import spectrum
 
 SETTLING = 0.5

@@ -29,7 +29,7 @@ from bearingcore.dynamics.orbit import (
     least_steps,
     orbit,
 )
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 
 REFUSED = "refused"
 

@@ -22,7 +22,7 @@ from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
 from bearingcore.experiments.ball_steps import march_split_balls
 from bearingcore.experiments.points import Experiment, Point, Reference, failed, least_time
-from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 
 Array = NDArray[np.float64]

@@ -26,8 +26,8 @@ from bearingcore.experiments.references import (
     motion_reference,
     spectrum_error,
 )
-from bearingcore.model.defect import EDGES
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.scene.defect import EDGES
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.signals.spectrum import spectrum
 from bearingcore.statics.equilibrium import equilibrium
 

@@ -16,7 +16,7 @@ from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.integrators import METHODS, Method
 from bearingcore.experiments.points import Experiment, Point, failed, least_time
 from bearingcore.experiments.references import MOTION_ERRORS, MotionReference, motion_reference
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 
 BAND = 1.25
 """Spectra count up to this times the highest natural frequency."""

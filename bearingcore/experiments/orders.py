@@ -15,8 +15,8 @@ from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import BAND
 from bearingcore.experiments.points import slope
 from bearingcore.experiments.references import motion_reference
-from bearingcore.model.bearings.presets import presets
-from bearingcore.model.scene import Scene
+from bearingcore.scene.presets import presets
+from bearingcore.scene.scene import Scene
 
 
 def _all_loaded() -> Scene:

@@ -29,7 +29,7 @@ from bearingcore.experiments.integrators import GENERALISED_ALPHA, METHODS
 from bearingcore.experiments.motions import BAND, at_rate
 from bearingcore.experiments.points import Reference
 from bearingcore.experiments.references import MotionReference, motion_reference
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 
 Array = NDArray[np.float64]

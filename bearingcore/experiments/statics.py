@@ -22,9 +22,9 @@ from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.experiments.compiled_methods import static_states_cold
 from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
-from bearingcore.model import packing
-from bearingcore.model.scene import Scene
 from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
+from bearingcore.scene import packing
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 from bearingcore.statics.passes import drops_at, path_kinks
 

@@ -15,8 +15,8 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.motion import Motion, simulate
-from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.plan.plans import SETTLED, Plan
+from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 
 Array = NDArray[np.float64]

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.dynamics.modes import two_body_matrix
-from bearingcore.model.packing import contacts, typical_compression
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.scene.packing import contacts, typical_compression
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from bearingcore.statics.passes import drops_at, path_kinks
 

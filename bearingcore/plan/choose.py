@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.dynamics.motion import MOST_STEPS
-from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene, check_dofs
 from bearingcore.plan.balls import compare_balls
 from bearingcore.plan.cage_angles import CURVES
 from bearingcore.plan.curves import plan_curves
@@ -26,6 +25,7 @@ from bearingcore.plan.plans import (
     VIEWS,
     Plan,
 )
+from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene, check_dofs
 
 Array = NDArray[np.float64]
 

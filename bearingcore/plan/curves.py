@@ -8,7 +8,6 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.plan.cage_angles import curves_of, place, swings
 from bearingcore.plan.plans import (
     FULL_ANGLES,
@@ -16,6 +15,7 @@ from bearingcore.plan.plans import (
     Plan,
     fewer_directions,
 )
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
 Array = NDArray[np.float64]

@@ -15,8 +15,6 @@ from bearingcore.dynamics.ball_motion import ball_step_rate
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import MOST_STEPS, TOO_MANY_STEPS, default_step_rate
 from bearingcore.dynamics.orbit import NO_PERIOD, Orbit, common_ball_passes, orbit
-from bearingcore.model import packing
-from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.plan.balls import plan_with_mass
 from bearingcore.plan.pilot import (
     PILOT,
@@ -35,6 +33,8 @@ from bearingcore.plan.plans import (
     Plan,
     fewer_directions,
 )
+from bearingcore.scene import packing
+from bearingcore.scene.scene import WITH_MASS, Scene
 
 Array = NDArray[np.float64]
 

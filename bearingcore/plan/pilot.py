@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
 from bearingcore.dynamics.motion import Motion, default_step_rate, simulate
-from bearingcore.model.packing import is_planar
-from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.plan.plans import (
     FULL_RATE,
 )
+from bearingcore.scene.packing import is_planar
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.signals.spectrum import spectrum
 
 Array = NDArray[np.float64]
@@ -198,7 +198,7 @@ def seconds_a_call(kind: str, n_balls: int, n_dofs: int, law: str) -> float:
 
     `kind` is one of those of `Pilot.signal`.
     """
-    from bearingcore.model.bearings.presets import presets
+    from bearingcore.scene.presets import presets
 
     widest = 0.9 * 45e-3 * math.sin(math.pi / n_balls) if n_balls > 1 else 8e-3
     example = presets["fan-rig"].replace(

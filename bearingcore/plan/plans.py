@@ -14,8 +14,8 @@ from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit
-from bearingcore.model.scene import DOF_NAMES, Scene
 from bearingcore.plan.cage_angles import CURVES
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
 Array = NDArray[np.float64]

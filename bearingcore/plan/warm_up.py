@@ -14,8 +14,8 @@ from bearingcore import kernels
 from bearingcore.common.processors import processors
 from bearingcore.dynamics.modes import modes
 from bearingcore.dynamics.motion import Motion, march_from, simulate
-from bearingcore.model.bearings.presets import presets
-from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.scene.presets import presets
+from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 from bearingcore.statics.maps import stiffness_maps
 

@@ -15,8 +15,8 @@ from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model import packing
-from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene
+from bearingcore.scene import packing
+from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
     REASONS,

@@ -15,8 +15,8 @@ from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import scientific, thousands
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model import packing
-from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
+from bearingcore.scene import packing
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
 from bearingcore.statics.load_capacity import runs_away
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])

@@ -43,12 +43,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.line_contact import RollerContact
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.contacts.line import RollerContact
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.limit import Limit
 from bearingcore.statics.pressure import RACES, HeaviestBall, heaviest_balls

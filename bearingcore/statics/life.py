@@ -44,12 +44,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.drawing import WIDEST_CONFORMITY
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
 
 POSITIONS = ("load line", "all")

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.kernels import RESIDUAL_LIMIT
-from bearingcore.model.packing import ball_angles, contacts
-from bearingcore.model.scene import Scene
+from bearingcore.scene.packing import ball_angles, contacts
+from bearingcore.scene.scene import Scene
 
 Array = NDArray[np.float64]
 

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.kept import kept
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model import packing
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.defect import TWO_PI, Defect, floor_bytes, path_tables
-from bearingcore.model.scene import Scene, check_dofs
+from bearingcore.scene import packing
+from bearingcore.scene.defect import TWO_PI, Defect, floor_bytes, path_tables
+from bearingcore.scene.scene import Scene, check_dofs
 from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
     REASONS,

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.model.defect import RACES, Defect, drop_into
-from bearingcore.model.packing import ball_angles, contacts
-from bearingcore.model.scene import Scene
+from bearingcore.scene.defect import RACES, Defect, drop_into
+from bearingcore.scene.packing import ball_angles, contacts
+from bearingcore.scene.scene import Scene
 
 TWO_PI = 2.0 * math.pi
 

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
 RACES = ("inner", "outer")

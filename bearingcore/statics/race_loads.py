@@ -47,10 +47,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import kernels
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.defect import Defect
-from bearingcore.model.scene import Scene
+from bearingcore.scene.defect import Defect
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
 Array = NDArray[np.float64]

@@ -36,12 +36,12 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.hertz import in_series
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.model.bearing import Bearing
-from bearingcore.model.contacts.hertz import in_series
-from bearingcore.model.packing import typical_compression
-from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import (
     Equilibrium,

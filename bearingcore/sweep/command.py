@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearingcore.model.scene_file import LARGEST_TEXT
+from bearingcore.common.scene_file import LARGEST_TEXT
 from bearingcore.sweep.file import grid_from_toml
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import OUTPUTS, STATUSES

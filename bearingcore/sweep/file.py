@@ -2,7 +2,7 @@
 
 ::
 
-    ... the scene, as `bearingcore.model.scene_file` has it ...
+    ... the scene, as `bearingcore.common.scene_file` has it ...
 
     [sweep]
     outputs = ["k_yy_mean", "loaded_balls_*", "band_*"]
@@ -24,9 +24,8 @@ from typing import Any
 
 import numpy as np
 
-from bearingcore.common import checks
-from bearingcore.model import scene_file
-from bearingcore.model.scene import Scene
+from bearingcore.common import checks, scene_file
+from bearingcore.scene.scene import Scene
 from bearingcore.sweep.grid import MOST_AXES, MOST_VALUES, Grid
 from bearingcore.sweep.outputs import Settings
 

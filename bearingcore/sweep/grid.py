@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
-from bearingcore.model.defect import Defect
-from bearingcore.model.scene import DOF_NAMES, Scene
+from bearingcore.scene.defect import Defect
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
     IN_ROWS,

@@ -24,8 +24,8 @@ from bearingcore.dynamics.orbit import (
     orbit,
 )
 from bearingcore.dynamics.speed_run import SETTLING
-from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.plan.balls import mass_share
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     TERM_SYMBOLS,

@@ -17,7 +17,7 @@ import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.common.progress import Progress
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 from bearingcore.sweep import store as stores
 from bearingcore.sweep.grid import Grid, program_version
 from bearingcore.sweep.outputs import Settings

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.assets import asset_text
-from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.diagnoses import answered
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import _BROKEN, _drawing
 from bearing_explorer.views.base import View, first_sentence
 from bearing_explorer.views.control_view import ControlView

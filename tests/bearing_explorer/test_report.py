@@ -8,10 +8,10 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.report import About, mark_of, page, report
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.modes import NaturalFrequencies

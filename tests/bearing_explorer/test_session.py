@@ -8,9 +8,9 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from bearing_explorer.compute.results import Results
-from bearing_explorer.compute.single_flight import WouldWait
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.results.single_flight import WouldWait
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 
 from bearingcore import presets

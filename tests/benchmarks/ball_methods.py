@@ -12,7 +12,7 @@ import time
 
 from bearingcore import presets, simulate
 from bearingcore.experiments.balls import BALL_METHODS, balls_experiment
-from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from tests.benchmarks.machine import pace
 
 

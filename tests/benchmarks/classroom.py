@@ -163,9 +163,9 @@ class Person:
 
 def differences(notes: Notes, tab: str) -> int:
     """How many of the pictures kept are not those of their scene."""
-    from bearing_explorer.compute.results import Results
     from bearing_explorer.page import SECTIONS
-    from bearing_explorer.server.packed_source import PackedSource
+    from bearing_explorer.results.results import Results
+    from bearing_explorer.serve.packed_source import PackedSource
     from bearing_explorer.session import _picture
     from bearing_explorer.state.scene_editor import SceneEditor
 

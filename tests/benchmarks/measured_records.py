@@ -25,7 +25,7 @@ import numpy as np
 from scipy.io import loadmat
 
 from bearingcore import Bearing, Recording
-from bearingcore.signals.files.units import UNITS
+from bearingcore.files.units import UNITS
 
 TABLE = "records.csv"
 HEALTHY, UNKNOWN = "healthy", "unknown"

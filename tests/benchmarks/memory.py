@@ -26,10 +26,10 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from bearing_explorer.compute.budget import SHARED
-from bearing_explorer.compute.results import Results
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.budget import SHARED
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import _picture
 from bearing_explorer.views.base import View
 

@@ -40,7 +40,7 @@ from bearingcore import (
     stiffness_maps,
 )
 from bearingcore.dynamics.motion import static_start
-from bearingcore.model.packing import length_units
+from bearingcore.scene.packing import length_units
 from tests.benchmarks.machine import pace
 from tests.benchmarks.yardstick import FAST_MATH, FLAGS, CMotion, CStatics
 from tests.browser.helpers import explorer_server, find_chromium

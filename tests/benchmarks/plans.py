@@ -22,10 +22,10 @@ from bearingcore import Scene, equilibrium, presets
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.references import motion_reference
-from bearingcore.model.packing import length_units
 from bearingcore.plan import SETTLED, VIBRATION, Plan, plan
 from bearingcore.plan.cage_angles import LEAST_INTERVAL, curves_of, swings
 from bearingcore.plan.pilot import BAND, spectra_apart
+from bearingcore.scene.packing import length_units
 from tests.benchmarks.machine import pace
 
 SAMPLE_RATE = 65536.0

@@ -21,7 +21,7 @@ from collections import Counter
 import numpy as np
 
 from bearingcore import Bearing, Defect, Load, Scene, kernels, presets, simulate
-from bearingcore.model.scene import WITH_MASS
+from bearingcore.scene.scene import WITH_MASS
 from bearingcore.statics.ball_positions import BallPositions, ball_positions
 from tests.benchmarks.machine import pace
 from tests.two_contacts import TwoContacts

@@ -28,13 +28,13 @@ ROOT = Path(__file__).resolve().parents[2]
 LIBRARIES = ("panel", "bokeh")
 TESTS = (
     "tests/bearingcore/statics/test_static_reference.py",
-    "tests/bearing_explorer/server/test_bokeh_private.py",
-    "tests/bearing_explorer/server/test_serving.py::test_models_are_found_as_bokeh_finds_them",
-    "tests/bearing_explorer/server/test_jamming.py::test_buffers_without_end_are_cut",
+    "tests/bearing_explorer/serve/test_bokeh_private.py",
+    "tests/bearing_explorer/serve/test_serving.py::test_models_are_found_as_bokeh_finds_them",
+    "tests/bearing_explorer/serve/test_jamming.py::test_buffers_without_end_are_cut",
 )
 FULL_TESTS = (
     "tests/bearingcore/statics",
-    "tests/bearing_explorer/server",
+    "tests/bearing_explorer/serve",
     "tests/bearing_explorer/test_page.py",
     "tests/bearing_explorer/test_session.py",
     "tests/browser/test_packed_source.py",

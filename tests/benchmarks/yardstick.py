@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import DOF_NAMES, Scene
-from bearingcore.model.packing import body_numbers
+from bearingcore.scene.packing import body_numbers
 
 SOURCES = Path(__file__).parent / "c_loops"
 FLAGS = ("-O3", "-march=native")

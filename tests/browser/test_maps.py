@@ -7,9 +7,9 @@ import re
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed_colors
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL, packed_colors
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.maps import COUNT, TWO_SIGNS, StiffnessMaps, whole_numbers
 from playwright.sync_api import Page, expect
 

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from playwright.sync_api import Page
 
 from tests.browser.explorer_page import rest, wait

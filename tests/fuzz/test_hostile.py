@@ -8,9 +8,9 @@ import random
 from typing import Any
 
 import pytest
-from bearing_explorer.server.limits import Limits
+from bearing_explorer.serve.limits import Limits
 
-from tests.bearing_explorer.server.test_serving import served
+from tests.bearing_explorer.serve.test_serving import served
 from tests.fuzz.hostile_messages import SHAPES, made
 from tests.fuzz.stranger import Stranger, Tally
 from tests.helpers.page_client import PageClient

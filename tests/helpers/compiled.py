@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 DONE = "BEARING_EXPLORER_TESTS_COMPILED"
 """Environment variable that says to this process's children that it is done."""
 
-COMPILE_ALL = "from bearing_explorer.compute.compiling import compile_all; compile_all()"
+COMPILE_ALL = "from bearing_explorer.results.compiling import compile_all; compile_all()"
 
 
 def compile_once() -> None:
@@ -25,7 +25,7 @@ def compile_once() -> None:
 
 def main() -> None:
     """What a server does at its start and when its first page is asked for."""
-    from bearing_explorer.compute import compiling
+    from bearing_explorer.results import compiling
 
     if compiling.all_on_disk():
         return

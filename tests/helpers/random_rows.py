@@ -34,7 +34,7 @@ from bearingcore import (
     kernels,
     presets,
 )
-from bearingcore.model.rows import ARRANGEMENTS, Row
+from bearingcore.bearings.rows import ARRANGEMENTS, Row
 from bearingcore.statics.passes import drops_now
 
 Long = np.longdouble

@@ -7,9 +7,9 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from bearing_explorer.page import page
-from bearing_explorer.server import serving
-from bearing_explorer.server.limits import Limits
-from bearing_explorer.server.serving import make_server
+from bearing_explorer.serve import serving
+from bearing_explorer.serve.limits import Limits
+from bearing_explorer.serve.serving import make_server
 from tornado.httpclient import AsyncHTTPClient, HTTPResponse
 
 from tests.helpers.loops import run

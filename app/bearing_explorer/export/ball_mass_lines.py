@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bearing_explorer.export.python_script import Script, short
-from bearingcore.model.scene import BALLS
+from bearingcore.scene.scene import BALLS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 
 def _motions(script: Script, results: Results) -> None:

@@ -10,7 +10,7 @@ from bearing_explorer.measurement.diagnoses import ROUGH, SLIP
 from bearing_explorer.measurement.signal import Measured
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 
 def measured_lines(view: Any, results: Results, measured: Measured) -> str:

@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from bearing_explorer.compute.endurance import ASSUMED_VISCOSITY
 from bearing_explorer.export.ball_mass_lines import mass_spectrum, mass_time, mechanism
 from bearing_explorer.export.python_script import Script, quoted, short
+from bearing_explorer.results.endurance import ASSUMED_VISCOSITY
 from bearingcore import RACES, Scene
 from bearingcore.dynamics.orbit import Orbit
-from bearingcore.model.scene import WITH_MASS
 from bearingcore.plan import CURVES
+from bearingcore.scene.scene import WITH_MASS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 
 class Drawn(Protocol):

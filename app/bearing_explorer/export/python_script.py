@@ -8,7 +8,7 @@ from typing import Any
 
 from bearing_explorer.state.quantities import defects_of
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
-from bearingcore.model.rows import Row
+from bearingcore.bearings.rows import Row
 
 MOST_POINTS = 200
 """Points of a measured floor up to which it stands in the lines; else it comes from a file."""
@@ -145,7 +145,7 @@ class Script:
                     return f"{hertz:.12g} * (2.0 * math.pi)"
             return short(value)
         if name == "rows":
-            self.part("model.rows", "Row")
+            self.part("bearings.rows", "Row")
             return f"({''.join(f'{self._row(row)}, ' for row in value).rstrip()})"
         return quoted(repr(value))
 

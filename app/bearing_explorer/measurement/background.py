@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.results import Results
+from bearing_explorer.results.results import Results
 from bearing_explorer.state.settings import Settings
 from bearingcore import Defect, Scene
 

@@ -12,9 +12,9 @@ import logging
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 
-from bearing_explorer.compute.executors import DIAGNOSES
-from bearing_explorer.compute.jobs import Change
 from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.results.executors import DIAGNOSES
+from bearing_explorer.results.jobs import Change
 from bearing_explorer.state.quantities import refusal
 from bearingcore import Bearing, Diagnosis, diagnose
 

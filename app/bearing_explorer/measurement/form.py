@@ -22,9 +22,9 @@ import numpy as np
 from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
 from bearingcore.common.numbers import number, span, with_prefix
-from bearingcore.signals.files.contents import NOTHING_SAYS
-from bearingcore.signals.files.facts import Finding
-from bearingcore.signals.files.units import (
+from bearingcore.files.contents import NOTHING_SAYS
+from bearingcore.files.facts import Finding
+from bearingcore.files.units import (
     STANDARD_GRAVITY,
     UNITS,
     VOLTAGES,

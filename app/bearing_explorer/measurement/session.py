@@ -16,9 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.compute.executors import READERS
-from bearing_explorer.compute.jobs import Change
-from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.background import noise_level, true_part
 from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
@@ -38,6 +35,9 @@ from bearing_explorer.measurement.form import (
 )
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
+from bearing_explorer.results.executors import READERS
+from bearing_explorer.results.jobs import Change
+from bearing_explorer.results.results import Results
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
@@ -46,7 +46,7 @@ from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.common.numbers import thousands, with_prefix
 from bearingcore.diagnosis.simulated import pit
 from bearingcore.diagnosis.size.variants import Tolerances, variant
-from bearingcore.model.scene import WITH_MASS
+from bearingcore.scene.scene import WITH_MASS
 
 log = logging.getLogger(__name__)
 

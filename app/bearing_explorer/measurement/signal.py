@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.compute.results import Results
-from bearing_explorer.compute.single_flight import SingleFlightCache
+from bearing_explorer.results.results import Results
+from bearing_explorer.results.single_flight import SingleFlightCache
 from bearing_explorer.state.settings import Settings
 from bearingcore.common.lazy import cached_property
 from bearingcore.signals.envelope_band import PIECES

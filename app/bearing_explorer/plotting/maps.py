@@ -8,7 +8,7 @@ from typing import Any
 import holoviews as hv
 import numpy as np
 
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from bearing_explorer.plotting.style import Axes, color_scale, dimension
 from bearingcore import Maps
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS

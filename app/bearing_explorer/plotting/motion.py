@@ -9,7 +9,7 @@ import holoviews as hv
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
 from bearingcore import DOF_NAMES, Motion, Orbit, Spectrum
 from bearingcore.common import checks

@@ -11,7 +11,7 @@ from typing import Any
 import panel as pn
 from bokeh.models import UIElement
 
-from bearing_explorer.server.bokeh_private import before_showing
+from bearing_explorer.serve.bokeh_private import before_showing
 
 try:
     from panel.io.notebook import patch_inline_stylesheets

@@ -20,9 +20,9 @@ from holoviews.plotting.bokeh.links import LinkCallback
 from holoviews.plotting.links import Link
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import Places, Side, reading, sections
-from bearing_explorer.figures.style import AxisQuantity
+from bearing_explorer.plots import style
+from bearing_explorer.plots.heat_map import Places, Side, reading, sections
+from bearing_explorer.plots.style import AxisQuantity
 from bearing_explorer.plotting.style import Axes, color_scale, dimension
 
 if TYPE_CHECKING:

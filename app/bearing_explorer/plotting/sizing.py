@@ -7,7 +7,7 @@ import textwrap
 
 import holoviews as hv
 
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
 from bearingcore.diagnosis.size.sizing import Sizing
 

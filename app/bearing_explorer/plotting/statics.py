@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import holoviews as hv
 import numpy as np
 
-from bearing_explorer.compute.load_curve import load_curve
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from bearing_explorer.plotting.style import Axes, curve_options, dimension
+from bearing_explorer.results.load_curve import load_curve
 from bearingcore import STIFFNESS_TERMS, Equilibrium, Modes, frequency_bands
 from bearingcore.common import checks
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS

@@ -10,9 +10,9 @@ import numpy as np
 from bokeh.models import ColorBar, Range1d
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL
-from bearing_explorer.figures.style import AxisQuantity
+from bearing_explorer.plots import style
+from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL
+from bearing_explorer.plots.style import AxisQuantity
 
 WIDTH, HEIGHT = 560, 320
 """[px] of a figure in a notebook."""

@@ -71,9 +71,9 @@ from bearingcore import (
     Scene,
     presets,
 )
-from bearingcore.model.bearings.drawing import OPTIONAL_FIELDS
-from bearingcore.model.floor import MOST_ROWS
-from bearingcore.model.rows import Row
+from bearingcore.bearings.drawing import OPTIONAL_FIELDS
+from bearingcore.bearings.rows import Row
+from bearingcore.scene.floor import MOST_ROWS
 
 TOO_LONG = "too-long"
 """Version of an address that the server put in place of one that was far too long."""

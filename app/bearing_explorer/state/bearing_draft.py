@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from bearing_explorer.state.quantities import QUANTITIES, Values, in_si, refusal
 from bearing_explorer.state.quantity_list import BEARING_GROUPS
 from bearingcore import Bearing
+from bearingcore.bearings.drawing import WIDEST_CONFORMITY
 from bearingcore.common.numbers import number
-from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
 
 OF_BEARING = frozenset(
     name for name, quantity in QUANTITIES.items() if quantity.group in BEARING_GROUPS

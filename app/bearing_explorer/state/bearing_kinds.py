@@ -13,7 +13,7 @@ from bearing_explorer.state.choice_list import kind_of
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearingcore import Bearing, Scene
-from bearingcore.model.rows import ARRANGEMENTS
+from bearingcore.bearings.rows import ARRANGEMENTS
 
 USUAL_ALIGNING_ANGLE = math.radians(10.0)
 USUAL_GROOVE = 0.53

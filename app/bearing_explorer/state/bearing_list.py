@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 from bearing_explorer.state.quantities import refusal
 from bearingcore import CatalogueBearing, catalogue, read_catalogue
+from bearingcore.bearings.catalogue import MOST_BYTES
 from bearingcore.common.numbers import number
-from bearingcore.model.bearings.catalogue import MOST_BYTES
 
 
 @dataclass

@@ -31,7 +31,7 @@ from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
 from bearingcore import Scene
-from bearingcore.model.scene_file import LARGEST_TEXT
+from bearingcore.common.scene_file import LARGEST_TEXT
 
 LONGEST_NAME = 60
 _STEPS = ("set", "typed", "choose", "reset", "floor")

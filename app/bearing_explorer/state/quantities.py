@@ -14,8 +14,8 @@ from typing import Any
 
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, DEGREE, QUANTITY_LIST, Quantity
 from bearingcore import Bearing, Defect, Load, RoughFloor, Scene, Support
+from bearingcore.bearings.drawing import WIDEST_CONFORMITY
 from bearingcore.common.numbers import number
-from bearingcore.model.bearings.drawing import WIDEST_CONFORMITY
 
 Values = dict[str, float]
 """A value for each quantity, in the unit of its name; NaN for an optional one left open."""

@@ -52,7 +52,7 @@ from bearingcore import (
     presets,
     read_floor,
 )
-from bearingcore.model.bearings.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
+from bearingcore.bearings.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60

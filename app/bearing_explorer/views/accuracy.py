@@ -22,11 +22,11 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from bearing_explorer.compute.accuracy import TRIALS, Found, compute
-from bearing_explorer.compute.jobs import Work
-from bearing_explorer.compute.planning import steps_by_hand
-from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.results.accuracy import TRIALS, Found, compute
+from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.planning import steps_by_hand
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
@@ -41,7 +41,7 @@ from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
 from bearingcore.experiments.statics import PLACINGS, SOLVERS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 HEIGHT = 430
 COSTS = ("seconds", "evaluations")

@@ -34,17 +34,17 @@ from bokeh.models import Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.export.python_lines import lines_of
-from bearing_explorer.figures.zoom import zoomable
-from bearing_explorer.server.live_component import LiveComponent
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots.zoom import zoomable
+from bearing_explorer.serve.live_component import LiveComponent
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.reference import WITHOUT_DEFECT
 from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.endurance import Asked
-    from bearing_explorer.compute.jobs import Jobs
-    from bearing_explorer.compute.results import Results
     from bearing_explorer.measurement.session import Measurement
+    from bearing_explorer.results.endurance import Asked
+    from bearing_explorer.results.jobs import Jobs
+    from bearing_explorer.results.results import Results
     from bearing_explorer.state.scene_editor import SceneEditor
     from bearing_explorer.widgets.controls import Rows
 

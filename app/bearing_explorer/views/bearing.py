@@ -11,18 +11,18 @@ from bokeh.palettes import magma
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.defect_shape import race_angles, race_depth, spans
-from bearing_explorer.figures import style
-from bearing_explorer.figures.element_words import element_name, elements
-from bearing_explorer.figures.heat_map import color_bar
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.element_words import element_name, elements
+from bearing_explorer.plots.heat_map import color_bar
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.defect_shape import race_angles, race_depth, spans
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.table import table_of
-from bearingcore.model.packing import ball_angles
+from bearingcore.scene.packing import ball_angles
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Bearing, Load, Scene
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.

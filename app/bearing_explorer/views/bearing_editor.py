@@ -11,9 +11,9 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.figures import style
-from bearing_explorer.figures.element_words import elements
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.element_words import elements
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.choice_list import KIND, NUMBERS, kind_of
 from bearing_explorer.state.quantities import in_unit, of_rows
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
@@ -22,7 +22,7 @@ from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Bearing, Scene
 
 

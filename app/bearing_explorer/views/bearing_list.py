@@ -9,15 +9,15 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import BearingTable, entry_words
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
-from bearingcore.model.bearings.catalogue import COLUMNS, NEEDED
+from bearingcore.bearings.catalogue import COLUMNS, NEEDED
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearing_explorer.state.scene_editor import SceneEditor
     from bearingcore import CatalogueBearing
 

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.defect_words import extent_words
-from bearing_explorer.figures.element_words import element, row_words
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.defect_words import extent_words
+from bearing_explorer.plots.element_words import element, row_words
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
 EDGE_WORDS = {

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.figures import style
 from bearing_explorer.measurement.diagnoses import SPEEDS, Question
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import LookPanel, MeasuredView
@@ -21,7 +21,7 @@ from bearingcore.diagnosis.part.combs import HARMONICS
 from bearingcore.diagnosis.part.parts import PARTS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 BUSY = "The signal is being looked at."
 

@@ -9,19 +9,19 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
 from bearingcore import DOF_NAMES
 from bearingcore.common.numbers import decibels as in_decibels
 from bearingcore.common.numbers import percent, scientific
-from bearingcore.model.scene import DOF_SYMBOLS
+from bearingcore.scene.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.dof_comparison import DofComparison
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.dof_comparison import DofComparison
+    from bearing_explorer.results.results import Results
 
 _WORDS = {
     "x": "x, sideways",

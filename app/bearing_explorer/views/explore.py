@@ -17,7 +17,11 @@ import numpy as np
 import panel as pn
 from bokeh.models import CustomJS, Plot, Spacer
 
-from bearing_explorer.compute.explore import (
+from bearing_explorer.measurement.form import number_of
+from bearing_explorer.plots import style
+from bearing_explorer.plots.heat_map import Places, Side, goes_there, ring_this_scene
+from bearing_explorer.plots.style import AxisQuantity
+from bearing_explorer.results.explore import (
     BUDGET,
     MAP_OUTPUTS,
     SIZES,
@@ -28,16 +32,12 @@ from bearing_explorer.compute.explore import (
     planes,
     refine,
 )
-from bearing_explorer.compute.jobs import JobState, Work
-from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import Places, Side, goes_there, ring_this_scene
-from bearing_explorer.figures.style import AxisQuantity
-from bearing_explorer.measurement.form import number_of
-from bearing_explorer.server.bokeh_private import plots_of
-from bearing_explorer.server.drawn_by import DrawnBy
-from bearing_explorer.server.live import counted_once
-from bearing_explorer.server.packed_source import PackedSource
-from bearing_explorer.server.taking_apart import take_figure_apart
+from bearing_explorer.results.jobs import JobState, Work
+from bearing_explorer.serve.bokeh_private import plots_of
+from bearing_explorer.serve.drawn_by import DrawnBy
+from bearing_explorer.serve.live import counted_once
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.serve.taking_apart import take_figure_apart
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -46,8 +46,8 @@ from bearing_explorer.views.base import Fill, Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
     from bearing_explorer.plotting.plane import Field
+    from bearing_explorer.results.results import Results
 
 REST = 0.2
 """[s] that sliders must rest before a map is refined."""

@@ -14,7 +14,7 @@ import numpy as np
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.measured_view import write_over
 from bearingcore import Scene
 

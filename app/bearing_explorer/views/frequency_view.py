@@ -12,11 +12,11 @@ import panel as pn
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, of_rows
 from bearing_explorer.views.measured_view import MEASURED, LookPanel, MeasuredView
@@ -30,7 +30,7 @@ from bearing_explorer.views.vibration_spectrum import (
 )
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Spectrum
 
 FRAME = 236.0  # [px] height of the frame of a figure

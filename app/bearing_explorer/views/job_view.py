@@ -8,8 +8,8 @@ from typing import Any, ClassVar, Generic, TypeVar
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute.jobs import Jobs, JobState, Work
-from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.results.jobs import Jobs, JobState, Work
+from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import SessionParts, View
 

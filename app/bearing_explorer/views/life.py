@@ -11,9 +11,9 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute.endurance import ASSUMED_VISCOSITY, Asked, Endurance
-from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Asked, Endurance
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows
@@ -25,7 +25,7 @@ from bearingcore.statics.validity import static_pressure
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 
 @dataclasses.dataclass(frozen=True)

@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
-from bearing_explorer.compute.defect_shape import pieces, spans
-from bearing_explorer.compute.load_curve import curves_table, load_curve, row_name
-from bearing_explorer.figures import style
-from bearing_explorer.figures.element_words import element, elements
-from bearing_explorer.figures.ranges import ROOM, StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.element_words import element, elements
+from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.results.defect_shape import pieces, spans
+from bearing_explorer.results.load_curve import curves_table, load_curve, row_name
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.ball_positions import EquilibriumWithMass
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.load_curve import Curve
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.load_curve import Curve
+    from bearing_explorer.results.results import Results
     from bearingcore import Equilibrium, Scene
 
 

@@ -19,17 +19,16 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.cell_axes import axes_when_zoomed
-from bearing_explorer.figures.color_scales import (
+from bearing_explorer.plots.cell_axes import axes_when_zoomed
+from bearing_explorer.plots.color_scales import (
     DIVERGING,
     DIVERGING_DARK,
     SEQUENTIAL,
     packed_colors,
 )
-from bearing_explorer.figures.element_words import elements
-from bearing_explorer.figures.heat_map import Places, Side, goes_there, reading
-from bearing_explorer.figures.matrix_cells import (
+from bearing_explorer.plots.element_words import elements
+from bearing_explorer.plots.heat_map import Places, Side, goes_there, reading
+from bearing_explorer.plots.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
     SYMBOLS,
@@ -37,8 +36,8 @@ from bearing_explorer.figures.matrix_cells import (
     Cell,
     term_sizes,
 )
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.figures.style import (
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.plots.style import (
     DEFECT,
     FAINT_INK,
     FONT,
@@ -52,7 +51,8 @@ from bearing_explorer.figures.style import (
     with_prefix,
     words_of,
 )
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS

@@ -11,11 +11,11 @@ import panel as pn
 from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
-from bearing_explorer.compute.ball_mass import BallMass
-from bearing_explorer.compute.excerpt import least_and_greatest, why_ended
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.ball_mass import BallMass
+from bearing_explorer.results.excerpt import least_and_greatest, why_ended
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_time import (
     LABEL_WIDTH,
@@ -28,7 +28,7 @@ from bearing_explorer.views.vibration_time import (
 from bearingcore.dynamics.strikes import RACES_OF_LOADS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 SLOTS = len(style.BALL_COLORS)
 WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")

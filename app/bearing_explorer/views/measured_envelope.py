@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from bearing_explorer.figures import style
 from bearing_explorer.measurement.signal import Measured, Simulated
+from bearing_explorer.plots import style
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 
 class MeasuredEnvelope(FrequencyView):

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from bokeh.plotting import figure
 
-from bearing_explorer.figures import style
 from bearing_explorer.measurement.signal import Measured, Simulated
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.views.base import Sources
 from bearing_explorer.views.frequency_view import (
@@ -26,7 +26,7 @@ from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Spectrum
 
 

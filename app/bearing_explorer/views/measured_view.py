@@ -12,13 +12,13 @@ from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.export.measured_lines import measured_lines
-from bearing_explorer.figures import style
 from bearing_explorer.measurement.session import Measurement
+from bearing_explorer.plots import style
 from bearing_explorer.views.base import SessionParts, View
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
     from bearing_explorer.measurement.signal import Measured
+    from bearing_explorer.results.results import Results
 
 MEASURED = style.INK
 """Colour of what was measured, where something simulated stands beside it."""

@@ -15,24 +15,24 @@ from numpy.typing import NDArray
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute.excerpt import least_and_greatest
 from bearing_explorer.export.measured_lines import column_name
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import ROOM, StickyRange
 from bearing_explorer.measurement.form import SIZES, USUAL_SENSITIVITY
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
-from bearing_explorer.server.bokeh_private import send_message
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.results.excerpt import least_and_greatest
+from bearing_explorer.serve.bokeh_private import send_message
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
-from bearingcore.signals.files.units import UNITS
+from bearingcore.files.units import UNITS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
     from bearing_explorer.measurement.signal import Measured
+    from bearing_explorer.results.results import Results
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
 AS_IN_FILE = style.AxisQuantity("Numbers of the file, unit not known", "", "")

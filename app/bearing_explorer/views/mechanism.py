@@ -8,14 +8,14 @@ import numpy as np
 import panel as pn
 from bokeh.models import Span
 
-from bearing_explorer.compute.ball_mass import BallMass
-from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.results.ball_mass import BallMass
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.wide_spectrum import FREQUENCY, in_hertz
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06

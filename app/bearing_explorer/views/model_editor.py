@@ -9,8 +9,8 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.quantities import values_of
 from bearing_explorer.state.quantity_list import MODEL_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
@@ -18,7 +18,7 @@ from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 
 class ModelRows(Rows):

@@ -11,10 +11,10 @@ from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.verdict import of_orbit
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import ROOM, StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.results.verdict import of_orbit
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
@@ -30,10 +30,10 @@ from bearingcore.common.numbers import count, scientific
 from bearingcore.common.table import table_of
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
-from bearingcore.model.scene import MASSLESS
+from bearingcore.scene.scene import MASSLESS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 HEIGHT = 280
 ORBIT_POINTS = 600

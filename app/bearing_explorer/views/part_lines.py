@@ -15,9 +15,9 @@ from bokeh.models import LinearAxis
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import ROW_PIXELS
 from bearing_explorer.views.measured_view import write_over

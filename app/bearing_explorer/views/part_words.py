@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bearing_explorer.figures import style
 from bearing_explorer.measurement.diagnoses import SLIP, Question
+from bearing_explorer.plots import style
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
 from bearingcore import Diagnosis
 from bearingcore.common.numbers import percent_off, probability

@@ -11,20 +11,20 @@ import param
 from bokeh.models import CustomJSTickFormatter, FixedTicker, Range1d
 
 from bearing_explorer.assets import asset_path, asset_text
-from bearing_explorer.compute import compiling
-from bearing_explorer.figures import style
-from bearing_explorer.server.live_component import LiveComponent
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.results import compiling
+from bearing_explorer.serve.live_component import LiveComponent
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.plan_choice import TITLES
 from bearingcore.common.numbers import count, decibels, percent, scientific
 from bearingcore.common.table import table_of
-from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.plan import CURVES, SETTLED
 from bearingcore.plan.plans import plans_table
+from bearingcore.scene.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore.plan import Plan
 
 HEADS = (

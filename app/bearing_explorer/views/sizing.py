@@ -14,12 +14,12 @@ from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.jobs import Work
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.jobs import Work
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import focused
@@ -43,7 +43,7 @@ from bearingcore.common.numbers import with_deviation
 from bearingcore.signals.averaging import BallPasses
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 HEIGHT = 236
 SAMPLES = 600

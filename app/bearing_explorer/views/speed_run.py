@@ -22,11 +22,11 @@ from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.jobs import Work
-from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import CLEAR, GridImage, Side, color_bar, ends
-from bearing_explorer.figures.ranges import nice_range
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends
+from bearing_explorer.plots.ranges import nice_range
+from bearing_explorer.results.jobs import Work
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import (
@@ -45,7 +45,7 @@ from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOW
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 SPEED = "shaft_speed_hz"
 COUNTS = (25, 49, 97, 193)

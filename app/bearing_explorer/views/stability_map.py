@@ -13,9 +13,8 @@ from bokeh.models import FixedTicker, LinearColorMapper
 from bokeh.palettes import Blues256
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.jobs import LONGEST, Work
-from bearing_explorer.figures import style
-from bearing_explorer.figures.heat_map import (
+from bearing_explorer.plots import style
+from bearing_explorer.plots.heat_map import (
     CLEAR,
     GridImage,
     Side,
@@ -23,7 +22,8 @@ from bearing_explorer.figures.heat_map import (
     ends,
     ring_this_scene,
 )
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.jobs import LONGEST, Work
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -31,10 +31,10 @@ from bearing_explorer.state.value_range import SWEEPABLE, Sweep, alike_but_for, 
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
 from bearingcore.dynamics.stability_map import OUTCOMES, StabilityMap, regions, stability_map
-from bearingcore.model.scene import MASSLESS
+from bearingcore.scene.scene import MASSLESS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 GRIDS = (13, 25, 49, 97)
 """Points along each side that can be asked for; each holds the points of those before."""

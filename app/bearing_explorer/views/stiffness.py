@@ -18,11 +18,9 @@ from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 
-from bearing_explorer.compute.chain import over_turn
-from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.cell_axes import axes_when_zoomed
-from bearing_explorer.figures.element_words import elements
-from bearing_explorer.figures.matrix_cells import (
+from bearing_explorer.plots.cell_axes import axes_when_zoomed
+from bearing_explorer.plots.element_words import elements
+from bearing_explorer.plots.matrix_cells import (
     PLACES,
     SYMBOLS,
     UNITS,
@@ -31,8 +29,8 @@ from bearing_explorer.figures.matrix_cells import (
     term_sizes,
     trace_limits,
 )
-from bearing_explorer.figures.ranges import ROOM, StickyRange
-from bearing_explorer.figures.style import (
+from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.plots.style import (
     DEFECTIVE,
     FAINT_INK,
     FONT,
@@ -46,7 +44,9 @@ from bearing_explorer.figures.style import (
     with_prefix,
     words_of,
 )
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.chain import over_turn
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.statics.equilibrium import TERM_UNITS

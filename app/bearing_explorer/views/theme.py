@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from bearing_explorer.views import bearing
 
 DARK_COLORS = {

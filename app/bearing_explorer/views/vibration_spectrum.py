@@ -11,20 +11,20 @@ from bokeh.models import CheckboxGroup, CustomJS, GlyphRenderer, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.excerpt import why_ended
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.excerpt import why_ended
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.views.measured_view import LookPanel
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.model.scene import WITH_MASS
 from bearingcore.plan import SETTLED
+from bearingcore.scene.scene import WITH_MASS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Scene
 
 FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz")

@@ -10,16 +10,16 @@ from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.compute.excerpt import Event, Excerpt, least_and_greatest, why_ended
-from bearing_explorer.figures import style
-from bearing_explorer.figures.element_words import element_name
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.element_words import element_name
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest, why_ended
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Bearing
 
 TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)

@@ -8,9 +8,9 @@ import numpy as np
 from bokeh.models import Range1d
 from bokeh.plotting import figure
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.figures import style
 from bearing_explorer.measurement.session import Sized
+from bearing_explorer.plots import style
 from bearingcore import Candidate, Scene
 from bearingcore.common.numbers import probability
 

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice
 from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, SCENE_GROUPS
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.serve.live_component import LiveComponent
 from bearingcore.common import numbers
 from bearingcore.statics.validity import NO_OIL
 

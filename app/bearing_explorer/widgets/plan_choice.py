@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute import compiling
-from bearing_explorer.compute.planning import CHOICES, by_hand, chosen
-from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.results import compiling
+from bearing_explorer.results.planning import CHOICES, by_hand, chosen
+from bearing_explorer.serve.live_component import LiveComponent
 from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 TITLES = {
     "load": "Loads of the balls",

@@ -9,7 +9,7 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.server.bokeh_private import send_message
+from bearing_explorer.serve.bokeh_private import send_message
 
 
 class ShareBar(JSComponent):

@@ -9,12 +9,12 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.compute.planning import by_hand
-from bearing_explorer.compute.results import Results
-from bearing_explorer.compute.verdict import verdict
-from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.results.planning import by_hand
+from bearing_explorer.results.results import Results
+from bearing_explorer.results.verdict import verdict
+from bearing_explorer.serve.live_component import LiveComponent
 from bearingcore.common.numbers import count, scientific
-from bearingcore.model.scene import DOF_SYMBOLS
+from bearingcore.scene.scene import DOF_SYMBOLS
 
 
 class StatusLine(LiveComponent):

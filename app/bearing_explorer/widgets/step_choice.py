@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_path, asset_text
-from bearing_explorer.server.live_component import LiveComponent
+from bearing_explorer.serve.live_component import LiveComponent
 
 
 class StepChoice(LiveComponent):

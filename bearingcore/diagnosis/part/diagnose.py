@@ -21,6 +21,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import decide, silent
@@ -29,7 +30,6 @@ from bearingcore.diagnosis.part.judged import ALONE, Judged, judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.diagnosis.part.unknown_speed import in_range
-from bearingcore.model.bearing import Bearing
 from bearingcore.signals.recording import Recording
 
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)

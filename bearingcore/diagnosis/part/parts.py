@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bearingcore.model.bearing import Bearing
+from bearingcore.bearings.bearing import Bearing
 
 OUTER, INNER, BALL = "outer race", "inner race", "ball"
 PARTS = (OUTER, INNER, BALL)

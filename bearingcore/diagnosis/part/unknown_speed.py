@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import SURE, decide, silent
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, Diagnosis
@@ -18,7 +19,6 @@ from bearingcore.diagnosis.part.judged import (
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import PartLines, part_lines
 from bearingcore.diagnosis.part.shaft import ShaftLines
-from bearingcore.model.bearing import Bearing
 
 NARROW = 1.3
 """A range of speeds whose ends differ by this factor at most is believed without shaft lines."""

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.model.packing import typical_compression
-from bearingcore.model.scene import Scene
+from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses
 from bearingcore.statics.equilibrium import equilibrium
 

@@ -29,8 +29,8 @@ from bearingcore.diagnosis.size.matching import (
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.diagnosis.size.synthesis import Begin, Simulator, steps_of
 from bearingcore.diagnosis.size.variants import Tolerances, variant
-from bearingcore.model.defect import EDGES
-from bearingcore.model.scene import Scene
+from bearingcore.scene.defect import EDGES
+from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses
 
 LEAST_EXTENT = math.radians(0.2)

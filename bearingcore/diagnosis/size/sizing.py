@@ -51,9 +51,9 @@ from bearingcore.diagnosis.size.synthesis import Band, comparison_band
 from bearingcore.diagnosis.size.variants import PathTolerances, Tolerances
 from bearingcore.dynamics.modes import frequency_bands
 from bearingcore.dynamics.motion import TOO_MANY_STEPS
-from bearingcore.model.defect import Defect
-from bearingcore.model.scene import MASSLESS, Scene
-from bearingcore.model.support import Support
+from bearingcore.scene.defect import Defect
+from bearingcore.scene.scene import MASSLESS, Scene
+from bearingcore.scene.support import Support
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import check_samples

@@ -11,8 +11,8 @@ import numpy as np
 from bearingcore.common import checks
 from bearingcore.diagnosis.size.sizing import Sizing, size_defect
 from bearingcore.dynamics.motion import simulate
-from bearingcore.model.defect import Defect
-from bearingcore.model.scene import Scene
+from bearingcore.scene.defect import Defect
+from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import Recording
 
 SETTLED = 0.3

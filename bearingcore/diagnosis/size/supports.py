@@ -11,7 +11,7 @@ import dataclasses
 import math
 from dataclasses import dataclass, field
 
-from bearingcore.model.support import Support
+from bearingcore.scene.support import Support
 
 STIFFNESS_FACTORS = (0.5, 2.0)
 MASS_FACTORS = (0.5, 2.0)

@@ -15,8 +15,8 @@ from bearingcore.common import checks
 from bearingcore.diagnosis.size.variants import system_variant
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import moving_system
-from bearingcore.model import packing
-from bearingcore.model.scene import Scene
+from bearingcore.scene import packing
+from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses, coefficients
 
 SETTLING = 0.12

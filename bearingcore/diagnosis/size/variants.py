@@ -13,7 +13,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.dynamics.modes import contact_damping
-from bearingcore.model.scene import Scene
+from bearingcore.scene.scene import Scene
 
 PATHS = (PathModel(0.6, 1.5e-3, 0.3, 9.0),)
 """Paths that are tried beside none. They cost so much as a path explains other extents as well: an

@@ -10,11 +10,11 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
 from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.export.python_script import FILE
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.views.base import View
 from bearing_explorer.views.stability_map import OrbitStability

@@ -10,8 +10,8 @@ import holoviews as hv
 import numpy as np
 import pytest
 from bearing_explorer import plotting
-from bearing_explorer.figures import style
-from bearing_explorer.figures.style import AxisQuantity
+from bearing_explorer.plots import style
+from bearing_explorer.plots.style import AxisQuantity
 from bearing_explorer.plotting.plane import NO_ANSWER, Field, Section
 from bearing_explorer.plotting.style import color_scale
 from bokeh.models import LayoutDOM

@@ -12,7 +12,7 @@ from bearing_explorer.state.choice_list import KIND, kind_of
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Bearing, Scene, equilibrium, presets
-from bearingcore.model.rows import Row
+from bearingcore.bearings.rows import Row
 
 KINDS = KIND.names
 

@@ -18,7 +18,7 @@ from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import CONTACT_LAWS, EDGES, RACES, Defect, RoughFloor, presets
-from bearingcore.model.scene import BALLS
+from bearingcore.scene.scene import BALLS
 
 FAN_RIG = presets["fan-rig"]
 

@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.__main__ import options
-from bearing_explorer.compute.ball_mass import BallMass
-from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.diagnoses import SLIP
 from bearing_explorer.measurement.session import simulated
 from bearing_explorer.page import SECTIONS, TABS
+from bearing_explorer.results.ball_mass import BallMass
+from bearing_explorer.results.results import Results
 from bearing_explorer.session import Explorer
 from bearing_explorer.state import lessons
 from bearing_explorer.state.lessons import (

@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.bearing import (
     BAR_LENGTH,
     BearingDrawing,

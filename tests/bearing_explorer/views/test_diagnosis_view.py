@@ -14,14 +14,14 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement import diagnoses
 from bearing_explorer.measurement.background import true_part
 from bearing_explorer.measurement.diagnoses import SLIP, Diagnoses, Question, answered
 from bearing_explorer.measurement.session import read_file, simulated
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 from bearing_explorer.state.address import read
 from bearing_explorer.views import part_words

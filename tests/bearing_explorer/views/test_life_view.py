@@ -6,9 +6,9 @@ import dataclasses
 import math
 
 import pytest
-from bearing_explorer.compute.endurance import Asked, endurance
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.endurance import Asked, endurance
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.life import FIELDS, LifeOfBearing, groups_of, read
 from bearing_explorer.widgets.limits import rows_of

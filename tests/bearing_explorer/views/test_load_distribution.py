@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.load_curve import load_curve
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.load_curve import load_curve
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.load_distribution import LoadDistribution, shaded
 
 from bearingcore import presets

@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
-from bearing_explorer.figures.color_scales import DIVERGING, SEQUENTIAL, packed_colors
-from bearing_explorer.figures.matrix_cells import PLACES
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL, packed_colors
+from bearing_explorer.plots.matrix_cells import PLACES
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.maps import (
     FLAT,
     GREATEST,

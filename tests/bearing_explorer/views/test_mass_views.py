@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute import compiling
-from bearing_explorer.compute.ball_mass import BallMass
-from bearing_explorer.compute.motion_cost import quick_duration
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results import compiling
+from bearing_explorer.results.ball_mass import BallMass
+from bearing_explorer.results.motion_cost import quick_duration
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
 from bearing_explorer.views.mass_time import MassInTime, event_rows

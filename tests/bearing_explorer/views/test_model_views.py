@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.dof_comparison import other_dofs, spectrum_differences
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.dof_comparison import other_dofs, spectrum_differences
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.bearing_editor import BearingEditor, facts_of, shape_of
 from bearing_explorer.views.dof_comparison import DofDifferences, share

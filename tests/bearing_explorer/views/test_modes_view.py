@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
-from bearing_explorer.figures import style
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.modes import NaturalFrequencies, band_rows, spread
 from hypothesis import given
 from hypothesis import strategies as st

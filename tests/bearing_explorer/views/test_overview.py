@@ -9,9 +9,9 @@ import re
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.chain import Chain, Peak
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.chain import Chain, Peak
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.overview.bands import OverviewBands
 from bearing_explorer.views.overview.change import LastChange
 from bearing_explorer.views.overview.spectrum import OverviewSpectrum

@@ -12,13 +12,13 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from bearing_explorer.compute.jobs import Jobs, JobState, Work
-from bearing_explorer.compute.results import Results
 from bearing_explorer.measurement.diagnoses import Question, answered
 from bearing_explorer.measurement.form import understood
 from bearing_explorer.measurement.session import Sized, read_file
 from bearing_explorer.measurement.signal import Measured, Origin, Simulated
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.jobs import Jobs, JobState, Work
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.frequency_lines import (

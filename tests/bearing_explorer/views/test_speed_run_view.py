@@ -8,9 +8,9 @@ from functools import partial
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.jobs import Work
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.quantities import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep

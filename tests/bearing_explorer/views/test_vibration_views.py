@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.excerpt import Event
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.excerpt import Event
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.frequency_lines import FrequencyLines, of_rows
 from bearing_explorer.views.vibration_spectrum import (
     VibrationSpectra,

@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 import pytest
-from bearing_explorer.compute.results import Results
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.load_distribution import LoadDistribution

@@ -7,7 +7,7 @@ import pytest
 
 from bearingcore import Defect, RoughFloor, presets
 from bearingcore.common.kept import kept
-from bearingcore.model.defect import path_tables
+from bearingcore.scene.defect import path_tables
 
 
 def test_results_are_kept_up_to_a_number_of_bytes() -> None:

@@ -18,7 +18,7 @@ from bearingcore.dynamics.ball_motion import (
     contact_stiffness,
     heaviest_load,
 )
-from bearingcore.model import packing
+from bearingcore.scene import packing
 from tests.two_contacts import GRAVITY, TwoContacts
 
 RATE = 65536.0

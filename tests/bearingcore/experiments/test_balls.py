@@ -11,10 +11,10 @@ import pytest
 from scipy.linalg import expm
 
 from bearingcore import presets
+from bearingcore.bearings.rows import Row
 from bearingcore.experiments.ball_steps import swing
 from bearingcore.experiments.balls import BALL_METHODS, balls_experiment
-from bearingcore.model.rows import Row
-from bearingcore.model.scene import WITH_MASS
+from bearingcore.scene.scene import WITH_MASS
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from bearingcore import Defect, RoughFloor, Scene, kernels, presets
-from bearingcore.model import packing
-from bearingcore.model.rows import Row
+from bearingcore.bearings.rows import Row
+from bearingcore.scene import packing
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 ROUGH = RoughFloor(rms_height=5e-6, correlation_length=3e-4, seed=3)

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from bearingcore import DOF_NAMES, Scene, kernels
-from bearingcore.model import packing
+from bearingcore.scene import packing
 from tests.bearingcore.kernels import numpy_twin as twin
 from tests.bearingcore.kernels.scenes import (
     FAN_RIG,

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Defect, Equilibrium, Load, Scene, equilibrium, presets
-from bearingcore.model.rows import Row
+from bearingcore.bearings.rows import Row
 from bearingcore.statics.passes import drops_now
 
 REFERENCE = Path(__file__).parents[2] / "reference" / "rows_reference.json"

@@ -2,10 +2,10 @@
 
 import numpy as np
 import panel as pn
-from bearing_explorer.compute.executors import in_thread
-from bearing_explorer.compute.latest_wins import LatestWins
-from bearing_explorer.server.live import on_loop, one_message, send_at_once
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.results.executors import in_thread
+from bearing_explorer.results.latest_wins import LatestWins
+from bearing_explorer.serve.live import on_loop, one_message, send_at_once
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import View
 from bokeh.plotting import figure
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 from bokeh.models import LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.bearing import LINE_HEIGHT, TOP_LINE, BearingDrawing
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 _LOWER = 0.12  # outer raceway radii: small as it is, a line of words takes more of the height
 

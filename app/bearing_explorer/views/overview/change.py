@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.difference import difference
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.overview.words import story
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
     from bearingcore import Scene
 
 _NOTHING = (

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.ranges import StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import band_rows
 from bearing_explorer.views.overview.bands import LEFT, highest_band
@@ -23,7 +23,7 @@ from bearing_explorer.views.vibration_spectrum import (
 )
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 LEVEL = style.AxisQuantity("Density", "", "dB")
 

@@ -11,8 +11,8 @@ from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Range1d
 from numpy.typing import NDArray
 
-from bearing_explorer.figures import style
-from bearing_explorer.figures.matrix_cells import (
+from bearing_explorer.plots import style
+from bearing_explorer.plots.matrix_cells import (
     SYMBOLS,
     UNITS,
     Cell,
@@ -20,14 +20,14 @@ from bearing_explorer.figures.matrix_cells import (
     term_sizes,
     trace_limits,
 )
-from bearing_explorer.figures.ranges import ROOM, StickyRange
-from bearing_explorer.server.packed_source import PackedSource
+from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 
 if TYPE_CHECKING:
-    from bearing_explorer.compute.results import Results
+    from bearing_explorer.results.results import Results
 
 COLUMNS = 5
 LIVELY = 0.02

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from bearing_explorer.compute.chain import Chain, Peak
-from bearing_explorer.figures import style
+from bearing_explorer.plots import style
+from bearing_explorer.results.chain import Chain, Peak
 from bearingcore.statics.equilibrium import TERM_SYMBOLS
 from bearingcore.sweep.outputs import mode_symbol
 

@@ -14,8 +14,8 @@ from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
 from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band
 from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.files.read import read_table
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
-from bearingcore.signals.files.read import read_table
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing_proof import SCORED, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of

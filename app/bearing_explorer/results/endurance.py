@@ -1,0 +1,115 @@
+"""How long a bearing lasts, how hard its races are pressed, and how thick the film on them is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from bearing_explorer.results.single_flight import SingleFlightCache
+from bearingcore import contact_pressures, dynamic_load_rating, equilibrium, film, life
+from bearingcore.statics.validity import looked_at
+
+if TYPE_CHECKING:
+    from bearingcore import ContactPressures, Equilibrium, Film, Life, Scene
+
+
+ASSUMED_VISCOSITY = 0.02
+"""[Pa·s] of an oil of which nothing is said: a usual one, warm."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a person says of steel, oil and surfaces.
+
+    dynamic_load_rating
+        C_r [N] of the catalogue; None: computed by ISO 281.
+    viscosity [Pa·s]
+        of the oil where it is drawn in, at its temperature; None: not known, and then a film is
+        shown for `ASSUMED_VISCOSITY` but no limit of the scene judged by it.
+    race_roughness, ball_roughness [m]
+        root mean square.
+    """
+
+    dynamic_load_rating: float | None = None
+    viscosity: float | None = None
+    race_roughness: float = 0.1e-6
+    ball_roughness: float = 0.05e-6
+
+
+@dataclass(frozen=True)
+class Endurance:
+    """What there is to say of a scene; what is None comes with words that say why.
+
+    life, pressures, film
+        the core's answers.
+    rating [N], rating_words
+        the dynamic load rating that was used, and where it comes from.
+    no_life, no_pressures, no_film
+        why there is none; empty where there is one.
+    """
+
+    life: Life | None
+    no_life: str
+    rating: float | None
+    rating_words: str
+    pressures: ContactPressures | None
+    no_pressures: str
+    film: Film | None
+    no_film: str
+
+
+def _endurance(scene: Scene, asked: Asked) -> Endurance:
+    rating, rating_words = asked.dynamic_load_rating, "given"
+    no_life = ""
+    if rating is None:
+        try:
+            rating = dynamic_load_rating(scene.bearing)
+            rating_words = "computed from the dimensions by ISO 281"
+        except ValueError:
+            rating_words = ""
+            no_life = (
+                "The standard's rating of this kind of bearing is not computed here: enter that of "
+                "the catalogue."
+            )
+    lasting = None
+    if rating is not None:
+        try:
+            lasting = life(scene, rating, positions="all")
+        except ValueError as error:
+            no_life = _why(error)
+    state = equilibrium(scene, looked_at(scene))
+    pressures, no_pressures = None, ""
+    try:
+        pressures = contact_pressures(scene, state)
+    except ValueError as error:
+        no_pressures = _why(error)
+    oil, no_film = None, ""
+    try:
+        oil = film_of(scene, asked, state)
+    except ValueError as error:
+        no_film = _why(error)
+    return Endurance(lasting, no_life, rating, rating_words, pressures, no_pressures, oil, no_film)
+
+
+def film_of(scene: Scene, asked: Asked, state: Equilibrium) -> Film:
+    """The film of a scene with the oil that was asked for; ValueError as of `film`."""
+    return film(
+        scene,
+        viscosity=asked.viscosity or ASSUMED_VISCOSITY,
+        roughness_inner=asked.race_roughness,
+        roughness_outer=asked.race_roughness,
+        roughness_ball=asked.ball_roughness,
+        state=state,
+    )
+
+
+def _why(error: ValueError) -> str:
+    if "groove_radius is None" in str(error):
+        return (
+            "The groove radii of this bearing are not known: give its drawing on the tab Bearing."
+        )
+    return f"Not possible: {error}."
+
+
+endurance = SingleFlightCache(_endurance, 256)
+"""What there is to say of a scene and what was asked, kept."""

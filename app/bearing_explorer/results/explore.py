@@ -1,0 +1,566 @@
+"""Maps of one output over the plane of two quantities: what can be asked, how fine, how far it is.
+
+A map is refined by halving the distance of its points: each level holds the points of the level
+before, which are not computed again. How fine it gets is a matter of cost: the price of a scene is
+guessed first and measured then, and what would take too long is said in a sentence and not begun.
+
+What is not known has a reason instead of a number. Holds no Panel and draws nothing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import math
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.results.motion_cost import MOST_STEPS, step_rates
+from bearing_explorer.results.results import LONGEST_ORBIT
+from bearing_explorer.results.single_flight import SingleFlightCache
+from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.quantity_list import DEGREE
+from bearing_explorer.state.value_range import Sweep
+from bearingcore import DOF_NAMES, Scene
+from bearingcore.common.lazy import cached_property
+from bearingcore.common.numbers import number
+from bearingcore.common.table import SUFFIXES
+from bearingcore.diagnosis.size.sizing_error import extent_error
+from bearingcore.dynamics.motion import MOST_STEPS as CORE_MOST_STEPS
+from bearingcore.dynamics.orbit import common_ball_passes
+from bearingcore.scene.scene import WITH_MASS
+from bearingcore.sweep.grid import Axis, Grid
+from bearingcore.sweep.outputs import (
+    MASS,
+    MODES,
+    MOTION,
+    ORBIT,
+    OUTPUTS,
+    SECONDS,
+    STATICS,
+    STATUSES,
+    Settings,
+    mode_labels,
+    mode_symbol,
+)
+
+Array = NDArray[np.float64]
+
+FINEST = (65, 49)
+"""Points to the right and upwards of the finest map."""
+STRIDES = (16, 8, 4, 2, 1)
+"""Of the levels: every so many-th of the finest points."""
+SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRIDES}
+"""Points of each level, where nothing is rounded to whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
+
+AT_ONCE = 0.3
+"""[s] that a first picture may take while a slider is dragged."""
+BUDGET = 120.0
+"""[s] that a map may take."""
+
+LOWEST_BAND, NARROWEST_BAND = 100.0, 1.1
+"""[Hz] at which a band begins at the lowest, and how many times its beginning its end is at least:
+a few lines of a spectrum."""
+
+_SIZING = "sizing"
+_SECONDS = {**SECONDS, _SIZING: 0.6}
+_MANY_DIRECTIONS = 10.0  # times the cost, for all but statics and modes
+_WITH_MASS = 10.0  # times the cost of a motion
+_CHUNK = 0.1  # [s] between two looks at whether to go on
+_SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
+_SETTINGS = Settings()
+
+_REASONS = {
+    "nothing_touches": "nothing touches: no load presses a ball",
+    "free_direction": "the ring can move without resistance in some direction",
+    "load_not_carried": "no contact can carry this load",
+    "static_state_not_converged": "no static state was found",
+    "computation_refused": "this cannot be computed here: the shaft must turn, mass, stiffness "
+    "and damping be known in each direction that moves, for life and pressure the groove radii, "
+    "and balls be massless for orbits",
+    "no_static_start": "there is no static state to start from",
+    "motion_diverged": "the motion does not stay finite",
+    "orbit_not_converged": "no orbit was found",
+    "no_common_period": "the motion never repeats",
+    "arithmetic_failed": "the numbers are too extreme",
+    "too_many_steps": "the motion takes too many steps",
+    "too_many_contacts": "there are too many contacts to solve",
+    "complete": "this scene has no such mode",
+}
+"""Why there is no number, by the status of a sweep."""
+NOT_COMPUTED = "not computed"
+_TOO_LONG_MOTION = "the defect is passed so fast that the motion takes too many steps"
+_TOO_LONG_WITH_MASS = "balls swing so fast between their races that it takes too many steps"
+_TOO_LONG_ORBIT = f"the motion repeats only after more than {LONGEST_ORBIT} ball passes"
+
+
+@dataclass(frozen=True)
+class MapOutput:
+    """Something that can be mapped.
+
+    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, empty where it is none of them; `mode`
+    the mode that it is of. `unit_si`: how much one `unit` is in SI. `band` [Hz] is that of powers
+    where it can be chosen, None where it cannot.
+    """
+
+    name: str
+    group: str
+    label: str
+    unit: str
+    needs: str
+    in_sweep: str = ""
+    mode: str = ""
+    unit_si: float = 1.0
+    band: tuple[float, float] | None = None
+
+    @property
+    def settings(self) -> Settings:
+        """How it is computed."""
+        if self.band is None:
+            return _SETTINGS
+        return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
+
+    def in_band(self, low: float, high: float) -> MapOutput:
+        """The same between two frequencies [Hz]; ValueError with a sentence for others."""
+        most = 0.5 * _SETTINGS.sample_rate
+        if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
+            raise ValueError(
+                f"A band goes from {LOWEST_BAND / 1e3:g} kHz or more to "
+                f"{number(most / 1e3, 4)} kHz or less, and ends at {NARROWEST_BAND:g} times "
+                "its beginning or above."
+            )
+        label = f"{self.label}, {number(low / 1e3, 4)} to {number(high / 1e3, 4)} kHz"
+        return dataclasses.replace(self, label=label, band=(low, high))
+
+    @property
+    def column(self) -> str:
+        """Its name with its unit, for a table."""
+        suffix = SUFFIXES["deg" if self.unit == "°" else self.unit]
+        return "_".join(filter(None, (self.name.replace(":", "_"), suffix)))
+
+    def seconds(self, scene: Scene) -> float:
+        """Rough cost of a scene [s]."""
+        many = len(scene.active_dofs) > 2 and self.needs not in (STATICS, MODES)
+        seconds = _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
+        heavy = scene.balls == WITH_MASS and self.needs == MOTION
+        return seconds * (_WITH_MASS if heavy else 1.0)
+
+
+def _all_outputs() -> dict[str, MapOutput]:
+    made = []
+    for name, output in OUTPUTS.items():
+        unit = "" if output.unit == "1" else output.unit
+        for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
+            label = output.label.format(mode_symbol(mode)) if mode else output.label
+            key = f"{name}:{mode}" if mode else name
+            band = (_SETTINGS.band_low, _SETTINGS.band_high) if output.needs == MASS else None
+            made.append(
+                MapOutput(key, output.group, label, unit, output.needs, name, mode, band=band)
+            )
+    made.append(
+        MapOutput(
+            "extent_error",
+            "Size from the signal",
+            "error of the extent from a simulated signal",
+            "°",
+            _SIZING,
+            unit_si=DEGREE,
+        )
+    )
+    groups = list(dict.fromkeys(output.group for output in made))
+    made.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
+    return {output.name: output for output in made}
+
+
+MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
+"""All that can be mapped, by name, in sorted groups: every output of a sweep, and the sizing."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a map shows: `output` over the values of `x` and `y`, all else as in `scene`.
+
+    `x` and `y` hold the values of the finest level. Two questions are equal where the answers are.
+    """
+
+    scene: Scene
+    x: Sweep = field(compare=False)
+    y: Sweep = field(compare=False)
+    output: MapOutput
+    places: tuple[object, ...] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        ends = tuple(
+            (s.quantity.name, float(s.values[0]), float(s.values[-1]), s.values.size)
+            for s in (self.x, self.y)
+        )
+        object.__setattr__(self, "places", ends)
+        first = {name: float(values[0]) for name, values in (self.x.in_si, self.y.in_si)}
+        with contextlib.suppress(ValueError):
+            # what the map goes over does not count
+            object.__setattr__(self, "scene", self.scene.replace(**first))
+
+    @property
+    def figure(self) -> tuple[object, ...]:
+        """What its figure has to be made for, whatever the scene."""
+        return self.places, self.output
+
+    @cached_property
+    def grid(self) -> Grid:
+        """The finest scenes; ValueError where none can be. Not for what a sweep cannot give."""
+        return Grid.of(
+            self.scene,
+            dict([self.x.in_si, self.y.in_si]),
+            [self.output.in_sweep],
+            self.output.settings,
+        )
+
+    @cached_property
+    def seconds(self) -> float:
+        """Rough cost of one of its scenes [s]."""
+        richest = {
+            name: float(max(values.tolist(), key=abs))
+            for name, values in (self.x.in_si, self.y.in_si)
+        }
+        try:
+            return self.output.seconds(self.scene.replace(**richest))
+        except ValueError:
+            return self.output.seconds(self.scene)
+
+    @property
+    def first_stride(self) -> int:
+        """Of the level to begin with: 9 × 7 points where they come at once, or else 5 × 4."""
+        return 8 if self.count(8) * self.seconds <= AT_ONCE else 16
+
+    @property
+    def at_once(self) -> bool:
+        """Whether the first level is quick enough to follow a slider."""
+        return self.count(self.first_stride) * self.seconds <= AT_ONCE
+
+    def level(self, stride: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Which of the finest columns and rows belong to a level."""
+        columns = self.x.every(stride).values.size
+        rows = self.y.every(stride).values.size
+        return (
+            np.arange(self.x.values.size) if columns == self.x.values.size
+            else np.arange(0, self.x.values.size, stride),
+            np.arange(self.y.values.size) if rows == self.y.values.size
+            else np.arange(0, self.y.values.size, stride),
+        )  # fmt: skip
+
+    def count(self, stride: int) -> int:
+        """Points of a level."""
+        columns, rows = self.level(stride)
+        return columns.size * rows.size
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A map as it was found on one level.
+
+    Attributes
+    ----------
+    question
+        what was asked.
+    stride
+        of the level.
+    x, y
+        values of the quantities, (nx,) and (ny,).
+    values : (ny, nx)
+        in the unit of the output; NaN where there is none.
+    reasons : (ny, nx)
+        why there is none; empty elsewhere.
+    """
+
+    question: Question
+    stride: int
+    x: Sweep
+    y: Sweep
+    values: Array
+    reasons: NDArray[np.object_]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene whose fields vary."""
+        return self.question.scene
+
+    @property
+    def shape_words(self) -> str:
+        """How many points it has, in words."""
+        return f"{self.x.values.size} × {self.y.values.size} points"
+
+    @property
+    def missing(self) -> int:
+        """Points without a number."""
+        return int(np.isnan(self.values).sum())
+
+
+class Job(Protocol):
+    """What a computation reports and asks, as `bearing_explorer.results.jobs.Work` does."""
+
+    def progress(self, part: float, _: str = "") -> None:
+        """Report how much is done, 0 to 1."""
+
+    def cancelled(self) -> bool:
+        """Whether to end soon, with what is found."""
+
+    def show(self, found: Plane) -> None:
+        """Hand over a result."""
+
+
+class _CancelledError(Exception):
+    pass
+
+
+class Survey:
+    """All that is known of a map so far, on the finest grid."""
+
+    def __init__(self, question: Question, start: Plane | None = None) -> None:
+        self.question = question
+        shape = (question.y.values.size, question.x.values.size)
+        self._values = np.full(shape, math.nan)
+        self._reasons = np.full(shape, NOT_COMPUTED, dtype=object)
+        self._known = np.zeros(shape, dtype=bool)
+        self._seconds = 0.0
+        self._computed = 0
+        if start is not None:
+            columns, rows = question.level(start.stride)
+            at = np.ix_(rows, columns)
+            self._values[at], self._reasons[at] = start.values, start.reasons
+            self._known[at] = start.reasons != NOT_COMPUTED
+
+    @property
+    def seconds(self) -> float:
+        """Cost of a scene [s]: measured where something was computed, or else guessed."""
+        if self._computed < 6:
+            return self.question.seconds
+        return self._seconds / self._computed
+
+    @property
+    def spent(self) -> float:
+        """[s] so far."""
+        return self._seconds
+
+    def affordable(self, stride: int) -> bool:
+        """Whether the map may be found on this level too."""
+        return self.spent + self.missing(stride) * self.seconds <= BUDGET
+
+    def missing(self, stride: int) -> int:
+        """How many points of a level are not known yet."""
+        columns, rows = self.question.level(stride)
+        return int((~self._known[np.ix_(rows, columns)]).sum())
+
+    def compute(self, stride: int, job: Job | None = None, last: int | None = None) -> bool:
+        """Find what is missing of a level; False where it was cancelled.
+
+        The level `last` is where the work is to end, for the progress. Where there is no picture
+        before, what is known so far is shown from time to time.
+        """
+        shown_at = time.perf_counter()
+        left = self.missing(stride if last is None else last)
+        whole = self._computed + left
+        for at in self._chunks(stride):
+            if job is not None and job.cancelled():
+                return False
+            started = time.perf_counter()
+            try:
+                self._find(at, job)
+            except _CancelledError:
+                return False
+            self._seconds += time.perf_counter() - started
+            self._computed += at[0].size * at[1].size
+            if job is None:
+                continue
+            job.progress(self._computed / whole)
+            if stride == self.question.first_stride and started - shown_at > _SHOW_EVERY:
+                shown_at = started
+                job.show(self.plane(stride))
+        return True
+
+    def plane(self, stride: int) -> Plane:
+        """The map on a level."""
+        columns, rows = self.question.level(stride)
+        at = np.ix_(rows, columns)
+        return Plane(
+            self.question,
+            stride,
+            Sweep(self.question.x.quantity, self.question.x.values[columns]),
+            Sweep(self.question.y.quantity, self.question.y.values[rows]),
+            self._values[at].copy(),
+            self._reasons[at].copy(),
+        )
+
+    def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+        """Rows and columns of what is missing, in blocks: lines of extents whole, as they are
+        solved together, others short enough to be asked soon whether to go on.
+        """
+        columns, rows = self.question.level(stride)
+        upright = self.question.y.quantity.field == "extent"
+        for fixed in columns if upright else rows:
+            line = rows if upright else columns
+            known = self._known[line, fixed] if upright else self._known[fixed, line]
+            left = line[~known]
+            most = left.size if self._in_rows else max(1, int(_CHUNK / self.seconds))
+            for start in range(0, left.size, max(most, 1)):
+                part, one = left[start : start + most], np.array([fixed])
+                yield (part, one) if upright else (one, part)
+
+    @property
+    def _in_rows(self) -> bool:
+        return bool(self.question.output.in_sweep) and self.question.grid.in_rows
+
+    def _find(self, at: tuple[NDArray[np.intp], NDArray[np.intp]], job: Job | None) -> None:
+        output = self.question.output
+        if not output.in_sweep:
+            for j in at[0]:
+                for i in at[1]:
+                    self._put(j, i, *self._size(j, i, job))
+            return
+        grid = self.question.grid
+        rows, columns = at
+        if output.needs in (MOTION, ORBIT, MASS):
+            rows, columns = self._without_too_long(rows, columns)
+            if not rows.size * columns.size:
+                return
+        x, y = grid.axes
+        part = dataclasses.replace(
+            grid, axes=(Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
+        )
+        status, numbers = part.compute()
+        found = numbers[output.in_sweep]
+        if output.mode:
+            found = (
+                found[..., grid.labels.index(output.mode)]
+                if output.mode in grid.labels
+                else np.full(status.shape, math.nan)
+            )
+        for b, j in enumerate(rows):
+            for a, i in enumerate(columns):
+                value = float(found[a, b]) / output.unit_si
+                why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
+                self._put(j, i, value, why)
+
+    def _put(self, row: int, column: int, value: float, why: str) -> None:
+        self._values[row, column] = value if not why else math.nan
+        self._reasons[row, column] = why
+        self._known[row, column] = True
+
+    def _scene(self, row: int, column: int) -> Scene:
+        (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
+        return self.question.scene.replace(**{x: x_values[column], y: y_values[row]})
+
+    def _why(self, status: str, row: int, column: int) -> str:
+        if status == "scene_refused":
+            try:
+                self._scene(row, column)
+            except ValueError as error:
+                return refusal(error)
+        return _REASONS.get(status, status.replace("_", " "))
+
+    def _without_too_long(
+        self, rows: NDArray[np.intp], columns: NDArray[np.intp]
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """A line of points without those that take too long, which get their reason."""
+        for j in rows:
+            for i in columns:
+                if why := self._too_long(j, i):
+                    self._put(j, i, math.nan, why)
+        left = ~self._known[np.ix_(rows, columns)]
+        return rows[left.any(axis=1)], columns[left.any(axis=0)]
+
+    def _too_long(self, row: int, column: int) -> str:
+        """Why a motion or an orbit is not even begun; empty where it is."""
+        try:
+            scene = self._scene(row, column)
+            if self.question.output.needs == ORBIT:
+                return _TOO_LONG_ORBIT if (common_ball_passes(scene) or 0) > LONGEST_ORBIT else ""
+            if self.question.output.needs == MASS:
+                scene = scene.replace(balls=WITH_MASS)
+            rate = step_rates(scene, _SETTINGS.sample_rate)
+        except ValueError:
+            return ""  # whoever computes it says why not
+        with_mass = scene.balls == WITH_MASS
+        most = CORE_MOST_STEPS if with_mass else MOST_STEPS
+        if rate is None or rate * _SETTINGS.duration <= most:
+            return ""
+        return _TOO_LONG_WITH_MASS if with_mass else _TOO_LONG_MOTION
+
+    def _size(self, row: int, column: int, job: Job | None) -> tuple[float, str]:
+        """Error of a sizing, or why there is none."""
+
+        def go_on(_: float) -> None:
+            if job is not None and job.cancelled():
+                raise _CancelledError
+
+        try:
+            found = extent_error(self._scene(row, column), progress=go_on)
+        except ValueError as error:
+            return math.nan, refusal(error)
+        missed = found.error / self.question.output.unit_si
+        return missed, "" if math.isfinite(missed) else found.sizing.status
+
+
+def coarse(question: Question) -> Plane:
+    """The first level of a map, for a slider that is dragged. ValueError where none can be."""
+    survey = Survey(question)
+    survey.compute(question.first_stride)
+    return survey.plane(question.first_stride)
+
+
+planes: SingleFlightCache[Plane] = SingleFlightCache(coarse, 64)
+"""First levels by their question, shared by all sessions."""
+
+
+def refine(job: Job, question: Question, finest: int, start: Plane | None = None) -> str:
+    """One level after another up to the stride `finest`, each shown; returns what to say of it.
+
+    Goes on from `start` where it is given. ValueError, with a sentence, where even the first level
+    takes too long, or no scene of the map can be.
+    """
+    survey = Survey(question, start)
+    first = question.first_stride
+    if not survey.affordable(first):
+        raise ValueError(
+            f"Even {_size_words(question, first)} would take {_duration(survey, first)}, more than "
+            f"the {BUDGET / 60.0:.0f} minutes allowed here: choose another output."
+        )
+    levels = [stride for stride in STRIDES if finest <= stride <= first]
+    shown = start
+    for stride in levels:
+        if not survey.missing(stride):
+            continue
+        if not survey.affordable(stride):
+            return (
+                f"{_found(shown, survey)} {_size_words(question, stride)} would take "
+                f"{_duration(survey, stride)} more; a map may take {BUDGET / 60.0:.0f} minutes."
+            )
+        last = min(level for level in levels if survey.affordable(level))
+        if not survey.compute(stride, job, last):
+            break
+        shown = survey.plane(stride)
+        job.show(shown)
+    return _found(shown, survey)
+
+
+def _found(shown: Plane | None, survey: Survey) -> str:
+    if shown is None:
+        first = survey.question.first_stride
+        known = survey.question.count(first) - survey.missing(first)
+        return f"{known} of {_size_words(survey.question, first)} after {survey.spent:.1f} s."
+    spent = f" after {survey.spent:.1f} s" if survey.spent else ""
+    return f"{shown.shape_words}{spent}."
+
+
+def _size_words(question: Question, stride: int) -> str:
+    columns, rows = question.level(stride)
+    return f"{columns.size} × {rows.size} points"
+
+
+def _duration(survey: Survey, stride: int) -> str:
+    seconds = survey.missing(stride) * survey.seconds
+    return f"about {seconds:.0f} s" if seconds < 90.0 else f"about {seconds / 60.0:.0f} minutes"

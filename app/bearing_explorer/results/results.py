@@ -1,0 +1,684 @@
+"""Results: what is known about one scene, computed when first asked for.
+
+Everything that is drawn passes through here. The core's answers come from `compute.answers`, where
+all sessions share them.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+from collections.abc import Callable, Hashable
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import bearingcore as core
+from bearing_explorer.results import answers
+from bearing_explorer.results.ball_mass import BallMass
+from bearing_explorer.results.chain import Chain, chain
+from bearing_explorer.results.dof_comparison import (
+    DofComparison,
+    other_dofs,
+    spectrum_differences,
+    static_differences,
+)
+from bearing_explorer.results.endurance import Asked, Endurance, endurance
+from bearing_explorer.results.excerpt import Excerpt
+from bearing_explorer.results.executors import BESIDE
+from bearing_explorer.results.load_curve import Curve, load_curve
+from bearing_explorer.results.motion_cost import is_costly, quick_duration, step_rates
+from bearing_explorer.results.profile import Profile, profile
+from bearing_explorer.results.single_flight import SingleFlightCache
+from bearing_explorer.state.quantities import defects_of
+from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
+from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
+from bearingcore.common.lazy import cached_property
+from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
+from bearingcore.plan import CURVES, SETTLED
+from bearingcore.plan.balls import BallComparison
+from bearingcore.scene.defect import RACES
+from bearingcore.scene.scene import MASSLESS, WITH_MASS
+from bearingcore.statics.ball_positions import EquilibriumWithMass
+from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
+from bearingcore.statics.passes import drops_now
+
+if TYPE_CHECKING:
+    from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
+    from bearingcore.plan import Plan
+Answer = TypeVar("Answer")
+
+MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
+"""How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
+
+LONGEST_ORBIT = 60
+"""Ball passes of the longest orbit that is looked for while sliders move."""
+
+
+def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool) -> Chain:
+    return Results(scene, cage_angle, settings, moving=moving).chain
+
+
+_chains = SingleFlightCache(_chain_of, 128)  # a drag is told against one scene all the while
+
+
+def _load_curves(found: Equilibrium) -> list[Curve]:
+    return [load_curve(found, row) for row in range(len(found.scene.bearing.all_rows))]
+
+
+class Results:
+    """What the views read. Attributes are computed when first asked for, in any thread.
+
+    scene: the Scene shown
+    cage_angle: the cage angle shown [rad]
+    focus: which of the scene's defects is looked at
+    equilibrium, healthy_equilibrium: over the stretch of the curves, with the defect and without
+    now, healthy_now: at `cage_angle` alone (arrays of length 1)
+    modes, healthy_modes: over the same cage angles
+    band_modes: the modes where few cage angles will do while a hand moves
+    bands, healthy_bands: {label: (least, greatest)} of the natural frequencies [Hz]
+    extent: of the defect looked at [rad]
+    healthy_all_around: like healthy_equilibrium, over all that a pinned scene does
+    maps: over its extent and the same cage angles
+    drop: how far each ball has sunk into each race at `cage_angle`
+    profile: the race around the defect and a ball's path over it
+    plan: what the scene's curves or motion are drawn by, where they are drawn by a plan
+    motion, healthy_motion: simulated motion
+    settled_since: [s] of the motion, when its start is forgotten
+    excerpt: some ball passes of the settled motion
+    spectra: {dof: Spectrum} of the housing's acceleration from rest on
+    late_spectra, healthy_late_spectra: the same of the settled motion
+    ball_mass: the motions without and with the balls' mass, compared
+    ball_comparison: up to which frequency massless balls will do; None until it was looked for
+    ball_passes: after how many of them the scene is as before; None where it never is
+    orbit: the motion that repeats itself; None where it takes too many ball passes to look for
+    orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
+    plans: {view: Plan} of what is to be planned; without those that cannot be
+    contact_damping: of a loaded contact [N·s/m], given or from the stiffness
+    endurance: life, contact pressure and film, with the oil and steel of `asked`
+    limits: what the model leaves out, each with its number and its limit
+    dof_comparison: what other free directions would change
+    chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
+    chain_before: the same of the scene before the last change, or of what is drawn in grey
+    """
+
+    #: attributes that take long enough to be drawn after the others
+    slow = frozenset(
+        {
+            "motion",
+            "healthy_motion",
+            "ball_mass",
+            "excerpt",
+            "spectra",
+            "late_spectra",
+            "healthy_late_spectra",
+            "orbit",
+            "orbit_spectra",
+            "dof_comparison",
+            "chain",
+            "chain_before",
+        }
+    )
+
+    #: attributes that are made of a simulated motion
+    moving_ones = frozenset(
+        {
+            "motion",
+            "ball_mass",
+            "excerpt",
+            "spectra",
+            "late_spectra",
+            "orbit",
+            "dof_comparison",
+            "chain",
+        }
+    )
+
+    def __init__(
+        self,
+        scene: Scene,
+        cage_angle: float = 0.0,
+        settings: Settings | None = None,
+        focus: int = 0,
+        *,
+        moving: bool = False,
+        planned: tuple[str, ...] = (),
+        pinned: Reference | None = None,
+        before: Scene | None = None,
+        asked: Asked | None = None,
+    ) -> None:
+        """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
+
+        `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
+        without its defect. `before`: the scene before the last change, where there was one.
+        `asked`: what somebody says of steel, oil and surfaces.
+        """
+        self.scene = scene
+        self.cage_angle = cage_angle
+        self.settings = settings or Settings()
+        self.focus = focus
+        self.moving = moving
+        self.planned = planned
+        self.pinned = pinned
+        self.before = before
+        self.asked = asked or Asked()
+        #: times [s] that processors have worked on it, in any thread: waiting is no cost
+        self.costs: list[float] = []
+
+    @property
+    def beside(self) -> Scene:
+        """What is drawn in grey beside the scene: a pinned one, or itself without its defect."""
+        return self.scene.healthy() if self.pinned is None else self.pinned.scene
+
+    @property
+    def beside_words(self) -> str:
+        """What it is called before its numbers; nothing where it is the scene itself."""
+        if self.pinned is not None:
+            return self.pinned.words
+        return "without the defect" if self.scene.defects else ""
+
+    @property
+    def grey_words(self) -> str:
+        """What it is called in a caption."""
+        return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
+
+    @property
+    def beside_name(self) -> str:
+        """What it is called in the names of columns."""
+        return "healthy" if self.pinned is None else "pinned"
+
+    @property
+    def over_shaft(self) -> bool:
+        """Whether curves are drawn over a turn of the shaft: a defect turns with it."""
+        return any(defect.race == "inner" for defect in self.scene.defects)
+
+    @cached_property
+    def stretch(self) -> tuple[float, float, int]:
+        """First and last cage angle [rad] that curves are drawn over, and how many there are.
+
+        A ball spacing, after which all is as before; of rows of unlike balls what their spacings
+        have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
+        soon: then the turn of the shaft that the cage angle shown lies in.
+        """
+        by_hand = self.settings.cage_angles
+        angles = default_cage_angles(self.scene, by_hand or self.settings.n_cage_angles)
+        length = float(angles[-1])
+        turn = math.floor(self.cage_angle / length + 1e-9) if self.over_shaft else 0
+        return turn * length, (turn + 1) * length, angles.size
+
+    def along(self, cage_angle: ArrayLike) -> NDArray[np.float64]:
+        """Cage angles [rad] as curves show them [degrees], within the stretch.
+
+        Those of the cage, or where the curves are over a turn of the shaft, those of the shaft.
+        """
+        first, last, _ = self.stretch
+        angle = np.asarray(cage_angle, dtype=float)
+        inside = first + np.where(angle == last, last - first, (angle - first) % (last - first))
+        if self.over_shaft:
+            return 360.0 * (inside - first) / (last - first)
+        return np.degrees(inside)
+
+    @cached_property
+    def plans(self) -> dict[str, Plan]:
+        """Plans of the views in `planned`, made when first asked for."""
+        return {view: self.plan_of(view) for view in self.planned}
+
+    def plan_of(self, view: str) -> Plan:
+        """The plan for a view; what is drawn beside it is planned too. ValueError without one."""
+        how = self.settings.planning(view)
+        if view not in CURVES:
+            return answers.motion_plans(self.scene, view, how)
+        if self.scene.defects:
+            answers.plans(self.scene.healthy(), view, how)
+        return answers.plans(self.scene, view, how)
+
+    @cached_property
+    def plan(self) -> Plan | None:
+        """The plan that is drawn by; None where there is none, or a hand has overruled it.
+
+        Planned cage angles are those of a first turn: in later ones, balls meet a defect of the
+        inner race elsewhere.
+        """
+        if len(self.planned) != 1:
+            return None
+        (view,) = self.planned
+        over_angles = view in CURVES
+        if over_angles and (self.settings.cage_angles is not None or self.stretch[0] != 0.0):
+            return None
+        return self.plans[view]
+
+    def _nodes(self, healthy: bool) -> bytes | None:
+        """Cage angles that a plan has chosen, those of the healthy bearing by a plan of its own."""
+        if self.plan is None or self.plan.cage_angles is None:
+            return None
+        plan = self.plan
+        if healthy and self.scene.defects:
+            view = plan.view
+            plan = answers.plans(self.scene.healthy(), view, self.settings.planning(view))
+        angles = plan.cage_angles
+        assert angles is not None
+        # without a defect of the inner race curves are shorter
+        last = self.stretch[1]
+        if abs(float(angles[-1]) - last) > 1e-9 * last:
+            return None
+        return angles.tobytes()
+
+    def _static(self, scene: Scene, healthy: bool = False) -> Equilibrium:
+        nodes = self._nodes(healthy)
+        if nodes is None:
+            return answers.equilibria(scene, *self.stretch)
+        return answers.planned_equilibria(scene, nodes)
+
+    @cached_property
+    def equilibrium(self) -> Equilibrium:
+        """Static answers over the stretch."""
+        return self._static(self.scene)
+
+    @cached_property
+    def healthy_equilibrium(self) -> Equilibrium:
+        """The same without the defect."""
+        if self.pinned is not None:
+            return answers.equilibria(self.pinned.scene, *self.stretch)
+        return self._static(self.scene.healthy(), healthy=True)
+
+    @cached_property
+    def healthy_all_around(self) -> Equilibrium:
+        """The same over whatever stretch holds all that happens in a pinned scene."""
+        if self.pinned is None:
+            return self.healthy_equilibrium
+        own = Results(self.pinned.scene, self.cage_angle, self.settings)
+        return answers.equilibria(self.pinned.scene, *own.stretch)
+
+    @cached_property
+    def load_curves(self) -> list[Curve]:
+        """Load [N] of a ball over its angle [rad], a curve a row."""
+        return _load_curves(self.equilibrium)
+
+    @cached_property
+    def inner_load_curves(self) -> list[Curve]:
+        """The same at the inner race, where balls with mass carry less; none of massless ones."""
+        found = self.equilibrium
+        if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
+            return []
+        rows = range(len(found.scene.bearing.all_rows))
+        return [load_curve(found, row, found.inner_load) for row in rows]
+
+    @property
+    def load_curve(self) -> Curve:
+        """That of the first row."""
+        return self.load_curves[0]
+
+    @property
+    def healthy_load_curve(self) -> Curve:
+        """The same without the defect."""
+        return self.healthy_load_curves[0]
+
+    @cached_property
+    def healthy_load_curves(self) -> list[Curve]:
+        """The same without the defect."""
+        return _load_curves(self.healthy_all_around)
+
+    @cached_property
+    def now(self) -> Equilibrium:
+        """Static answer at the cage angle shown; arrays of length 1."""
+        return answers.single_equilibria(self.scene, self.cage_angle)
+
+    @property
+    def massless_now(self) -> Equilibrium:
+        """The same as maps have it: without the mass of the balls."""
+        return answers.single_equilibria(self.scene.replace(balls=MASSLESS), self.cage_angle)
+
+    @cached_property
+    def healthy_now(self) -> Equilibrium:
+        """The same without the defect."""
+        return answers.single_equilibria(self.beside, self.cage_angle)
+
+    @cached_property
+    def modes(self) -> Modes:
+        """Natural frequencies over the same cage angles."""
+        return self._modes(self.scene)
+
+    @cached_property
+    def band_modes(self) -> Modes:
+        """`modes`, but at every third cage angle while a hand moves."""
+        return self._few_modes(self.scene) if self._takes_few("modes") else self.modes
+
+    @property
+    def _healthy_band_modes(self) -> Modes:
+        if self._takes_few("healthy_modes"):
+            return self._of_pinned(self._few_modes, self.beside)
+        return self.healthy_modes
+
+    def _takes_few(self, modes: str) -> bool:
+        """Whether bands are to be taken from few cage angles: not where all of them are known."""
+        return self.moving and modes not in vars(self)
+
+    def _few_modes(self, scene: Scene) -> Modes:
+        first, last, n = self.stretch
+        return answers.modes(scene, first, last, n // 3 + 1)
+
+    @cached_property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Between which frequencies [Hz] each mode moves over the stretch.
+
+        Looked for between the cage angles too: the same on every tab, by whatever plan its curves
+        are drawn. While a hand moves it is what few cage angles give.
+        """
+        return self.band_modes.bands() if self.moving else self._bands(self.scene)
+
+    @cached_property
+    def healthy_bands(self) -> dict[str, tuple[float, float]]:
+        """The same without the defect."""
+        if self.moving:
+            return self._healthy_band_modes.bands()
+        return self._of_pinned(self._bands, self.beside)
+
+    def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
+        first, last, _ = self.stretch
+        n = self.settings.n_cage_angles
+        samples = default_cage_angles(self.scene, n if self.over_shaft else 3 * n - 2)
+        return answers.bands(scene, first, last, samples.size)
+
+    @cached_property
+    def healthy_modes(self) -> Modes:
+        """The same without the defect."""
+        if self.pinned is not None:
+            return self._of_pinned(answers.modes, self.pinned.scene, *self.stretch)
+        return self._modes(self.scene.healthy(), healthy=True)
+
+    def _modes(self, scene: Scene, healthy: bool = False) -> Modes:
+        nodes = self._nodes(healthy)
+        if nodes is None:
+            return answers.modes(scene, *self.stretch)
+        return answers.planned_modes(scene, nodes)
+
+    @property
+    def extent(self) -> float:
+        """Extent [rad] of the defect that is looked at."""
+        return defects_of(self.scene)[self.focus].extent
+
+    @cached_property
+    def maps(self) -> Maps:
+        """Stiffness and loaded balls over extents of the defect looked at, and cage angles.
+
+        The same maps for every extent that they hold: moving along them computes nothing.
+        """
+        first, last, _ = self.stretch
+        others = list(defects_of(self.scene))
+        looked_at = dataclasses.replace(others.pop(self.focus), extent=0.0)
+        scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
+        reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
+        # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
+        n = self.settings.n_cage_angles
+        columns = 2 * n - 1 if has_long_period(self.scene) else n
+        return answers.maps(scene, reach, self.settings.n_extents, first, last, columns)
+
+    @cached_property
+    def drop(self) -> dict[str, np.ndarray]:
+        """Drop [m] of each ball's centre into the outer and the inner race, by race."""
+        return {race: drops_now(self.scene, self.cage_angle, race) for race in RACES}
+
+    @cached_property
+    def profile(self) -> Profile:
+        """The race around the defect and the path of a ball's centre over it."""
+        return profile(self.scene, self.cage_angle, self.focus)
+
+    @cached_property
+    def coarse(self) -> bool:
+        """Whether the motion is marched coarsely, as a slider moves and it takes long."""
+        return self._is_coarse(self.scene)
+
+    @cached_property
+    def coarse_comparison(self) -> bool:
+        """The same of `dof_comparison`, whose motions are marched alike."""
+        return self.coarse or self._is_coarse(self.scene.replace(dofs=other_dofs(self.scene)))
+
+    def begin(self, needed: frozenset[str]) -> None:
+        """Begin what of these attributes can be computed beside the others, in another thread."""
+        if {"late_spectra", "healthy_late_spectra"} <= needed:
+            asked = self.beside, self._marching
+            if not answers.late_spectra.knows(*asked):  # whoever asks for it waits for this one
+                BESIDE.submit(lambda: self._costing(answers.late_spectra, *asked))
+
+    def _costing(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
+        """Compute something in another thread than that of the picture, at its cost."""
+        before = time.thread_time()
+        try:
+            return compute(*key)
+        finally:
+            self.costs.append(time.thread_time() - before)
+
+    def is_coarse(self, shown: frozenset[str]) -> bool:
+        """Whether what is shown of attributes is made of motions that are marched coarsely."""
+        if "dof_comparison" in shown and self.coarse_comparison:
+            return True
+        if "ball_mass" in shown and self._ball_marching.coarse:
+            return True
+        return bool(shown & self.moving_ones) and self.coarse
+
+    def coarse_words(self, shown: frozenset[str]) -> str:
+        """How what is shown is coarse, where it is."""
+        scene = self.scene if "ball_mass" not in shown else self.scene.replace(balls=WITH_MASS)
+        if scene.balls == MASSLESS:
+            part = "a quarter of" if "dof_comparison" in shown else "half"
+            return f"coarse while it moves: {part} the motion in half the steps"
+        seconds = quick_duration(scene, self.settings.coarse_marching)
+        return f"coarse while it moves: {seconds:.2g} s of motion"
+
+    def _is_coarse(self, scene: Scene) -> bool:
+        settings = self.settings
+        return (
+            self.moving
+            and settings.step_rate is None
+            and is_costly(scene, settings.sample_rate, settings.duration)
+        )
+
+    @cached_property
+    def _marching(self) -> Marching:
+        return self.settings.coarse_marching if self.coarse else self.settings.marching
+
+    @cached_property
+    def _how(self) -> answers.How:
+        """How the scene's motion comes about."""
+        if self.plan is None or self.plan.cage_angles is not None:
+            return self._marching
+        how = self.settings.planning(self.plan.view)
+        assert isinstance(how, MotionPlanning)
+        return how
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Simulated motion of rotor and housing."""
+        return answers.motions(self.scene, self._how).motion
+
+    @property
+    def settled_since(self) -> float:
+        """When [s] of the motion its start is forgotten."""
+        return answers.motions(self.scene, self._how).since
+
+    @cached_property
+    def healthy_motion(self) -> Motion:
+        """The same without the defect, always marched."""
+        return self._of_pinned(answers.motions, self.beside, self._marching).motion
+
+    @cached_property
+    def excerpt(self) -> Excerpt:
+        """Some ball passes of the settled motion, with static loads beside the moving ones."""
+        return answers.excerpts(self.scene, self._how)
+
+    @cached_property
+    def spectra(self) -> dict[str, Spectrum]:
+        """Spectrum of the housing's acceleration along each direction, by its name."""
+        return answers.spectra(self.scene, self._marching)
+
+    @cached_property
+    def late_spectra(self) -> dict[str, Spectrum]:
+        """The same of the settled motion; empty where it did not stay finite."""
+        return answers.late_spectra(self.scene, self._how)
+
+    @property
+    def healthy_settled_since(self) -> float:
+        """When [s] of that motion its start is forgotten."""
+        return answers.motions(self.beside, self._marching).since
+
+    @cached_property
+    def healthy_late_spectra(self) -> dict[str, Spectrum]:
+        """The same without the defect, always marched."""
+        return self._of_pinned(answers.late_spectra, self.beside, self._marching)
+
+    def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
+        """Compute something of what is drawn in grey; refused, it says that it is not the scene."""
+        try:
+            return compute(*key)
+        except ValueError as error:
+            if self.pinned is None:
+                raise
+            words = f"the {self.pinned.words} cannot be shown beside it: {error}"
+            raise ValueError(words) from None
+
+    @property
+    def _ball_marching(self) -> Marching:
+        heavy = self.scene.replace(balls=WITH_MASS)
+        coarse = self._is_coarse(heavy)
+        return self.settings.coarse_marching if coarse else self.settings.marching
+
+    @cached_property
+    def ball_mass(self) -> BallMass:
+        """The motions without and with the balls' mass, marched alike; whatever the scene has."""
+        return answers.ball_masses(self.scene.replace(balls=MASSLESS), self._ball_marching)
+
+    @property
+    def ball_comparison(self) -> BallComparison | None:
+        """Up to which frequency massless balls will do, where `compare_balls` has found it."""
+        key = self._compared_balls
+        return answers.ball_comparisons(*key) if answers.ball_comparisons.knows(*key) else None
+
+    @property
+    def _compared_balls(self) -> tuple[Scene, float]:
+        how = self.settings.planning(SETTLED)
+        assert isinstance(how, MotionPlanning)
+        return self.scene.replace(balls=MASSLESS), how.budget
+
+    def compare_balls(self) -> BallComparison:
+        """Find `ball_comparison`; ValueError where there is no motion to compare."""
+        return answers.ball_comparisons(*self._compared_balls)
+
+    @property
+    def ball_passes(self) -> int | None:
+        """After how many ball passes all is as before; None where it never is."""
+        return common_ball_passes(self.scene)
+
+    @cached_property
+    def orbit(self) -> Orbit | None:
+        """The motion that repeats itself; None where it takes too many ball passes to look for.
+
+        The search is short while a hand moves.
+        """
+        found = self._quick_orbit
+        if found is None or self.moving or found.status != NOT_CONVERGED:
+            return found
+        return answers.orbits(*self._orbital)
+
+    @cached_property
+    def _quick_orbit(self) -> Orbit | None:
+        if (self.ball_passes or 0) > LONGEST_ORBIT:
+            return None
+        return answers.quick_orbits(*self._orbital)
+
+    @property
+    def _orbital(self) -> tuple[Scene, Marching]:
+        """What an orbit is looked for with: balls without mass, whatever the scene has."""
+        return self.scene.replace(balls=MASSLESS), self._marching
+
+    def seek_orbit(self, give_up: Callable[[], bool]) -> None:
+        """Look for the orbit so that it is known afterwards, unless `give_up` says so before."""
+        key = self._orbital
+        found = self._quick_orbit
+        if found is None or found.status != NOT_CONVERGED or answers.orbits.knows(*key):
+            return
+        longer = answers.find_orbit(*key, give_up)
+        if not give_up():
+            answers.orbits.keep(longer, *key)
+
+    @cached_property
+    def orbit_spectra(self) -> dict[str, Spectrum]:
+        """Spectrum of a record as long as the second half of the motion; empty without an orbit."""
+        if self.orbit is None or not self.orbit.multipliers.size:
+            return {}
+        duration = 0.5 * self.settings.duration
+        frequency, density = self.orbit.spectrum(self.settings.sample_rate, duration=duration)
+        return {
+            dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(self.orbit.dofs)
+        }
+
+    @cached_property
+    def contact_damping(self) -> float:
+        """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
+        return core.contact_damping(self.scene)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """What the model leaves out of the scene, with what is known of it in motion.
+
+        The same whatever is on screen: looked at over cage angles of its own, and with the motion
+        that any view has had simulated.
+        """
+        step_rate = self.settings.step_rate
+        if step_rate is None:
+            try:
+                step_rate = step_rates(self.scene, self.settings.sample_rate)
+            except ValueError:
+                step_rate = None  # no motion, no steps
+        return answers.limits_of(self.scene, step_rate, self._dynamic_load, self.asked)
+
+    @property
+    def endurance(self) -> Endurance:
+        """Life, pressure and film of the scene, with the oil and steel that were asked for."""
+        return endurance(self.scene, self.asked)
+
+    @property
+    def _dynamic_load(self) -> float | None:
+        """Greatest ball load [N] of the settled motion, where one has been simulated."""
+        planning = self.settings.planning(SETTLED)
+        assert isinstance(planning, MotionPlanning)
+        for how in (planning, self.settings.marching):
+            key = self.scene, how
+            moved = not self.moving and answers.motions.knows(*key)
+            if moved or answers.dynamic_loads.knows(*key):
+                load = answers.dynamic_loads(*key)
+                return load if math.isfinite(load) else None
+        return None
+
+    @cached_property
+    def chain(self) -> Chain:
+        """What the scene gives from the loads of the balls to the vibration."""
+        return chain(self)
+
+    @cached_property
+    def chain_before(self) -> Chain:
+        """The same of the scene before the last change; before the first, of what is in grey."""
+        scene = self.beside if self.before is None else self.before
+        if scene == self.scene:
+            return self.chain
+        return _chains(scene, self.cage_angle, self.settings, self.moving)
+
+    @cached_property
+    def dof_comparison(self) -> DofComparison:
+        """The scene with its free directions against those it needs, or against all five."""
+        chosen, other = self.scene.active_dofs, other_dofs(self.scene)
+        if chosen == other:
+            return DofComparison(chosen, other, {}, {})
+        against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
+        static = static_differences(self.equilibrium, against.equilibrium)
+        how = self.settings.marching
+        if self.coarse_comparison:  # two motions, one of them in five directions
+            how = self.settings.coarse_marching
+            how = dataclasses.replace(how, duration=0.5 * how.duration)
+        try:
+            pair = [answers.spectra(one, how) for one in (self.scene, against.scene)]
+            moving = spectrum_differences(*pair)
+        except ValueError as error:
+            return DofComparison(chosen, other, static, {}, str(error))
+        return DofComparison(chosen, other, static, moving)

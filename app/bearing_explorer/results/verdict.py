@@ -1,0 +1,103 @@
+"""How the computation of a scene went, in words and colour: one verdict for what is on screen."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from bearing_explorer.results.compiling import StillCompiling
+from bearing_explorer.state.quantities import in_page_words
+from bearingcore.dynamics.orbit import NO_PERIOD, NO_START
+
+if TYPE_CHECKING:
+    from bearing_explorer.results.results import Results
+
+
+ORBITS = frozenset({"orbit", "orbit_spectra"})
+"""Attributes of the results that are of the steady orbit."""
+MOTIONS = frozenset({"motion", "excerpt", "spectra", "late_spectra"})
+"""Attributes that are of a simulated motion."""
+
+BALLS = frozenset({"ball_mass"})
+"""Attributes that compare motions without and with the mass of balls."""
+
+LOST = {
+    "-1": "Unstable: the period doubles",
+    "pair": "Unstable: a second frequency is added",
+    "+1": "Unstable: the motion goes to another orbit",
+}
+"""How an orbit is lost, by the way in which its largest multiplier leaves the unit circle."""
+
+_NO_ORBIT = {NO_PERIOD: "No common period", NO_START: "No static state"}
+
+
+class Verdict(NamedTuple):
+    """`mood`: "good", "bad" or "busy"."""
+
+    mood: str
+    words: str
+
+
+def verdict(results: Results, shown: frozenset[str]) -> Verdict:
+    """The verdict on what is on screen: `shown` are the attributes that its views read.
+
+    What fails first is said: without a static state there is no motion, and a motion that broke
+    off has no orbit. An orbit that is shown is judged, converged or not: an unstable one is no
+    place where a machine stays.
+    """
+    static = of_statics(results)
+    if static.mood != "good" or not shown & (ORBITS | MOTIONS | BALLS):
+        return static
+    try:
+        if shown & BALLS and results.ball_mass.broke_off:
+            return Verdict("bad", f"The motion {results.ball_mass.broke_off}")
+        if shown & MOTIONS and (moving := of_motion(results)).mood != "good":
+            return moving
+        if shown & ORBITS:
+            return of_orbit(results)
+    except StillCompiling:
+        return Verdict("busy", "Balls with mass are being compiled")
+    except ValueError as error:  # the view says it at length
+        return Verdict("bad", f"No motion: {in_page_words(str(error))}")
+    return static
+
+
+def of_statics(results: Results) -> Verdict:
+    """Whether the static equilibrium was found at all cage angles of the curves."""
+    found = results.equilibrium
+    bad = np.flatnonzero(~found.converged)
+    if not bad.size:
+        return Verdict("good", "Converged")
+    reason = found.reason(int(bad[0]))
+    if bad.size == found.converged.size:
+        return Verdict("bad", f"No answer: {reason}")
+    return Verdict(
+        "bad", f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
+    )
+
+
+def of_motion(results: Results) -> Verdict:
+    """Whether the simulated motion reached its end."""
+    motion = results.motion
+    if motion.completed:
+        return Verdict("good", "Converged")
+    return Verdict("bad", f"The motion {motion.status}")
+
+
+def of_orbit(results: Results) -> Verdict:
+    """Whether there is a steady orbit, and whether it is stable."""
+    orbit = results.orbit
+    if orbit is None:
+        return Verdict("bad", "No orbit looked for")
+    if orbit.multipliers.size:
+        if orbit.stable:
+            return Verdict("good", "Stable orbit")
+        return Verdict("bad", LOST[orbit.through])
+    if orbit.status in _NO_ORBIT:
+        return Verdict("bad", _NO_ORBIT[orbit.status])
+    return (
+        Verdict("busy", "No orbit found yet")
+        if results.moving
+        else Verdict("bad", "No orbit found")
+    )

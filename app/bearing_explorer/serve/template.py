@@ -1,0 +1,34 @@
+"""The frame of the page as a Panel template, made cheaply: a class of thirty comes all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import panel as pn
+from bokeh.document import Document
+
+from bearing_explorer.serve.bokeh_private import parts_of, shown_in
+
+
+class PageTemplate(pn.Template):
+    """Panel's template with its models counted once a page instead of once a part.
+
+    Each root that is added makes Bokeh walk all models of the document, and each part that is
+    named makes Panel write out the whole template as text.
+    """
+
+    beside: Sequence[object] = ()
+    """What Panel has made for the document beside the parts."""
+
+    def server_doc(self, doc: Document | None = None, *arguments: Any, **named: Any) -> Document:
+        """The document of a session."""
+        if doc is None:
+            return super().server_doc(doc, *arguments, **named)
+        with doc.models.freeze():
+            made = super().server_doc(doc, *arguments, **named)
+        self.beside = shown_in(doc)
+        return made
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(parts_of(self))})"

@@ -1,0 +1,770 @@
+"""The bearing: its geometry, its kinematics and the frequencies at which it announces defects.
+
+Quantity                                    | Symbol | Name                     | Unit
+------------------------------------------- | ------ | ------------------------ | ---------
+number of balls                             | N_b    | n_balls                  |
+ball diameter                               | D_b    | ball_diameter            | m
+pitch diameter                              | D_p    | pitch_diameter           | m
+unloaded contact angle                      | α0     | contact_angle            | rad
+radius on which inner groove centres lie    | r_d    | groove_center_radius     | m
+unloaded distance of the groove centres     | A0     | groove_center_distance   | m
+radial clearance                            | r_L    | radial_clearance         | m
+load-deflection factor of a ball            | K      | load_deflection_factor   | N/m^1.5
+outer, inner raceway radius (groove bottom) | R_o, R_i | outer_, inner_raceway_radius | m
+inner, outer groove radius, if known        | r_i, r_o | inner_, outer_groove_radius | m
+Young's modulus and Poisson's ratio, if known | E, ν | youngs_modulus, poisson  | Pa,
+density and mass of a ball                  | ρ, m   | density, ball_mass       | kg/m³, kg
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import accumulate
+from typing import Any, Self, cast
+
+from bearingcore.bearings import drawing
+from bearingcore.bearings.hertz import RaceContact, in_series, race_contact, spherical_contact
+from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.bearings.rows import LENGTHS, MOST_ROWS, Row, arrangement_of, pair, spaced
+from bearingcore.common import checks, scene_file
+from bearingcore.common.lazy import cached_property
+
+STEEL_DENSITY = 7800.0
+"""Density [kg/m³] of balls of bearing steel."""
+
+_ONE_ROW = (Row(),)
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A ball or roller bearing as the contact model sees it (SI units, angles in rad).
+
+    Parameters
+    ----------
+    n_balls
+        number of balls N_b.
+    ball_diameter, pitch_diameter
+        D_b and D_p [m].
+    contact_angle
+        unloaded contact angle α0 [rad], at least 0 and at most 80°.
+    groove_center_radius
+        radius r_d [m] of the circle on which the inner groove's centres of curvature lie: the
+        lever with which a tilt of the ring moves a ball's contact along z (Eq. 12).
+    groove_center_distance
+        distance A0 [m] between the groove centres of an unloaded ball (Eqs. 9, 10).
+    radial_clearance
+        r_L [m], on top of the contact angle (Eq. 11).
+    load_deflection_factor
+        K [N/m^1.5] of both contacts of a ball in series (Eq. 13).
+    outer_raceway_radius, inner_raceway_radius
+        radii R_o and R_i [m] at the bottom of the grooves; defects are cut there (Eq. 6).
+    inner_groove_radius, outer_groove_radius, youngs_modulus, poisson
+        r_i, r_o [m], E [Pa] and ν where the drawing is known, all four of them: contact pressure
+        needs them. `from_drawing` derives K, A0, r_d, R_o and R_i from them, `replace` again.
+    rows
+        none for one row at the middle of the bearing; else each `Row`. `n_balls` and dimensions are
+        those of every row that has none of its own.
+    roller_length
+        [m] of cylindrical rollers, which stand in place of balls: line contact, K in N/m^(10/9),
+        radial directions only. None for balls.
+    density
+        of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
+        it.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+
+    Source: Petersen, Howard & Prime (2014), Sections 2.1 and 2.3.
+    """
+
+    n_balls: int
+    ball_diameter: float
+    pitch_diameter: float
+    contact_angle: float
+    groove_center_radius: float
+    groove_center_distance: float
+    radial_clearance: float
+    load_deflection_factor: float
+    outer_raceway_radius: float
+    inner_raceway_radius: float
+    inner_groove_radius: float | None = None
+    outer_groove_radius: float | None = None
+    youngs_modulus: float | None = None
+    poisson: float | None = None
+    rows: tuple[Row, ...] = ()
+    roller_length: float | None = None
+    density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
+
+    def __post_init__(self) -> None:
+        def keep(name: str, value: float) -> None:
+            object.__setattr__(self, name, value)
+
+        keep("n_balls", checks.whole_number("n_balls", self.n_balls, at_least=1, at_most=500))
+        for name in (
+            "ball_diameter",
+            "pitch_diameter",
+            "groove_center_radius",
+            "groove_center_distance",
+            "load_deflection_factor",
+            "outer_raceway_radius",
+            "inner_raceway_radius",
+        ):
+            keep(name, checks.number(name, getattr(self, name), above=0.0))
+        keep("density", checks.number("density", self.density, above=0.0, unit="kg/m³"))
+        keep("contact_angle", drawing.check_contact_angle(self.contact_angle))
+        keep(
+            "radial_clearance",
+            checks.number("radial_clearance", self.radial_clearance, at_least=0.0, unit="m"),
+        )
+        if self.ball_diameter >= self.pitch_diameter:
+            raise checks.refuse(
+                "ball_diameter",
+                self.ball_diameter,
+                f"below the pitch_diameter of {self.pitch_diameter:g} m",
+            )
+        if self.n_balls > 1:
+            gap = self.pitch_diameter * math.sin(math.pi / self.n_balls)
+            if gap < self.ball_diameter:
+                raise checks.refuse(
+                    "n_balls",
+                    self.n_balls,
+                    "so few that balls do not overlap: their centres would be "
+                    f"{gap:g} m apart, the ball_diameter is {self.ball_diameter:g} m",
+                )
+        if not self.inner_raceway_radius < self.outer_raceway_radius:
+            raise checks.refuse(
+                "inner_raceway_radius",
+                self.inner_raceway_radius,
+                f"below the outer_raceway_radius of {self.outer_raceway_radius:g} m",
+            )
+        if self.is_drawn:
+            for race in ("inner", "outer"):
+                name = f"{race}_groove_radius"
+                keep(name, drawing.check_groove(race, getattr(self, name), self.ball_diameter))
+            keep("youngs_modulus", drawing.check_youngs_modulus(self.youngs_modulus))
+            keep("poisson", drawing.check_poisson(self.poisson))
+
+        rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
+        object.__setattr__(self, "rows", tuple(rows))
+        if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
+            raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
+        if self.roller_length is not None:
+            keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
+            if self.contact_angle != 0.0 or self.rows or self.is_drawn:
+                raise checks.refuse(
+                    "roller_length",
+                    self.roller_length,
+                    "None, unless contact_angle is 0 with one row and no groove radii",
+                )
+        for k in range(len(self.rows)):
+            self.of_row(k)  # refuses dimensions that do not fit each other
+
+    @classmethod
+    def cylindrical(
+        cls,
+        n_rollers: int,
+        roller_diameter: float,
+        roller_length: float,
+        pitch_diameter: float,
+        radial_clearance: float = 0.0,
+    ) -> Self:
+        """A cylindrical roller bearing of steel, with Palmgren's law of its line contacts.
+
+        K = 8.06e4 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
+        Lengths in m. A roller does not tilt here and carries nothing along the shaft.
+
+        Raises
+        ------
+        ValueError
+            naming the field, its value and what is allowed.
+        """
+        length = checks.number("roller_length", roller_length, above=0.0, unit="m")
+        diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
+        pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+        return cls(
+            n_balls=n_rollers,
+            ball_diameter=diameter,
+            pitch_diameter=pitch,
+            contact_angle=0.0,
+            groove_center_radius=0.5 * pitch,
+            groove_center_distance=diameter,  # of no account where contacts never swivel
+            radial_clearance=radial_clearance,
+            load_deflection_factor=palmgren_factor(length),
+            outer_raceway_radius=0.5 * (pitch + diameter),
+            inner_raceway_radius=0.5 * (pitch - diameter),
+            roller_length=length,
+        )
+
+    @classmethod
+    def self_aligning(
+        cls,
+        n_balls: int,
+        ball_diameter: float,
+        sphere_radius: float,
+        inner_groove_radius: float,
+        contact_angle: float,
+        radial_clearance: float = 0.0,
+        youngs_modulus: float = 210e9,
+        poisson: float = 0.3,
+    ) -> Self:
+        """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
+
+        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
+        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
+        turning the inner ring about the middle moves no ball.
+
+        Parameters
+        ----------
+        n_balls
+            of each row.
+        ball_diameter, sphere_radius, inner_groove_radius
+            D_b, R_e and r_i [m].
+        contact_angle
+            α0 [rad] of both rows, above 0.
+        radial_clearance
+            r_L [m].
+        youngs_modulus, poisson
+            E [Pa] and ν; steel by default.
+
+        Raises
+        ------
+        ValueError
+            for a drawing that cannot be built.
+        """
+        angle = drawing.check_contact_angle(contact_angle)
+        checks.number("contact_angle", angle, above=0.0, unit="rad")
+        diameter = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
+        sphere = checks.number("sphere_radius", sphere_radius, above=diameter, unit="m")
+        drawing.check_groove("inner", inner_groove_radius, diameter)
+        centers = sphere - 0.5 * diameter
+        pitch = 2.0 * centers * math.cos(angle)
+        distance = sphere + inner_groove_radius - diameter
+        inner = race_contact(
+            "inner", diameter, pitch, inner_groove_radius, angle, youngs_modulus, poisson
+        )
+        outer = spherical_contact(diameter, sphere, youngs_modulus, poisson)
+        place = distance * math.sin(angle)
+        return cls(
+            n_balls=n_balls,
+            ball_diameter=diameter,
+            pitch_diameter=pitch,
+            contact_angle=angle,
+            groove_center_radius=distance * math.cos(angle),
+            groove_center_distance=distance,
+            radial_clearance=radial_clearance,
+            load_deflection_factor=in_series(
+                inner.load_deflection_factor, outer.load_deflection_factor
+            ),
+            outer_raceway_radius=sphere,
+            inner_raceway_radius=0.5 * pitch - 0.5 * diameter * math.cos(angle),
+            rows=(Row(-place, -1), Row(place, 1)),
+        )
+
+    def paired(self, distance: float, arrangement: str, preload: float = 0.0) -> Self:
+        """Two rows like this one, `distance` [m] apart on the shaft.
+
+        `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
+        inner grooves are pushed along the shaft against each other.
+
+        Raises
+        ------
+        ValueError
+            for a bearing that has rows already, or without a contact angle for a preload.
+        """
+        if self.rows:
+            raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
+        if preload > 0.0 and self.contact_angle == 0.0:
+            raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+        return dataclasses.replace(self, rows=pair(distance, arrangement, preload))
+
+    def respaced(self, distance: float | None = None, preload: float | None = None) -> Self:
+        """The pair with another distance of its rows, or another preload [m]; see `paired`.
+
+        ValueError for a bearing that is no pair.
+        """
+        if not self.arrangement:
+            raise checks.refuse("rows", len(self.all_rows), "two rows that stand as a pair")
+        if preload is not None and preload > 0.0 and self.contact_angle == 0.0:
+            raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+        return dataclasses.replace(self, rows=spaced(self.rows, distance, preload))
+
+    @property
+    def row_distance(self) -> float | None:
+        """Distance [m] of two rows along the shaft; None of another number of rows."""
+        return self.rows[1].place - self.rows[0].place if len(self.rows) == 2 else None
+
+    @property
+    def preload(self) -> float | None:
+        """How far [m] the inner grooves of a pair are pushed against each other; else None."""
+        if not self.arrangement:
+            return None
+        low, high = self.rows
+        return abs(high.offset - low.offset)
+
+    @property
+    def all_rows(self) -> tuple[Row, ...]:
+        """The rows, also where there is but one."""
+        return self.rows or _ONE_ROW
+
+    def of_row(self, row: int) -> Bearing:
+        """The bearing with the numbers of a row and what follows from them, without rows.
+
+        The bearing itself where all rows are alike.
+
+        Raises
+        ------
+        ValueError
+            for dimensions of the row that do not fit each other, or that nothing follows from as
+            the bearing does not carry its drawing.
+        """
+        if self.rows_are_alike:
+            return self
+        try:
+            return _with_own(self, tuple(self._unlike(self.rows[row]).items()))
+        except ValueError as refused:
+            raise ValueError(f"row {row + 1}: {refused}") from None
+
+    @property
+    def rows_are_alike(self) -> bool:
+        """True where no row has balls or dimensions of its own; places and turns may differ."""
+        return not any(row.own and self._unlike(row) for row in self.rows)
+
+    def _unlike(self, row: Row) -> dict[str, float]:
+        """What a row has of its own that is not the bearing's."""
+        return {name: held for name, held in row.own.items() if held != getattr(self, name)}
+
+    @property
+    def unlike_rows(self) -> tuple[tuple[Bearing, slice], ...]:
+        """The bearing of each row, see `of_row`, and where its balls stand among all of them.
+
+        Rows that are alike are listed once: the bearing with all balls.
+        """
+        if self.rows_are_alike:
+            return ((self, slice(0, self.total_balls)),)
+        return tuple((self.of_row(k), own) for k, own in enumerate(self.balls_of_rows))
+
+    @property
+    def balls_of_rows(self) -> tuple[slice, ...]:
+        """Where the balls of each row stand among all of them: row after row."""
+        ends = list(accumulate(row.n_balls or self.n_balls for row in self.all_rows))
+        return tuple(slice(a, b) for a, b in zip([0, *ends[:-1]], ends, strict=True))
+
+    def row_of_ball(self, ball: int) -> tuple[int, int]:
+        """Row of a ball out of all of them, and its number in the row, both counted from 0."""
+        for row, own in enumerate(self.balls_of_rows):
+            if own.start <= ball < own.stop:
+                return row, ball - own.start
+        raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
+
+    def pace(self, row: int) -> float:
+        """How fast the cage of a row turns, over that of the bearing's own numbers."""
+        own = self.of_row(row)
+        return 1.0 if own._ratio == self._ratio else own.cage_ratio / self.cage_ratio
+
+    @property
+    def has_one_cage_speed(self) -> bool:
+        """True where the cages of all rows turn at one speed."""
+        return len({self.pace(k) for k in range(len(self.all_rows))}) == 1
+
+    @property
+    def period(self) -> float:
+        """Cage angle [rad] after which balls stand where balls stood.
+
+        A ball spacing where all rows have as many balls; else what the spacings of the rows have in
+        common. Cages that turn at speeds of their own come back at no angle: then a whole turn.
+        """
+        if not self.has_one_cage_speed:
+            return 2.0 * math.pi
+        counts = (row.n_balls or self.n_balls for row in self.all_rows)
+        return 2.0 * math.pi / math.gcd(*counts) / self.pace(0)
+
+    @property
+    def is_roller(self) -> bool:
+        """True for cylindrical rollers instead of balls."""
+        return self.roller_length is not None
+
+    @property
+    def contact_exponent(self) -> float:
+        """Exponent of load over compression: 3/2 for balls, 10/9 for rollers (Palmgren)."""
+        return 10.0 / 9.0 if self.is_roller else 1.5
+
+    @property
+    def is_flat(self) -> bool:
+        """True where a radial load moves nothing out of the plane of the balls."""
+        return self.contact_angle == 0.0 and all(
+            row.place == 0.0 and not self._unlike(row) for row in self.all_rows
+        )
+
+    @classmethod
+    def from_drawing(
+        cls,
+        n_balls: int,
+        ball_diameter: float,
+        pitch_diameter: float,
+        inner_groove_radius: float,
+        outer_groove_radius: float,
+        contact_angle: float | None = None,
+        diametral_clearance: float | None = None,
+        youngs_modulus: float = 210e9,
+        poisson: float = 0.3,
+        groove_center_radius: float | None = None,
+    ) -> Self:
+        """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
+
+        Parameters
+        ----------
+        n_balls
+            N_b.
+        ball_diameter, pitch_diameter
+            D_b, D_p [m].
+        inner_groove_radius, outer_groove_radius
+            r_i, r_o [m], above D_b/2 and at most 0.6 D_b.
+        contact_angle, diametral_clearance
+            α0 [rad] and s [m], at least one of them, as they describe the same freedom.
+            Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
+            the angle that it stands for, `seated()` the same bearing given by that angle.
+            Angle alone: r_L = 0; `diametral_play` is the clearance that it stands for.
+            Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
+        youngs_modulus, poisson
+            E [Pa] and ν of balls and rings; steel by default.
+        groove_center_radius
+            r_d [m]; None: D_p/2 + (r_i − D_b/2) cos α0.
+
+        Raises
+        ------
+        ValueError
+            for a drawing that cannot be built, with the numbers.
+
+        Examples
+        --------
+        >>> import math
+        >>> bearing = Bearing.from_drawing(
+        ...     9, 7.94e-3, 39.04e-3, 4.13e-3, 4.21e-3, diametral_clearance=10e-6
+        ... )
+        >>> round(math.degrees(bearing.free_contact_angle), 2)
+        9.07
+        """
+        fields = drawing.fields(
+            ball_diameter=ball_diameter,
+            pitch_diameter=pitch_diameter,
+            inner_groove_radius=inner_groove_radius,
+            outer_groove_radius=outer_groove_radius,
+            contact_angle=contact_angle,
+            diametral_clearance=diametral_clearance,
+            youngs_modulus=youngs_modulus,
+            poisson=poisson,
+        )
+        if groove_center_radius is not None:
+            fields["groove_center_radius"] = groove_center_radius
+        return cls(n_balls=n_balls, **fields)
+
+    def replace(self, **changes: Any) -> Self:
+        """A bearing with fields changed. What follows from a drawing, or of rollers, follows.
+
+        A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
+        its proportion to it; one named in `changes` is taken as it is.
+        """
+        if self.is_self_aligning and not self.is_drawn and "rows" not in changes:
+            return cast(Self, self._aligned(dict(changes)))
+        changed = dataclasses.replace(self, **changes)
+        if changed.is_roller != self.is_roller:
+            raise checks.refuse(
+                "roller_length", changed.roller_length, "what it was: see Bearing.cylindrical"
+            )
+        drawn = self.is_drawn and changed.is_drawn
+        if not (drawn or (self.is_roller and changed.is_roller)):
+            return changed
+        before, after = self._derived(), changed._derived()
+        for name in drawing.Derived._fields:
+            old, was, now = getattr(self, name), getattr(before, name), getattr(after, name)
+            if name not in changes and now != was:
+                changes[name] = now if old == was else old * (now / was)
+        return dataclasses.replace(self, **changes)
+
+    def _aligned(self, changes: dict[str, Any]) -> Bearing:
+        """A self-aligning bearing with what it is drawn by changed: all else follows."""
+        for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
+                     "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
+            given, own = changes.pop(name, None), getattr(self, name)
+            if given is not None and (own is None or not math.isclose(given, own, rel_tol=1e-9)):
+                raise checks.refuse(
+                    name, given, "what follows from ball, sphere, groove and contact angle"
+                )
+        drawn_by = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
+        if not any(changes.get(name) is not None for name in drawn_by):
+            return dataclasses.replace(self, **changes)
+
+        def built(given: dict[str, Any]) -> Bearing:
+            get = given.get
+            return Bearing.self_aligning(
+                n_balls=get("n_balls", self.n_balls),
+                ball_diameter=get("ball_diameter", self.ball_diameter),
+                sphere_radius=get("outer_raceway_radius", self.outer_raceway_radius),
+                inner_groove_radius=get("inner_groove_radius") or self.sphere_groove,
+                contact_angle=get("contact_angle", self.contact_angle),
+                radial_clearance=get("radial_clearance", self.radial_clearance),
+            )
+
+        new = built(changes)
+        stiffer = self.load_deflection_factor / built({}).load_deflection_factor
+        rows = tuple(
+            dataclasses.replace(row, place=fresh.place)
+            for row, fresh in zip(self.rows, new.rows, strict=True)
+        )
+        factor = changes.get("load_deflection_factor", new.load_deflection_factor * stiffer)
+        density = changes.get("density", self.density)
+        return dataclasses.replace(new, rows=rows, load_deflection_factor=factor, density=density)
+
+    def _derived(self) -> drawing.Derived:
+        if self.roller_length is not None:
+            return drawing.Derived(
+                groove_center_radius=0.5 * self.pitch_diameter,
+                groove_center_distance=self.ball_diameter,
+                load_deflection_factor=palmgren_factor(self.roller_length),
+                outer_raceway_radius=0.5 * (self.pitch_diameter + self.ball_diameter),
+                inner_raceway_radius=0.5 * (self.pitch_diameter - self.ball_diameter),
+            )
+        return drawing.derive(**{name: getattr(self, name) for name in drawing.DIMENSIONS})
+
+    @property
+    def is_drawn(self) -> bool:
+        """True where the bearing carries its groove radii and material."""
+        return any(getattr(self, name) is not None for name in drawing.OPTIONAL_FIELDS)
+
+    @property
+    def is_self_aligning(self) -> bool:
+        """True for two rows whose balls run on one sphere about the middle of the bearing."""
+        if len(self.rows) != 2 or self.contact_angle == 0.0:
+            return False
+        radius = self.groove_center_distance * math.cos(self.contact_angle)
+        place = self.groove_center_distance * math.sin(self.contact_angle)
+        return math.isclose(self.groove_center_radius, radius, rel_tol=1e-9) and all(
+            not self._unlike(row) and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
+            for row in self.rows
+        )
+
+    @property
+    def arrangement(self) -> str:
+        """How two rows stand, out of ARRANGEMENTS; empty of one row and of any other rows."""
+        return "" if self.is_self_aligning else arrangement_of(self.rows)
+
+    @property
+    def total_balls(self) -> int:
+        """Balls or rollers of all rows."""
+        return self.balls_of_rows[-1].stop
+
+    @property
+    def knows_contacts(self) -> bool:
+        """True where `race_contact` has an answer."""
+        return self.is_drawn or self.is_roller or self.is_self_aligning
+
+    def race_contact(self, race: str) -> RaceContact | RollerContact:
+        """Hertzian contact of a ball or roller with a race, "outer" or "inner".
+
+        Rollers are of steel. Of a self-aligning bearing groove radius and modulus follow from its
+        numbers, with a Poisson's ratio of 0.3. ValueError where a bearing does not carry its
+        drawing.
+        """
+        checks.choice("race", race, ("outer", "inner"))
+        if self.roller_length is not None:
+            return roller_contact(race, self.ball_diameter, self.pitch_diameter, self.roller_length)
+        if self.is_self_aligning and not self.is_drawn:
+            return self._aligning_contact(race)
+        name = f"{race}_groove_radius"
+        radius = getattr(self, name)
+        if radius is None or self.youngs_modulus is None or self.poisson is None:
+            raise checks.refuse(name, radius, "a number, where contact pressure is asked for")
+        return race_contact(
+            race,
+            self.ball_diameter,
+            self.pitch_diameter,
+            radius,
+            self.contact_angle,
+            self.youngs_modulus,
+            self.poisson,
+        )
+
+    @property
+    def sphere_groove(self) -> float:
+        """Inner groove radius r_i = A0 + D_b − R_e [m] of a self-aligning bearing."""
+        return self.groove_center_distance + self.ball_diameter - self.outer_raceway_radius
+
+    def _aligning_contact(self, race: str) -> RaceContact:
+        """Contact of a ball of a self-aligning bearing; the modulus is the one that gives K."""
+        poisson = 0.3
+
+        def both(modulus: float) -> dict[str, RaceContact]:
+            return {
+                "inner": race_contact(
+                    "inner",
+                    self.ball_diameter,
+                    self.pitch_diameter,
+                    self.sphere_groove,
+                    self.contact_angle,
+                    modulus,
+                    poisson,
+                ),
+                "outer": spherical_contact(
+                    self.ball_diameter, self.outer_raceway_radius, modulus, poisson
+                ),
+            }
+
+        unit = in_series(*(contact.load_deflection_factor for contact in both(1.0).values()))
+        return both(self.load_deflection_factor / unit)[race]
+
+    @property
+    def diametral_play(self) -> float:
+        """How far the inner ring moves sideways from contact to contact [m], grooves opposite.
+
+        2 (A0 (1 − cos α0) + r_L): the clearance that a contact angle and a clearance on top of it
+        stand for together.
+        """
+        # 1 − cos α0 without cancellation
+        return (
+            4.0 * self.groove_center_distance * math.sin(0.5 * self.contact_angle) ** 2
+            + 2.0 * self.radial_clearance
+        )
+
+    @property
+    def free_contact_angle(self) -> float:
+        """Contact angle α_f [rad] of the bearing pushed along the shaft until the balls touch.
+
+        cos α_f = cos α0 − r_L/A0. ValueError where the clearance lets the ring slip through.
+        """
+        cosine = math.cos(self.contact_angle) - self.radial_clearance / self.groove_center_distance
+        if cosine < 0.0:
+            most = self.groove_center_distance * math.cos(self.contact_angle)
+            raise checks.refuse(
+                "radial_clearance",
+                self.radial_clearance,
+                f"at most {most:g} m, or the ring slips through along the shaft",
+            )
+        # half-angle form: sharp where α_f is small
+        return 2.0 * math.asin(math.sqrt(0.25 * self.diametral_play / self.groove_center_distance))
+
+    def seated(self) -> Self:
+        """The same bearing given by its free contact angle, without clearance on top.
+
+        Its axial origin lies where the balls touch, A0 (sin α_f − sin α0) further along z: at the
+        same loads δz is smaller by that and all else is equal. Two things are not the same, as
+        both depend on α0 and not on the angle under load: a defect lowers the ball along the
+        unloaded line of contact, here at α_f; and the cage turns a little faster.
+        """
+        return dataclasses.replace(
+            self, contact_angle=self.free_contact_angle, radial_clearance=0.0
+        )
+
+    @property
+    def ball_radius(self) -> float:
+        """Ball radius r_b [m]."""
+        return 0.5 * self.ball_diameter
+
+    @property
+    def ball_mass(self) -> float:
+        """Mass of a ball or roller [kg], of its density throughout."""
+        if self.roller_length is not None:
+            return self.density * math.pi / 4.0 * self.ball_diameter**2 * self.roller_length
+        return self.density * math.pi / 6.0 * self.ball_diameter**3
+
+    def centrifugal_load(self, shaft_speed: float) -> float:
+        """Centrifugal load F_c = m ω_c² D_p/2 [N] of a ball on the pitch circle; speed in rad/s."""
+        return self.ball_mass * self.cage_speed(shaft_speed) ** 2 * 0.5 * self.pitch_diameter
+
+    @property
+    def race_factors(self) -> tuple[float, float]:
+        """Load-deflection factors [N/m^n] of a ball's contacts with the inner and outer race.
+
+        Their ratio is that of Hertz's contacts where the drawing is known and 1 elsewhere, and in
+        series they are `load_deflection_factor`: of both contacts alike each is 2^n of it, n being
+        `contact_exponent`.
+        """
+        inner, outer = (
+            (self.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
+            if self.is_drawn or self.is_self_aligning
+            else (1.0, 1.0)
+        )
+        n = self.contact_exponent
+        scale = self.load_deflection_factor * (inner ** (-1.0 / n) + outer ** (-1.0 / n)) ** n
+        return scale * inner, scale * outer
+
+    @property
+    def race_distances(self) -> tuple[float, float]:
+        """Unloaded distances [m] of a ball's centre from the inner and outer groove's centre.
+
+        r_i − D_b/2 and r_o − D_b/2, in proportion to make A0; halves of it without a drawing.
+        """
+        inner, outer = 1.0, 1.0
+        if self.inner_groove_radius is not None and self.outer_groove_radius is not None:
+            inner = self.inner_groove_radius - self.ball_radius
+            outer = self.outer_groove_radius - self.ball_radius
+        elif self.is_self_aligning:
+            inner = self.sphere_groove - self.ball_radius
+            outer = self.outer_raceway_radius - self.ball_radius
+        scale = self.groove_center_distance / (inner + outer)
+        return scale * inner, scale * outer
+
+    @property
+    def ball_spacing(self) -> float:
+        """Angle between neighbouring balls, 2π/N_b [rad] (Eq. 4).
+
+        Of the rows that have no number of balls of their own: see `period`.
+        """
+        return 2.0 * math.pi / self.n_balls
+
+    @cached_property
+    def _ratio(self) -> float:
+        """D_b cos α0 / D_p, the number that all kinematics depend on."""
+        return self.ball_diameter * math.cos(self.contact_angle) / self.pitch_diameter
+
+    @property
+    def cage_ratio(self) -> float:
+        """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3).
+
+        Of the bearing's own numbers, as all speeds and frequencies: those of a row that has numbers
+        of its own are `of_row(k)`'s.
+        """
+        return 0.5 * (1.0 - self._ratio)
+
+    def cage_speed(self, shaft_speed: float) -> float:
+        """Cage speed ω_c [rad/s] at a shaft speed ω_s [rad/s] (Eq. 3)."""
+        return self.cage_ratio * shaft_speed
+
+    def ftf(self, shaft_speed: float) -> float:
+        """Fundamental train (cage) frequency f_c [Hz] at a shaft speed [rad/s]."""
+        return self.cage_speed(shaft_speed) / (2.0 * math.pi)
+
+    def bpfo(self, shaft_speed: float) -> float:
+        """Ball-pass frequency of the outer race, N_b f_c [Hz], shaft speed in rad/s (Eq. 5)."""
+        return self.n_balls * self.ftf(shaft_speed)
+
+    def bpfi(self, shaft_speed: float) -> float:
+        """Ball-pass frequency of the inner race, N_b (f_s − f_c) [Hz], shaft speed in rad/s."""
+        return self.n_balls * (shaft_speed / (2.0 * math.pi) - self.ftf(shaft_speed))
+
+    def bsf(self, shaft_speed: float) -> float:
+        """Ball spin frequency, f_s D_p/(2 D_b) (1 − (D_b cos α0/D_p)²) [Hz], speed in rad/s."""
+        shaft_frequency = shaft_speed / (2.0 * math.pi)
+        lever = self.pitch_diameter / (2.0 * self.ball_diameter)
+        return lever * shaft_frequency * (1.0 - self._ratio**2)
+
+
+@lru_cache(maxsize=256)
+def _with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
+    """The bearing without rows and with what one of them has of its own."""
+    values: dict[str, Any] = dict(own)
+    if not bearing.is_drawn:
+        for name in LENGTHS:
+            if name in values:
+                raise checks.refuse(
+                    f"{name} of a row", values[name], "None, unless the bearing has groove radii"
+                )
+    elif "ball_diameter" in values:
+        larger = values["ball_diameter"] / bearing.ball_diameter
+        for name in drawing.GROOVES:
+            values.setdefault(name, larger * getattr(bearing, name))
+    return dataclasses.replace(bearing, rows=()).replace(**values)

@@ -1,0 +1,374 @@
+"""Tables of bearings by name: inside dimensions as a CSV, which a workshop can keep for itself.
+
+A table has a line of headings and a line for each bearing. Columns, in any order:
+
+- `name`, `balls`, `ball_diameter_mm`, `pitch_diameter_mm`: needed;
+- `inner_groove_radius_mm` or `inner_groove_ratio` (radius over ball diameter), the same for the
+  outer race: 0.52 and 0.53 ball diameters where empty;
+- `contact_angle_deg`: 0 where empty;
+- `diametral_clearance_um`: on top of the contact angle. Where empty 0 with a contact angle, else
+  10 µm, about the middle of the normal class of ISO 5753 for bores up to 40 mm;
+- `dynamic_load_rating_kn`, `note`: may stay empty.
+
+Columns are parted by semicolons, commas or tabs; decimals may have a comma where columns do not.
+Empty lines and lines that begin with # are passed over. What was assumed for an empty cell is said
+with each bearing. A table with faults is refused as a whole, each fault named by line and column.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib import resources
+from types import MappingProxyType
+
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks
+
+NEEDED = ("name", "balls", "ball_diameter_mm", "pitch_diameter_mm")
+
+COLUMNS = (
+    *NEEDED,
+    "inner_groove_radius_mm",
+    "inner_groove_ratio",
+    "outer_groove_radius_mm",
+    "outer_groove_ratio",
+    "contact_angle_deg",
+    "diametral_clearance_um",
+    "dynamic_load_rating_kn",
+    "note",
+)
+
+USUAL_RATIO = {"inner": 0.52, "outer": 0.53}
+"""Groove radius over ball diameter where it is not given: the widest that ISO 281 rates in full."""
+
+USUAL_CLEARANCE_UM = 10.0
+
+MOST_BYTES = 2**20
+MOST_BEARINGS = 2000
+LONGEST_NAME, LONGEST_NOTE = 80, 2000
+
+LONGEST_REFUSAL = 500
+"""Characters up to which faults are listed at once; the others are counted."""
+
+_SEPARATORS = (";", "\t", ",")
+
+
+@dataclass(frozen=True)
+class CatalogueBearing:
+    """A bearing of a table.
+
+    Attributes
+    ----------
+    name
+        under which it stands there.
+    bearing
+        with groove radii, steel on steel.
+    dynamic_load_rating
+        C_r [N] as given, or None.
+    note
+        where the numbers come from, as given.
+    assumed
+        what stands in for empty cells, in words.
+    """
+
+    name: str
+    bearing: Bearing
+    dynamic_load_rating: float | None = None
+    note: str = ""
+    assumed: tuple[str, ...] = ()
+
+
+@lru_cache(maxsize=1)
+def catalogue() -> Mapping[str, CatalogueBearing]:
+    """Bearings by name whose inside dimensions are published, each with its source in its note."""
+    text = resources.files("bearingcore.bearings").joinpath("bearings.csv").read_bytes()
+    return MappingProxyType(read_catalogue(text))
+
+
+def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
+    """The bearings of a CSV text, by name, in its order. See the head of the module.
+
+    Raises
+    ------
+    ValueError
+        that names each fault by line and column, with what stands there and what is allowed.
+    """
+    lines = _lines(_text(table))
+    if not lines:
+        raise checks.refuse("table of bearings", "empty", "a line of headings and one a bearing")
+    separator = _separator(lines[0][1])
+    rows = [(number, _cells(number, line, separator)) for number, line in lines]
+    headings = _headings(*rows[0])
+    if len(rows) - 1 > MOST_BEARINGS:
+        raise checks.refuse(
+            "table of bearings", f"{len(rows) - 1} bearings long", f"at most {MOST_BEARINGS}"
+        )
+    found: dict[str, CatalogueBearing] = {}
+    first_line: dict[str, int] = {}
+    faults: list[str] = []
+    for number, cells in rows[1:]:
+        here: list[str] = []
+        entry = _bearing(number, headings, cells, separator, here)
+        if entry is not None and entry.name in found:
+            here.append(
+                f"line {number}, column name: {entry.name!r} stands in line "
+                f"{first_line[entry.name]} already; allowed: a name of its own for each bearing"
+            )
+        elif entry is not None:
+            found[entry.name] = entry
+            first_line[entry.name] = number
+        faults += here
+    if faults:
+        raise ValueError("table of bearings: " + _together(faults))
+    if not found:
+        raise checks.refuse("table of bearings", "headings alone", "a line for each bearing")
+    return found
+
+
+def _together(faults: list[str]) -> str:
+    """The first faults as a sentence, at least one, and how many more there are."""
+    words = faults[0]
+    for count, fault in enumerate(faults[1:], start=1):
+        if len(words) + len(fault) > LONGEST_REFUSAL:
+            return f"{words}; and {len(faults) - count} more"
+        words += f"; {fault}"
+    return words
+
+
+def catalogue_text(bearings: Iterable[CatalogueBearing]) -> str:
+    """A table that `read_catalogue` reads back, for a workshop to keep.
+
+    ValueError for a bearing that such a table cannot hold: without groove radii, or with other
+    numbers than follow from its drawing in steel.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, delimiter=";", lineterminator="\n")
+    columns = tuple(column for column in COLUMNS if not column.endswith("_ratio"))
+    writer.writerow(columns)
+    for entry in bearings:
+        b = entry.bearing
+        r_i, r_o = b.inner_groove_radius, b.outer_groove_radius
+        if r_i is None or r_o is None:
+            raise checks.refuse("bearing", entry.name, "one with groove radii")
+        drawn = Bearing.from_drawing(
+            b.n_balls,
+            b.ball_diameter,
+            b.pitch_diameter,
+            r_i,
+            r_o,
+            contact_angle=b.contact_angle,
+            diametral_clearance=2.0 * b.radial_clearance,
+        )
+        if drawn != b:
+            raise checks.refuse(
+                "bearing", entry.name, "one with what follows from its drawing in steel"
+            )
+        name = " ".join(entry.name.split())
+        if name.startswith("#"):
+            raise checks.refuse("name", entry.name, "one that does not begin with #")
+        cells = {
+            "name": name,
+            "balls": b.n_balls,
+            "ball_diameter_mm": _digits(b.ball_diameter * 1e3),
+            "pitch_diameter_mm": _digits(b.pitch_diameter * 1e3),
+            "inner_groove_radius_mm": _digits(r_i * 1e3),
+            "outer_groove_radius_mm": _digits(r_o * 1e3),
+            "contact_angle_deg": _digits(math.degrees(b.contact_angle)),
+            "diametral_clearance_um": _digits(2.0 * b.radial_clearance * 1e6),
+            "dynamic_load_rating_kn": ""
+            if entry.dynamic_load_rating is None
+            else _digits(entry.dynamic_load_rating * 1e-3),
+            "note": " ".join(entry.note.split()),
+        }
+        writer.writerow([cells[column] for column in columns])
+    return out.getvalue()
+
+
+def _digits(value: float) -> str:
+    return f"{value:.15g}"
+
+
+def _text(table: str | bytes) -> str:
+    size = len(table)
+    if size > MOST_BYTES:
+        raise checks.refuse("table of bearings", f"{size} bytes long", f"at most {MOST_BYTES}")
+    if isinstance(table, str):
+        return table.removeprefix("\ufeff")
+    try:
+        return table.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return table.decode("cp1252", errors="replace")  # what spreadsheets in Europe write
+
+
+def _lines(text: str) -> list[tuple[int, str]]:
+    """Lines that say something, with their numbers from 1."""
+    return [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip(" \t;,") and not line.lstrip().startswith("#")
+    ]
+
+
+def _separator(heading: str) -> str:
+    """What parts the columns: whichever there is most of in the headings."""
+    return max(_SEPARATORS, key=heading.count)
+
+
+def _cells(number: int, line: str, separator: str) -> list[str]:
+    try:
+        row = next(csv.reader([line], delimiter=separator, strict=True, skipinitialspace=True))
+    except csv.Error as error:
+        raise ValueError(f"table of bearings: line {number} cannot be read ({error})") from None
+    return [cell.strip() for cell in row]
+
+
+def _headings(number: int, cells: list[str]) -> list[str]:
+    names = ["_".join(cell.lower().replace("µ", "u").split()).replace("-", "_") for cell in cells]
+    while names and not names[-1]:
+        names.pop()
+    allowed = ", ".join(COLUMNS)
+    for position, name in enumerate(names, start=1):
+        if name not in COLUMNS:
+            raise checks.refuse(
+                f"heading of column {position} (line {number})", cells[position - 1], allowed
+            )
+        if names.count(name) > 1:
+            raise checks.refuse(f"heading {name} (line {number})", "there twice", "once")
+    missing = [name for name in NEEDED if name not in names]
+    if missing:
+        raise checks.refuse(
+            f"table of bearings, headings in line {number}",
+            f"without {', '.join(missing)}",
+            f"{', '.join(NEEDED)}, and of the others any: {', '.join(COLUMNS[len(NEEDED) :])}",
+        )
+    return names
+
+
+def _bearing(
+    number: int, headings: list[str], cells: list[str], separator: str, faults: list[str]
+) -> CatalogueBearing | None:
+    """The bearing of a line; None, and what is wrong added to `faults`, where it is none."""
+    while len(cells) > len(headings) and not cells[-1]:
+        cells.pop()
+    if len(cells) > len(headings):
+        hint = "; numbers with a decimal comma need semicolons between columns"
+        faults.append(
+            f"line {number} has {len(cells)} cells; allowed: {len(headings)}, as headings"
+            + (hint if separator == "," else "")
+        )
+        return None
+    texts = dict(zip(headings, cells + [""] * (len(headings) - len(cells)), strict=True))
+    line = _Line(number, texts, faults, decimal_comma=separator != ",")
+    before = len(faults)
+    name = texts["name"]
+    if not name or len(name) > LONGEST_NAME:
+        line.fault("name", f"a name of 1 to {LONGEST_NAME} characters")
+    note = texts.get("note", "")
+    if len(note) > LONGEST_NOTE:
+        line.fault("note", f"at most {LONGEST_NOTE} characters")
+    balls = line.number("balls", needed=True)
+    ball = line.number("ball_diameter_mm", needed=True)
+    pitch = line.number("pitch_diameter_mm", needed=True)
+    grooves = {
+        race: _groove(line, race, math.nan if ball is None else ball) for race in USUAL_RATIO
+    }
+    angle = line.number("contact_angle_deg")
+    clearance = line.number("diametral_clearance_um")
+    rating = line.number("dynamic_load_rating_kn")
+    if rating is not None and not rating > 0.0:
+        line.fault("dynamic_load_rating_kn", "a number above 0 [kN], or nothing")
+    if len(faults) > before or balls is None or ball is None or pitch is None:
+        return None
+    if angle is None:
+        angle = 0.0
+        line.assumed.append("a contact angle of 0°")
+    if clearance is None:
+        clearance = 0.0 if angle else USUAL_CLEARANCE_UM
+        line.assumed.append(f"a diametral clearance of {clearance:g} µm")
+    try:
+        bearing = Bearing.from_drawing(
+            balls,  # type: ignore[arg-type]  # it refuses what is no whole number
+            ball / 1e3,
+            pitch / 1e3,
+            grooves["inner"] / 1e3,
+            grooves["outer"] / 1e3,
+            contact_angle=math.radians(angle),
+            diametral_clearance=clearance / 1e6,
+        )
+    except ValueError as error:
+        faults.append(f"line {number}, column {_column_of(str(error))}: {error}")
+        return None
+    return CatalogueBearing(
+        name=name,
+        bearing=bearing,
+        dynamic_load_rating=None if rating is None else rating * 1e3,
+        note=note,
+        assumed=tuple(line.assumed),
+    )
+
+
+_COLUMN_OF_FIELD = {
+    "n_balls": "balls",
+    "ball_diameter": "ball_diameter_mm",
+    "pitch_diameter": "pitch_diameter_mm",
+    "inner_groove_radius": "inner_groove_radius_mm or inner_groove_ratio",
+    "outer_groove_radius": "outer_groove_radius_mm or outer_groove_ratio",
+    "contact_angle": "contact_angle_deg",
+    "diametral_clearance": "diametral_clearance_um",
+}
+
+
+def _column_of(refusal: str) -> str:
+    """The column that a refused field of a bearing came from."""
+    field = refusal.split(" ", 1)[0]
+    return _COLUMN_OF_FIELD.get(field, field)
+
+
+def _groove(line: _Line, race: str, ball: float) -> float:
+    """Groove radius [mm] of a race, from its radius or its ratio."""
+    radius = line.number(f"{race}_groove_radius_mm")
+    ratio = line.number(f"{race}_groove_ratio")
+    if radius is not None and ratio is not None:
+        line.fault(f"{race}_groove_ratio", f"nothing where {race}_groove_radius_mm is given")
+    if radius is not None:
+        return radius
+    if ratio is None:
+        ratio = USUAL_RATIO[race]
+        line.assumed.append(f"an {race} groove of {ratio:g} ball diameters")
+    return ratio * ball
+
+
+class _Line:
+    """The cells of a line, and what is found wrong or left open in them."""
+
+    def __init__(
+        self, number: int, texts: Mapping[str, str], faults: list[str], decimal_comma: bool
+    ) -> None:
+        self.line, self.texts, self.faults = number, texts, faults
+        self.decimal_comma = decimal_comma
+        self.assumed: list[str] = []
+
+    def fault(self, column: str, allowed: str) -> None:
+        """Note that a column does not hold what is allowed."""
+        found = checks.refuse(column, self.texts.get(column, ""), allowed)
+        self.faults.append(f"line {self.line}, column {found}")
+
+    def number(self, column: str, *, needed: bool = False) -> float | None:
+        """The number in a column, or None where it is empty or is none."""
+        text = self.texts.get(column, "")
+        if not text and not needed:
+            return None
+        plain = text.replace(",", ".") if self.decimal_comma else text
+        try:
+            value = float(plain) if "_" not in plain else math.nan
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            self.fault(column, "a number" if needed else "a number, or nothing")
+            return None
+        return value

@@ -1,0 +1,177 @@
+"""From the dimensions on a drawing to the numbers of the contact model.
+
+Quantity                                    | Symbol | Name                     | Unit
+------------------------------------------- | ------ | ------------------------ | ----
+groove radii                                | r_i, r_o | inner_, outer_groove_radius | m
+groove radius over ball diameter            | f      | conformity               |
+unloaded distance of the groove centres     | A0     | groove_center_distance   | m
+radius on which inner groove centres lie    | r_d    | groove_center_radius     | m
+unloaded, free contact angle                | α0, α_f | contact_angle, free_contact_angle | rad
+radial clearance on top of α0               | r_L    | radial_clearance         | m
+
+The contact angle and the clearance describe one freedom. With the rings concentric and their
+grooves opposite each other, the groove centres are A0 cos α0 − r_L apart. Pushed along the shaft
+until the balls touch, the inner ring moves them to the distance A0, at the free contact angle
+
+    cos α_f = cos α0 − r_L / A0,
+
+which for α0 = 0 and the diametral clearance s = 2 r_L is Harris's cos α_f = 1 − s/(2 A0). Pushed
+sideways instead, it moves A0 (1 − cos α0) + r_L either way.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from bearingcore.bearings.hertz import in_series, race_contact
+from bearingcore.common import checks
+
+WIDEST_CONFORMITY = 0.6
+"""Groove radius over ball diameter up to which a groove is believed. Makers use 0.505 to 0.54,
+instrument bearings up to about 0.58."""
+
+GREATEST_CONTACT_ANGLE = math.radians(80.0)
+"""Beyond this a bearing is a thrust bearing, for which the radial clearance loses its meaning."""
+
+GROOVES = ("inner_groove_radius", "outer_groove_radius")
+OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
+"""Fields of a `Bearing` that only one with a drawing has."""
+
+DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS)
+"""Fields of a `Bearing` that others are derived from."""
+
+
+class Derived(NamedTuple):
+    """What follows from a drawing, under the names of the fields of `Bearing`."""
+
+    groove_center_radius: float
+    groove_center_distance: float
+    load_deflection_factor: float
+    outer_raceway_radius: float
+    inner_raceway_radius: float
+
+
+def check_groove(race: str, radius: float | None, ball_diameter: float) -> float:
+    """The groove radius [m] of a race as a float; ValueError where no ball runs in such a groove.
+
+    It must pass freely around the ball, and guide it.
+    """
+    name = f"{race}_groove_radius"
+    return checks.number(
+        name,
+        radius,  # type: ignore[arg-type]  # None is refused there
+        above=0.5 * ball_diameter,
+        at_most=WIDEST_CONFORMITY * ball_diameter,
+        unit=f"m: wider than the ball's radius, at most {WIDEST_CONFORMITY:g} of its diameter",
+    )
+
+
+def check_contact_angle(angle: float) -> float:
+    """Unloaded contact angle [rad] as a float, else ValueError."""
+    return checks.number(
+        "contact_angle",
+        angle,
+        at_least=0.0,
+        at_most=GREATEST_CONTACT_ANGLE,
+        unit="rad: 0 to 80 degrees",
+    )
+
+
+def check_youngs_modulus(value: float | None) -> float:
+    """Young's modulus [Pa] as a float, else ValueError."""
+    return checks.number("youngs_modulus", value, above=0.0, unit="Pa")  # type: ignore[arg-type]
+
+
+def check_poisson(value: float | None) -> float:
+    """Poisson's ratio as a float, else ValueError."""
+    return checks.number("poisson", value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+
+
+def derive(
+    *,
+    ball_diameter: float,
+    pitch_diameter: float,
+    contact_angle: float,
+    inner_groove_radius: float,
+    outer_groove_radius: float,
+    youngs_modulus: float,
+    poisson: float,
+) -> Derived:
+    """A0, r_d, K and the raceway radii from the drawing (SI, rad).
+
+    - A0 = r_i + r_o − D_b;
+    - r_d = D_p/2 + (r_i − D_b/2) cos α0: a ball on the pitch circle touches the inner groove on
+      the far side of its centre from the groove's (Harris, locus of the inner groove centres);
+    - K of both Hertzian contacts in series, see `bearingcore.bearings.hertz`;
+    - raceway radii D_p/2 ± D_b/2, at the bottom of the grooves. Left out: a quarter of the
+      diametral play, some µm; and that balls which touch at α0 roll on a track that is
+      (1 − cos α0) D_b/2 nearer to the pitch circle: at 40° an outer-race defect of a given angle
+      is there 4 % shorter.
+    """
+    factors = [
+        race_contact(
+            race, ball_diameter, pitch_diameter, radius, contact_angle, youngs_modulus, poisson
+        ).load_deflection_factor
+        for race, radius in (("inner", inner_groove_radius), ("outer", outer_groove_radius))
+    ]
+    pitch_radius, r_b = 0.5 * pitch_diameter, 0.5 * ball_diameter
+    return Derived(
+        groove_center_radius=pitch_radius + (inner_groove_radius - r_b) * math.cos(contact_angle),
+        groove_center_distance=inner_groove_radius + outer_groove_radius - ball_diameter,
+        load_deflection_factor=in_series(*factors),
+        outer_raceway_radius=pitch_radius + r_b,
+        inner_raceway_radius=pitch_radius - r_b,
+    )
+
+
+def check_clearance(
+    diametral_clearance: float, contact_angle: float, groove_center_distance: float
+) -> float:
+    """The clearance [m] on top of a contact angle [rad], if the balls still lock the ring.
+
+    ValueError where the ring would have to move so far along the shaft that the free contact angle
+    passes GREATEST_CONTACT_ANGLE.
+    """
+    most = 2.0 * groove_center_distance
+    most *= math.cos(contact_angle) - math.cos(GREATEST_CONTACT_ANGLE)
+    return checks.number(
+        "diametral_clearance",
+        diametral_clearance,
+        at_least=0.0,
+        at_most=most,
+        unit=f"m: more would need a free contact angle above "
+        f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
+    )
+
+
+def fields(
+    *,
+    ball_diameter: float,
+    pitch_diameter: float,
+    inner_groove_radius: float,
+    outer_groove_radius: float,
+    contact_angle: float | None,
+    diametral_clearance: float | None,
+    youngs_modulus: float,
+    poisson: float,
+) -> dict[str, Any]:
+    """All fields of a `Bearing` but the number of balls; see `Bearing.from_drawing`."""
+    D_b = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
+    if contact_angle is None and diametral_clearance is None:
+        raise checks.refuse(
+            "contact_angle", None, "a number [rad], unless diametral_clearance is given"
+        )
+    dimensions = {
+        "ball_diameter": D_b,
+        "pitch_diameter": checks.number("pitch_diameter", pitch_diameter, above=D_b, unit="m"),
+        "contact_angle": check_contact_angle(0.0 if contact_angle is None else contact_angle),
+        "inner_groove_radius": check_groove("inner", inner_groove_radius, D_b),
+        "outer_groove_radius": check_groove("outer", outer_groove_radius, D_b),
+        "youngs_modulus": check_youngs_modulus(youngs_modulus),
+        "poisson": check_poisson(poisson),
+    }
+    derived = derive(**dimensions)
+    s = 0.0 if diametral_clearance is None else diametral_clearance
+    s = check_clearance(s, dimensions["contact_angle"], derived.groove_center_distance)
+    return {**dimensions, **derived._asdict(), "radial_clearance": 0.5 * s}

@@ -1,0 +1,298 @@
+"""What a file says about itself, what may be guessed, and what has to be asked."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.numbers import number
+from bearingcore.files import facts
+from bearingcore.files.channels import (
+    OTHER,
+    SIGNAL,
+    TIME,
+    Choice,
+    Column,
+    choose,
+    column_of,
+)
+from bearingcore.files.collections import Known, known_shape
+from bearingcore.files.facts import Finding, Named
+from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of
+from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES
+from bearingcore.signals.recording import FEWEST_SAMPLES
+
+USUAL_LEVEL = 5.0
+"""[m/s²] root mean square of bearings in machines, in the middle of what is usual."""
+
+GRAVITY_SHARE = 0.1
+"""How near a mean comes to gravity where it is that."""
+
+NOTHING_SAYS = "nothing says"
+"""So begins the reason of a unit that is not even a guess."""
+
+
+MOST_NUMBERS = 16_000_000
+"""Numbers in a file, all columns together."""
+
+MOST_COLUMNS = 64
+
+
+@dataclass(frozen=True)
+class FileColumns:
+    """Columns of numbers out of a file.
+
+    Attributes
+    ----------
+    names
+        of the columns.
+    columns : (n, c)
+        their numbers; gaps are NaN, as is what lies after the end of a shorter column.
+    sample_rate
+        [Hz] where the file's format tells it (WAV), else None.
+    scalars
+        single numbers that the file names, such as a speed or a rate.
+    name
+        of the file.
+    texts
+        words that the file names.
+    remarks
+        lines above the numbers.
+    headed
+        whether the file itself names its columns.
+    stamps
+        columns of dates or times of day, in seconds since the first.
+    full_scale_known
+        whether the numbers are in a unit; False for parts of full scale (WAV).
+
+    Raises
+    ------
+    ValueError
+        for too many columns or numbers, or too few rows.
+    """
+
+    names: tuple[str, ...]
+    columns: NDArray[np.float64] = field(repr=False)
+    sample_rate: float | None = None
+    scalars: Mapping[str, float] = field(default_factory=dict)
+    name: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+    headed: bool = True
+    stamps: tuple[int, ...] = ()
+    full_scale_known: bool = True
+
+    def __post_init__(self) -> None:
+        rows, columns = self.columns.shape
+        if columns > MOST_COLUMNS:
+            raise checks.refuse(
+                f"number of columns in {self.name}", columns, f"at most {MOST_COLUMNS}"
+            )
+        if self.columns.size > MOST_NUMBERS:
+            raise checks.refuse(
+                f"count of numbers in {self.name}", self.columns.size, f"at most {MOST_NUMBERS}"
+            )
+        if rows < FEWEST_SAMPLES:
+            raise checks.refuse(
+                f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
+            )
+        for name in ("scalars", "texts"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+
+@dataclass(frozen=True)
+class FileContents:
+    """What a file says about itself, and guesses at what it does not say.
+
+    Attributes
+    ----------
+    columns
+        role, unit, direction and place of each column.
+    choice
+        the columns of this bearing by direction, or the question to ask.
+    unit
+        of the chosen columns, or of all signals where none are chosen.
+    sample_rate
+        [Hz]; None where there is not even a guess.
+    shaft_speed
+        [rad/s]
+    load
+        [N]
+    sampling
+        what the column of times says, where there is one.
+    said
+        everything else that the file names, in its own words.
+    """
+
+    columns: tuple[Column, ...]
+    choice: Choice
+    unit: Finding[str]
+    sample_rate: Finding[float] | None
+    shaft_speed: Finding[float] | None
+    load: Finding[float] | None
+    sampling: Sampling | None
+    said: Mapping[str, str]
+
+
+def contents_of(table: FileColumns) -> FileContents:
+    """What a table says about itself."""
+    named = [
+        *(Named(name, value) for name, value in table.scalars.items()),
+        *facts.named_in(table.remarks),
+        *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
+    ]
+    clock = 0 if table.headed and not _headed_clock(table.names) else clock_columns(table.columns)
+    known = known_shape(table.names, len(table.columns), clock, named, table.headed)
+    columns, sampling = _columns(table, clock, known)
+    moving = [
+        column.role == SIGNAL and _moves(table.columns[:, index])
+        for index, column in enumerate(columns)
+    ]
+    choice = choose(columns, moving, known.why or "as the headings say", table.name)
+    picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
+    rate = _rate(table, sampling, named, known)
+    said = {**{one.name: _text(one) for one in named}, **table.texts}
+    return FileContents(
+        columns,
+        choice,
+        _unit(table, columns, picked, known),
+        rate,
+        _speed(table, columns, named),
+        facts.load_in(named) or known.load,
+        sampling,
+        said,
+    )
+
+
+def _headed_clock(names: Sequence[str]) -> bool:
+    return names[0].strip().lower() in ("hour", "hours", "h", "stunde")
+
+
+def _columns(
+    table: FileColumns, clock: int, known: Known
+) -> tuple[tuple[Column, ...], Sampling | None]:
+    """The columns, and what the times say where some of them are times."""
+    columns = [column_of(name) for name in table.names]
+    if known.places is not None:
+        columns = [
+            dataclasses.replace(column, place=place)
+            for column, place in zip(columns, known.places, strict=True)
+        ]
+    for index, axis in enumerate(known.directions, len(columns) - len(known.directions)):
+        columns[index] = dataclasses.replace(columns[index], direction=axis)
+    if clock:
+        columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
+        return tuple(columns), sampling_of(clock_time(table.columns, clock))
+    time = table.stamps[0] if table.stamps else None
+    if time is None:
+        time = next((i for i, column in enumerate(columns) if column.role == TIME), None)
+    if time is None and len(columns) > 1 and not table.headed and table.sample_rate is None:
+        # a first column without a name that rises evenly is a time, or counts the rows
+        found = sampling_of(table.columns[:, 0])
+        if found.stated and not found.trouble:
+            time = 0
+    if time is None:
+        return tuple(columns), None
+    for index in table.stamps:
+        columns[index] = Column(table.names[index], TIME)
+    columns[time] = Column(table.names[time], TIME, columns[time].unit)
+    unit = TIMES.get(columns[time].unit or "s", 1.0)
+    sampling = sampling_of(table.columns[:, time], unit)
+    if not table.stamps and _counts(table.columns[:, time], columns[time]):
+        columns[time] = Column(table.names[time], OTHER)
+        return tuple(columns), None
+    return tuple(columns), sampling
+
+
+def _counts(time: NDArray[np.float64], column: Column) -> bool:
+    """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
+    return column.unit is None and bool(np.all(np.diff(time) == 1.0))
+
+
+def _moves(signal: NDArray[np.float64]) -> bool:
+    finite = signal[np.isfinite(signal)]
+    return finite.size > 0 and bool(np.ptp(finite) > 0.0)
+
+
+def _rate(
+    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Known
+) -> Finding[float] | None:
+    if table.sample_rate is not None:
+        return Finding(table.sample_rate, "the head of the file")
+    said = facts.sample_rate_in(named, table.name)
+    timed = None
+    if sampling is not None and sampling.sample_rate is not None:
+        timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    for finding in (timed, said):
+        if finding is not None and finding.stated:
+            return finding
+    return said or timed or known.sample_rate
+
+
+def _unit(
+    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Known
+) -> Finding[str]:
+    units = {columns[index].unit for index in picked} - {None}
+    if len(units) == 1 and (unit := next(iter(units))) is not None:
+        name = next(columns[index].name for index in picked if columns[index].unit)
+        return Finding(unit, f"the name “{name}”")
+    said = facts.unit_said(table.remarks, table.texts)
+    if said is not None:
+        return Finding(said, "a line of the file")
+    if known.unit is not None:
+        return known.unit
+    if not picked:
+        return Finding("m/s²", f"{NOTHING_SAYS} it", False)
+    if table.full_scale_known is False:
+        return Finding("m/s²", f"{NOTHING_SAYS} what full scale is", False)
+    return _unit_by_level(table.columns[:, list(picked)])
+
+
+def _unit_by_level(signals: NDArray[np.float64]) -> Finding[str]:
+    """The unit in which signals are more like those of bearings."""
+    finite = np.where(np.isfinite(signals), signals, 0.0)
+    with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
+        means = np.abs(finite.mean(axis=0))
+        level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
+    for unit, gravity in (("g", 1.0), ("m/s²", STANDARD_GRAVITY)):
+        if np.any((np.abs(means / gravity - 1.0) < GRAVITY_SHARE) & (level < gravity)):
+            return Finding(unit, f"a mean of {number(means.max())} is gravity in {unit}", False)
+    if not 0.0 < level < np.inf:
+        return Finding("m/s²", f"{NOTHING_SAYS} it", False)
+    strays = {
+        unit: abs(float(np.log(level * ACCELERATIONS[unit] / USUAL_LEVEL)))
+        for unit in ("g", "m/s²")
+    }
+    best = min(strays, key=lambda unit: strays[unit])
+    other = "g" if best == "m/s²" else "m/s²"
+    why = f"a root mean square of {number(level, 2)} is more usual in {best} than in {other}"
+    return Finding(best, why, False)
+
+
+def _speed(
+    table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
+) -> Finding[float] | None:
+    for index, column in enumerate(columns):
+        if column.role == OTHER and column.unit in ("rpm", "Hz", "rad/s"):
+            speeds = table.columns[:, index]
+            speeds = speeds[np.isfinite(speeds)]
+            mean = float(speeds.mean()) if speeds.size else 0.0
+            if mean > 0.0:
+                steady = float(np.ptp(speeds)) <= 0.02 * mean
+                words = f"the column “{column.name}”" + (
+                    ""
+                    if steady
+                    else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
+                )
+                return Finding(mean * SPEEDS[column.unit], words, steady)
+    return facts.shaft_speed_in(named, table.name)
+
+
+def _text(one: Named) -> str:
+    return number(one.value, 6) + (f" {one.unit}" if one.unit else "")

@@ -1,0 +1,195 @@
+"""Columns of numbers out of a file, and the recording that is made of some of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.lazy import cached_property
+from bearingcore.common.numbers import number
+from bearingcore.files.channels import TIME
+from bearingcore.files.contents import FileColumns, FileContents, contents_of
+from bearingcore.files.units import UNITS, differentiated, kind_of, level_doubt
+from bearingcore.signals.recording import FEWEST_SAMPLES, Recording
+
+RATE_DOUBT = 0.005
+"""By how much a typed rate may differ from the one that the times say, unsaid."""
+
+
+@dataclass(frozen=True)
+class Table(FileColumns):
+    """Columns of numbers out of a file, which can be asked what they are and made a recording."""
+
+    @cached_property
+    def contents(self) -> FileContents:
+        """What the file says about itself, and guesses at what it does not say."""
+        return contents_of(self)
+
+    @property
+    def time_column(self) -> int | None:
+        """The first column of times, if there is one."""
+        roles = [column.role for column in self.contents.columns]
+        return roles.index(TIME) if TIME in roles else None
+
+    @property
+    def suggested_rate(self) -> float | None:
+        """Sample rate [Hz] that the file tells; None where it does not, or only lets it guess."""
+        rate = self.contents.sample_rate
+        return rate.value if rate is not None and rate.stated else None
+
+    def recording(
+        self,
+        columns: Sequence[int | str],
+        directions: Sequence[str],
+        unit: str | None = None,
+        sample_rate: float | None = None,
+        full_scale: float = 1.0,
+        *,
+        sensitivity: float | None = None,
+        shaft_speed: float | None = None,
+    ) -> Recording:
+        """The acceleration in some of the columns.
+
+        Parameters
+        ----------
+        columns
+            which, by number from 0 or by name.
+        directions
+            of those columns.
+        unit
+            one of `bearingcore.files.units.UNITS`; None takes what the headings say.
+            Velocities are differentiated, voltages divided by `sensitivity`.
+        sample_rate
+            [Hz]; None takes what the file tells.
+        full_scale
+            what the number 1 in the file stands for [unit]: the full scale of a WAV file.
+        sensitivity
+            of the sensor [V/(m/s²)], for voltages.
+        shaft_speed
+            [rad/s]; None takes what the file tells, if it does.
+
+        Raises
+        ------
+        ValueError
+            for an unknown column, direction or unit, a rate that nobody tells, columns of several
+            bearings, or a voltage without a sensitivity.
+        """
+        picked = [self._index(column) for column in columns]
+        if len(set(picked)) != len(picked) or len(picked) != len(directions):
+            raise checks.refuse(
+                "columns", list(columns), f"{len(directions)} different ones, one a direction"
+            )
+        self._check_one_bearing(picked)
+        contents = self.contents
+        units = [self._unit(index, unit) for index in picked]
+        scale = checks.number("full_scale", full_scale, above=0.0, unit=unit or "")
+        rate, notes = self._rate(sample_rate)
+        first, last = self._rows(picked)
+        signal = self.columns[first:last, picked] * scale
+        with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
+            notes += self._to_acceleration(signal, units, rate, sensitivity)
+        speed = contents.shaft_speed
+        if shaft_speed is None and speed is not None and speed.stated:
+            shaft_speed = speed.value
+        made = Recording(
+            signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes))
+        )
+        with np.errstate(over="ignore"):
+            levels = made.acceleration.std(axis=0)
+        doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
+        return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
+
+    def _to_acceleration(
+        self,
+        signal: NDArray[np.float64],
+        units: Sequence[str],
+        rate: float,
+        sensitivity: float | None,
+    ) -> list[str]:
+        """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
+        notes = []
+        for index, unit in enumerate(units):
+            signal[:, index] *= UNITS[unit]
+            if kind_of(unit) == "voltage":
+                signal[:, index] /= checks.number(
+                    "sensitivity",
+                    np.nan if sensitivity is None else sensitivity,
+                    above=0.0,
+                    unit="V/(m/s²)",
+                )
+            elif kind_of(unit) == "velocity" and len(signal) >= FEWEST_SAMPLES:
+                if np.isfinite(signal[:, index]).all():
+                    signal[:, [index]] = differentiated(signal[:, [index]], rate)
+                notes = [
+                    "A velocity was differentiated. What its recorder left out (often all above "
+                    "1 kHz) is not in it."
+                ]
+        return notes
+
+    def _check_one_bearing(self, picked: Sequence[int]) -> None:
+        places = {self.contents.columns[i].place: self.names[i] for i in picked}
+        places.pop("", None)
+        if len(places) > 1:
+            sensors = " and ".join(f"{name} ({place})" for place, name in places.items())
+            raise checks.refuse(
+                "columns", sensors, "directions of one place; these are sensors at two places"
+            )
+
+    def _unit(self, index: int, unit: str | None) -> str:
+        column = self.contents.columns[index]
+        if unit is None:
+            of_file = self.contents.unit
+            unit = column.unit or (of_file.value if of_file.stated else None)
+            if unit is None:
+                raise checks.refuse(
+                    "unit", None, f"one of {', '.join(UNITS)}: the file does not tell it"
+                )
+        return checks.choice("unit", unit, tuple(UNITS))
+
+    def _rate(self, asked: float | None) -> tuple[float, list[str]]:
+        """The sample rate [Hz], and what is to be said about it."""
+        sampling, stated = self.contents.sampling, self.contents.sample_rate
+        trouble = sampling.trouble if sampling is not None else ""
+        if asked is None:
+            if stated is None or not stated.stated:
+                guess = (
+                    f"; {number(stated.value, 6)} is likely ({stated.reason})"
+                    if stated is not None
+                    else ""
+                )
+                why = f" {trouble}" if trouble else ""
+                raise checks.refuse(
+                    "sample_rate", None, f"a number [Hz]: the file does not tell it{guess}.{why}"
+                )
+            return stated.value, [trouble]
+        rate = checks.number("sample_rate", asked, above=0.0, unit="Hz")
+        notes = [trouble]
+        if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
+            notes.append(
+                f"The sample rate was typed as {number(rate, 6)} Hz; {stated.reason} says "
+                f"{number(stated.value, 6)} Hz."
+            )
+        return rate, notes
+
+    def _rows(self, picked: Sequence[int]) -> tuple[int, int]:
+        """The rows without a jump of the time that all of the columns have."""
+        sampling = self.contents.sampling
+        first, last = (
+            (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
+        )
+        missing = np.isnan(self.columns[first:last, picked]).any(axis=1)
+        filled = np.flatnonzero(~missing)
+        # gaps at the end are where a column is shorter than the longest
+        return first, first + int(filled[-1]) + 1 if filled.size else last
+
+    def _index(self, column: int | str) -> int:
+        if isinstance(column, str) and column in self.names:
+            return self.names.index(column)
+        if isinstance(column, int) and 0 <= column < len(self.names):
+            return column
+        raise checks.refuse("column", column, "one of " + ", ".join(self.names))

@@ -1,1 +1,0 @@
-"""Contacts of a ball or roller with its races: stiffness, ellipse or strip, pressure."""

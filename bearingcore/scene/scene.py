@@ -1,0 +1,249 @@
+"""Scene: everything that decides an answer, as one value. Equal scenes give equal results."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, Self
+
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks, scene_file
+from bearingcore.scene.defect import Defect, path_tables
+from bearingcore.scene.load import Load
+from bearingcore.scene.support import Support
+
+DOF_NAMES = ("x", "y", "z", "rx", "ry")
+DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
+"""Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
+
+CONTACT_LAWS = ("published", "no tension")
+"""`published`: viscous damping in every loaded contact (Eq. 18), which can pull as a ball leaves.
+`no tension`: the same, never below zero."""
+
+
+MASSLESS, WITH_MASS = "massless", "with mass"
+BALLS = (MASSLESS, WITH_MASS)
+"""What a simulated motion takes balls for. `massless`: each is a spring between the rings (Eq. 13).
+`with mass`: each has its place, its inertia, centrifugal load and weight, and two contacts."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A bearing, its defect or defects, load, speed and support: all that decides an answer.
+
+    Parameters
+    ----------
+    bearing, load, support
+        see `Bearing`, `Load`, `Support`.
+    defect
+        a `Defect`, or a tuple of them.
+    shaft_speed
+        ω_s [rad/s], at least 0.
+    contact_damping
+        viscous damping c [N·s/m] of a loaded contact (Eq. 18). None: from the stiffness of the
+        healthy bearing, see `bearingcore.contact_damping`.
+    contact_law
+        "published" or "no tension".
+    dofs
+        free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs.
+    balls
+        "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
+        the centrifugal load of each ball at the scene's speed.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+
+    bearing: Bearing
+    defect: Defect | tuple[Defect, ...]
+    load: Load
+    shaft_speed: float
+    support: Support
+    contact_damping: float | None = None
+    contact_law: str = "published"
+    dofs: tuple[str, ...] | None = None
+    balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
+
+    def __post_init__(self) -> None:
+        def keep(name: str, value: object) -> None:
+            object.__setattr__(self, name, value)
+
+        keep("shaft_speed", checks.number("shaft_speed", self.shaft_speed, at_least=0.0))
+        if self.contact_damping is not None:
+            keep(
+                "contact_damping",
+                checks.number("contact_damping", self.contact_damping, at_least=0.0),
+            )
+        checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
+        checks.choice("balls", self.balls, BALLS)
+        if self.dofs is not None:
+            keep("dofs", check_dofs(self.dofs))
+        if not isinstance(self.defect, Defect):
+            several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
+            for defect in several:
+                if not isinstance(defect, Defect):
+                    raise checks.refuse("defect", defect, "a Defect or a tuple of them")
+            keep("defect", several)
+        for name, kind in (("bearing", Bearing), ("load", Load), ("support", Support)):
+            if not isinstance(getattr(self, name), kind):
+                raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
+        if self.bearing.is_roller:
+            self._check_radial()
+        for defect in self.defects:
+            defect.check_row(self.bearing)
+            defect.check_depth(self.bearing)
+            defect.check_floor(self.bearing)
+        if len(self.defects) > 1:
+            path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
+
+    def _check_radial(self) -> None:
+        """Refuse what cylindrical rollers cannot carry."""
+        for name in ("fz", "mx", "my"):
+            if getattr(self.load, name) != 0.0:
+                raise checks.refuse(
+                    name, getattr(self.load, name), "0: cylindrical rollers carry radial loads only"
+                )
+        if self.dofs is not None and not set(self.dofs) <= set(DOF_NAMES[:2]):
+            raise checks.refuse("dofs", self.dofs, "x and y, where the bearing has rollers")
+
+    @property
+    def defects(self) -> tuple[Defect, ...]:
+        """The defects as a tuple, without those that are none."""
+        several = (self.defect,) if isinstance(self.defect, Defect) else self.defect
+        return tuple(defect for defect in several if not defect.is_none)
+
+    @property
+    def needed_dofs(self) -> tuple[str, ...]:
+        """The directions that can move: all five, unless a smaller set is exact.
+
+        A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
+        symmetry: z, rx and ry stay zero and only x and y are needed. The inner ring of a
+        self-aligning bearing tilts freely, so nothing but another bearing keeps the shaft from it:
+        x, y and z, as for cylindrical rollers x and y.
+        """
+        if self.bearing.is_roller:
+            return DOF_NAMES[:2]  # it carries nothing else
+        if self.bearing.is_self_aligning:
+            return DOF_NAMES[:3]  # its ring tilts freely: what holds it is the shaft
+        flat = self.bearing.is_flat
+        radial = self.load.fz == self.load.mx == self.load.my == 0.0
+        return DOF_NAMES[:2] if flat and radial else DOF_NAMES
+
+    @property
+    def active_dofs(self) -> tuple[str, ...]:
+        """The directions that are computed: `dofs` if given, else `needed_dofs`."""
+        return self.dofs if self.dofs is not None else self.needed_dofs
+
+    @property
+    def cage_speed(self) -> float:
+        """Cage speed ω_c [rad/s] of the bearing's own numbers (Eq. 3)."""
+        return self.bearing.cage_speed(self.shaft_speed)
+
+    def healthy(self) -> Scene:
+        """The same scene without its defects."""
+        return dataclasses.replace(self, defect=Defect.none())
+
+    def to_data(self) -> dict[str, Any]:
+        """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
+        defects = [scene_file.to_data(defect) for defect in self.defects]
+        return {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+
+    @classmethod
+    def from_data(cls, data: object) -> Scene:
+        """The scene of `to_data`.
+
+        Raises
+        ------
+        ValueError
+            that names the table and field, what stands there and what is allowed.
+        """
+        table = scene_file.table("scene", data)
+        version = table.pop("version", scene_file.VERSION)
+        if version != scene_file.VERSION or isinstance(version, bool):
+            raise checks.refuse("version", version, str(scene_file.VERSION))
+        if table.get("defect", []) == []:
+            table["defect"] = Defect.none()
+        elif isinstance(table["defect"], list) and len(table["defect"]) == 1:
+            only = table["defect"][0]
+            table["defect"] = scene_file.from_data(Defect, "defect 1", only)
+        table.setdefault("load", {})
+        return scene_file.from_data(cls, "scene", table, top=True)
+
+    def to_toml(self) -> str:
+        """The scene as text that `from_toml` reads; SI units and radians."""
+        return scene_file.to_toml(self.to_data())
+
+    @classmethod
+    def from_toml(cls, text: str) -> Scene:
+        """The scene of a TOML text.
+
+        Raises
+        ------
+        ValueError
+            that names the table and field, what stands there and what is allowed.
+        """
+        return cls.from_data(scene_file.from_toml(text))
+
+    def replace(self, **changes: Any) -> Self:
+        """A scene with fields changed, its own or those of its parts, by name.
+
+        >>> from bearingcore import presets
+        >>> scene = presets["fan-rig"].replace(extent=0.2, fy=-50.0)
+        >>> scene.defect.extent, scene.load.fy
+        (0.2, -50.0)
+
+        Fields of a defect change the first one where there are several.
+
+        Raises
+        ------
+        ValueError
+            for an unknown name, or a value that the part refuses.
+        """
+        own: dict[str, Any] = {}
+        inside: dict[str, dict[str, Any]] = {}
+        for name, value in changes.items():
+            if name in _OWN_FIELDS:
+                own[name] = value
+            elif name in _PART_OF_FIELD:
+                inside.setdefault(_PART_OF_FIELD[name], {})[name] = value
+            else:
+                known = ", ".join(sorted({*_OWN_FIELDS, *_PART_OF_FIELD}))
+                raise checks.refuse("name of a field", name, known)
+        for part, values in inside.items():
+            old = own.get(part, getattr(self, part))
+            if part == "defect" and not isinstance(old, Defect):
+                first = dataclasses.replace(old[0] if old else Defect.none(), **values)
+                own[part] = (first, *old[1:])
+            elif isinstance(old, Bearing):
+                own[part] = old.replace(**values)
+            else:
+                own[part] = dataclasses.replace(old, **values)
+        return dataclasses.replace(self, **own)
+
+
+_OWN_FIELDS = {field.name for field in dataclasses.fields(Scene)}
+_PART_OF_FIELD = {
+    field.name: part
+    for part, kind in (
+        ("bearing", Bearing),
+        ("defect", Defect),
+        ("load", Load),
+        ("support", Support),
+    )
+    for field in dataclasses.fields(kind)
+}
+
+
+def check_dofs(dofs: Iterable[str]) -> tuple[str, ...]:
+    """`dofs` in the order of `DOF_NAMES`; ValueError for unknown, repeated or no names."""
+    allowed = "different names out of " + ", ".join(DOF_NAMES)
+    if not isinstance(dofs, Iterable):
+        raise checks.refuse("dofs", dofs, allowed)
+    names = (dofs,) if isinstance(dofs, str) else tuple(dofs)
+    known = all(name in DOF_NAMES for name in names)
+    if not names or not known or len(set(names)) != len(names):
+        raise checks.refuse("dofs", names, allowed)
+    return tuple(name for name in DOF_NAMES if name in names)

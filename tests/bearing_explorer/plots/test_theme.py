@@ -1,0 +1,130 @@
+"""Colours, light and dark: text is readable, lines are seen, colour-blind eyes tell them apart."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bearing_explorer.assets import asset_text
+from bearing_explorer.plots import style
+from bearing_explorer.plots.color_scales import DIVERGING, DIVERGING_DARK
+from bearing_explorer.views import stability_map
+from bearing_explorer.views.theme import DARK_COLORS, DARK_PALETTES, dark_properties
+
+VIEWS = Path(style.__file__).parent
+#: a map's own colours, the same on both pages, and what lies on top of pictures
+FIXED = {
+    *(kind.color.upper() for kind in stability_map.KINDS),
+    *(style.LIGHT.upper(), style.SHADE.upper(), "#00000000"),
+}
+
+
+def linear(color: str) -> np.ndarray:
+    coded = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
+    return np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+
+
+def contrast(a: str, b: str) -> float:
+    """As WCAG counts it."""
+    bright, dim = sorted(float(linear(c) @ [0.2126, 0.7152, 0.0722]) for c in (a, b))[::-1]
+    return (bright + 0.05) / (dim + 0.05)
+
+
+def in_dark(color: str) -> str:
+    return DARK_COLORS.get(color.upper(), color)
+
+
+def properties(theme: str) -> dict[str, str]:
+    """Colours of the page's style."""
+    block = re.search(r':root\[data-theme="dark"\] \{(.*?)\}', asset_text("page.css"), re.DOTALL)
+    light = asset_text("page.css").split(":root {")[1].split("}")[0]
+    assert block is not None
+    text = block[1] if theme == "dark" else light
+    return dict(re.findall(r"--([a-z-]+): (#[0-9a-f]{6});", text))
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_text_of_the_page_is_readable(theme: str) -> None:
+    colors = properties(theme)
+    for text in ("ink", "ink-soft", "accent", "good", "bad"):
+        for ground in ("card", "paper", "track-soft"):
+            assert contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
+    for text, ground in (("accent", "accent-paper"), ("ink-soft", "accent-paper"),
+                         ("ink", "accent-paper"), ("bad", "bad-paper"), ("ink", "bad-paper"),
+                         ("card", "accent")):  # fmt: skip
+        assert contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
+
+
+@pytest.mark.parametrize("turned", [str, in_dark], ids=["light", "dark"])
+def test_lines_and_text_of_figures_are_seen(turned: object) -> None:
+    assert callable(turned)
+    paper = turned(style.PAPER)
+    for text in (style.INK, style.FAINT_INK):
+        assert contrast(turned(text), paper) >= 4.5
+    lines = {*style.DIRECTION_COLORS[:2], *style.BALL_COLORS, style.HEALTHY}
+    for line in lines - {"#CC79A7"}:  # told by its label as well
+        assert contrast(turned(line), paper) >= 3.0, line
+
+
+def seen_by(kind: str, color: str) -> np.ndarray:
+    """A colour in Oklab as colour-blind eyes see it (Viénot, Brettel and Mollon 1999)."""
+    to_lms = np.array(
+        [[17.8824, 43.5161, 4.11935], [3.45565, 27.1554, 3.86714], [0.0299566, 0.184309, 1.46709]]
+    )
+    blind = {
+        "trichromat": np.eye(3),
+        "protanope": np.array([[0.0, 2.02344, -2.52581], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        "deuteranope": np.array([[1.0, 0.0, 0.0], [0.494207, 0.0, 1.24827], [0.0, 0.0, 1.0]]),
+    }[kind]
+    rgb = np.clip(np.linalg.inv(to_lms) @ blind @ to_lms @ linear(color), 0.0, 1.0)
+    cones = np.array(
+        [[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0.6806995451, 0.1073969566],
+         [0.0883024619, 0.2817188376, 0.6299787005]]
+    )  # fmt: skip
+    lab = np.array(
+        [[0.2104542553, 0.7936177850, -0.0040720468], [1.9779984951, -2.4285922050, 0.4505937099],
+         [0.0259040371, 0.7827717662, -0.8086757660]]
+    )  # fmt: skip
+    return lab @ np.cbrt(cones @ rgb)
+
+
+@pytest.mark.parametrize("turned", [str, in_dark], ids=["light", "dark"])
+@pytest.mark.parametrize("kind", ["trichromat", "protanope", "deuteranope"])
+def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: object) -> None:
+    assert callable(turned)
+    meanings = [*style.DIRECTION_COLORS[:3], style.HEALTHY]
+    for pair in itertools.combinations(meanings, 2):
+        a, b = (seen_by(kind, turned(color)) for color in pair)
+        assert np.linalg.norm(a - b) > 0.06, pair  # 0.02 is just seen
+
+
+def test_every_color_of_a_figure_has_its_dark_one() -> None:
+    known = {*DARK_COLORS, *FIXED}
+    odd = {
+        f"{path.name}: {color}"
+        for path in VIEWS.glob("*.py")
+        if path.name != "theme.py"
+        for color in re.findall(r"[\"'](#[0-9A-Fa-f]{6,8})[\"']", path.read_text(encoding="utf-8"))
+        if color.upper() not in known
+    }
+    assert not odd, "colours that would not follow the page into the dark"
+    assert len(set(DARK_COLORS.values())) == len(DARK_COLORS), "or there is no way back"
+    for light, dark in DARK_PALETTES:
+        assert light != dark
+    assert f"--in-dark-{style.INK[1:].upper()}" in dark_properties()
+
+
+def test_the_dark_map_is_as_dark_as_the_page_at_zero() -> None:
+    def lightness(scale: np.ndarray) -> np.ndarray:
+        colors = ["#" + "".join(f"{int(x):02x}" for x in color) for color in scale]
+        return np.array([seen_by("trichromat", color)[0] for color in colors])
+
+    dark, light = lightness(DIVERGING_DARK), lightness(DIVERGING)
+    assert np.all(np.diff(dark[:128]) < 0.003)
+    assert np.all(np.diff(dark[128:]) > -0.003)
+    assert dark[127] < 0.3 < 0.7 < dark[0]
+    assert light[127] > 0.95
+    assert abs(dark[0] - dark[-1]) < 0.03

@@ -1,0 +1,101 @@
+"""Balls with mass in a session: compiled before they move, coarse first, then compared."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from bearing_explorer.results import compiling
+from bearing_explorer.results.motion_cost import quick_duration
+from bearing_explorer.results.results import Results
+from bearing_explorer.session import Explorer, Section
+from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.mechanism import WhichMechanism
+
+from bearingcore import presets
+from bearingcore.plan import SETTLED
+from bearingcore.scene.packing import is_planar
+from tests.helpers.loops import run
+
+FAN_RIG = presets["fan-rig"]
+
+
+def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(
+        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
+    )
+    ready = [False]
+    monkeypatch.setattr(compiling, "ready", lambda: ready[0])
+    details: list[str] = []
+
+    async def until(done) -> None:
+        for _ in range(20_000):
+            if done():
+                return
+            await asyncio.sleep(0.002)
+        raise AssertionError("it did not happen")
+
+    async def live() -> tuple[str, str]:
+        explorer = Explorer((Section("one", "One", (WhichMechanism,)),))
+        explorer._idle_task._after = 0.02
+        explorer.status.param.watch(lambda e: details.append(str(e.new["details"])), "line")
+        explorer._asked({"typed": {"fy_n": "-103"}})
+        sentence = lambda: explorer._views["one"][0]._sentence.text  # noqa: E731
+        await until(lambda: "one" in explorer._views and sentence())
+        waiting = sentence()
+        # in the view itself, in the place of axes without lines; the foot says no error
+        assert not explorer._views["one"][0]._picture.visible
+        assert explorer._views["one"][0]._caption.empty
+        assert explorer.status.line["mood"] == "busy"
+        ready[0] = True
+        await until(lambda: "mass" in sentence() and "compiled" not in sentence())
+        drawn = sentence()
+        assert explorer._views["one"][0]._picture.visible, drawn
+        await until(lambda: details and "massless: " in details[-1])
+        await until(lambda: explorer._worker.idle and explorer._idle_task.idle)
+        explorer.stop()
+        return waiting, drawn
+
+    waiting, drawn = run(live())
+    assert waiting.startswith("Balls with mass are still being compiled")
+    assert "drawn by itself" in waiting
+    assert "up the mass of the balls gives most of the power" in drawn
+
+
+def test_a_motion_that_was_compared_is_not_moved_again() -> None:
+    """The tab of the mass and the vibration of a scene with it share one motion."""
+    coarse = Results(FAN_RIG.replace(balls="with mass"), moving=True)
+    again = Results(FAN_RIG.replace(balls="with mass"), moving=True).ball_mass
+    assert coarse.ball_mass is again
+    assert Results(FAN_RIG, moving=True).ball_mass is again, "whatever the scene's own choice"
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: str) -> None:
+    """Counted, not timed: contacts that are stepped; a general one costs four flat ones."""
+    scene = presets[name].replace(balls="with mass")
+    moving = Results(scene, moving=True)
+    how = moving._ball_marching
+    if how.coarse:
+        duration = quick_duration(scene, how)
+        found = moving.ball_mass
+        assert found.samples == round(duration * how.sample_rate)
+        cost = duration * found.step_rates["with mass"] * scene.bearing.total_balls
+        assert cost * (1.0 if is_planar(scene) else 4.0) < 2.1e6
+        assert found.entry is not None
+        if all(one.extent < 0.35 * scene.bearing.ball_spacing for one in scene.defects):
+            assert found.exit is not None  # else it is a longer way than is shown
+        assert not found.broke_off
+        assert found.spectra
+
+
+def test_what_the_choice_of_balls_by_the_plan_draws() -> None:
+    """Where the plan chose mass the motion has it, though the scene says massless."""
+    settings = Settings(duration=0.6, balls_up_to=20e3, steady="march")
+    results = Results(FAN_RIG, settings=settings, planned=(SETTLED,))
+    assert results.plan is not None
+    assert results.plan.scene.balls == "with mass"
+    assert results.motion.scene.balls == "with mass"
+    assert results.motion.completed

@@ -1,0 +1,80 @@
+"""A few numbers a link, held against the core."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.results.chain import off_line, over_turn
+from bearing_explorer.results.results import Results
+
+from bearingcore import equilibrium, modes, presets, simulate, spectrum
+
+FAN_RIG = presets["fan-rig"]
+LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
+
+
+@pytest.mark.parametrize("scene", [FAN_RIG, LONGER], ids=["as it is", "longer"])
+def test_the_numbers_are_those_of_the_core(scene) -> None:
+    chain = Results(scene).chain
+    angles = np.linspace(0.0, scene.bearing.ball_spacing, 20_001)[:-1]  # a mean of its own
+    found = equilibrium(scene, angles)
+    assert chain.stiffness["k_yy"] == pytest.approx(found.term("k_yy").mean(), rel=5e-3)
+    assert chain.stiffness["k_xx"] == pytest.approx(found.term("k_xx").mean(), rel=5e-3)
+    assert chain.loaded_balls == pytest.approx(found.loaded_balls.mean(), rel=5e-3)
+    assert chain.greatest_load == pytest.approx(found.ball_load.max(), rel=5e-3)
+    for label, band in modes(scene, angles).bands().items():
+        assert chain.bands[label] == pytest.approx(band, rel=5e-3)
+    motion = simulate(scene, 1.4, 65536.0, step_rate=2 * 65536.0)  # finer than the page's own
+    late = motion.outer_acceleration[motion.time.size // 2 :]
+    frequency, density = spectrum(late, motion.sample_rate)
+    heard = (frequency >= 100.0) & (frequency <= 2500.0)
+    for i, dof in enumerate(motion.dofs):
+        line = np.argmax(np.where(heard, density[:, i], 0.0))
+        assert chain.peaks[dof].frequency == frequency[line]
+        assert chain.peaks[dof].level == pytest.approx(10 * np.log10(density[line, i]), abs=0.2)
+    assert chain.loudest == "y"
+    assert not chain.silent
+
+
+def test_the_angle_off_the_line_of_the_load() -> None:
+    """None with the load straight on one ball, else what each ball carries weighs its angle."""
+    scene = FAN_RIG.healthy()
+    spacing = scene.bearing.ball_spacing
+    turned = scene.replace(n_balls=2, dofs=("y",))
+    found = equilibrium(turned, [math.radians(270.0)])
+    assert found.loaded_balls[0] == 1
+    assert off_line(found, turned) == pytest.approx(0.0, abs=1e-12)
+    found = equilibrium(scene, [math.radians(270.0) + 0.5 * spacing])
+    load, angle = found.ball_load[0], found.ball_angle[0]
+    down = np.cos(angle - math.radians(270.0))
+    assert off_line(found, scene) == pytest.approx(load @ np.arccos(down) / load.sum())
+    assert math.isnan(off_line(found, scene.replace(fy=0.0, fz=50.0)))
+
+
+def test_a_mean_counts_angles_by_how_far_apart_they_stand() -> None:
+    angles = np.array([0.0, 0.1, 0.2, 1.0])
+    assert over_turn(angles, angles) == pytest.approx(0.5)
+    assert over_turn(angles, np.array([1.0, np.nan, 1.0, 1.0])) == 1.0
+    assert math.isnan(over_turn(angles, np.full(4, np.nan)))
+
+
+def test_what_is_missing_is_said() -> None:
+    still = Results(FAN_RIG.replace(shaft_speed=0.0)).chain
+    assert (still.peaks, still.silent) == ({}, "nothing turns")
+    assert still.bands
+    nothing = Results(FAN_RIG.replace(fy=0.0)).chain
+    assert nothing.answered == 0.0
+    assert "nothing touches" in nothing.reason
+    unknown = Results(presets["6205"].replace(fz=100.0, stiffness_z=None)).chain
+    assert not unknown.bands
+    assert "stiffness_z" in unknown.silent
+
+
+def test_the_chain_before_is_of_the_scene_before() -> None:
+    results = Results(LONGER, before=FAN_RIG)
+    assert results.chain_before == Results(FAN_RIG).chain
+    assert Results(LONGER).chain_before == Results(LONGER.healthy()).chain
+    healthy = Results(FAN_RIG.healthy())
+    assert healthy.chain_before is healthy.chain

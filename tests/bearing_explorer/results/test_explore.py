@@ -1,0 +1,364 @@
+"""Maps over any two quantities: what they say, how they are refined, what is too much."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from itertools import pairwise
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from bearing_explorer.export.python_lines import lines_of
+from bearing_explorer.results import explore
+from bearing_explorer.results.explore import (
+    MAP_OUTPUTS,
+    MapOutput,
+    Plane,
+    Question,
+    Survey,
+    coarse,
+    refine,
+)
+from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.state.quantities import limits_of
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.views.explore import ExplorePlane, summary
+
+from bearingcore import equilibrium, modes, presets, simulate
+from bearingcore.diagnosis.size.sizing_error import extent_error
+from bearingcore.sweep import OUTPUTS, STATUSES
+from bearingcore.sweep.grid import UNITS, Axis
+
+RIG = presets["fan-rig"].replace(extent=math.radians(20.0))
+LIMITS = limits_of(RIG)
+
+
+def question(
+    output: str,
+    x: tuple[str, str, str] = ("extent_deg", "2", "62"),
+    y: tuple[str, str, str] = ("fy_n", "-240", "240"),
+    scene=RIG,
+    shape: tuple[int, int] = explore.FINEST,
+) -> Question:
+    sweeps = [
+        sweep(name, low, high, n, LIMITS)
+        for (name, low, high), n in zip((x, y), shape, strict=True)
+    ]
+    return Question(scene, *sweeps, MAP_OUTPUTS[output])
+
+
+class Recorder(Work):
+    """A job that remembers what it was shown, and may be cancelled by it."""
+
+    def __init__(self, stop_after: int = 99) -> None:
+        super().__init__()
+        self.started = time.monotonic()
+        self.shown: list[Plane] = []
+        self.stop_after = stop_after
+
+    def show(self, found: Plane) -> None:
+        self.shown.append(found)
+        if len(self.shown) >= self.stop_after:
+            self.stop()
+
+
+def test_whatever_a_sweep_gives_can_be_mapped_over_whatever_has_a_slider() -> None:
+    assert {output.in_sweep for output in MAP_OUTPUTS.values() if output.in_sweep} == set(OUTPUTS)
+    assert len({choice.label for choice in MAP_OUTPUTS.values()}) == len(MAP_OUTPUTS)
+    assert {quantity.field for quantity in SWEEPABLE.values()} <= set(UNITS)
+    # groups stand together, or a list would name them twice
+    groups = [choice.group for choice in MAP_OUTPUTS.values()]
+    assert len(set(groups)) == 1 + sum(a != b for a, b in pairwise(groups))
+    known = set(explore._REASONS) | {"not_computed", "scene_refused"}
+    assert set(STATUSES) == known
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_point_says_what_the_solvers_say(turned: bool) -> None:
+    """Whichever side the extents are on, as lines of them are solved together."""
+    sides = [("extent_deg", "2", "62"), ("fy_n", "-240", "240")]
+    x, y = reversed(sides) if turned else sides
+    expected: dict[str, Callable] = {
+        "k_yy_least": lambda s: equilibrium(s).term("k_yy").min(),
+        "ball_load_greatest": lambda s: equilibrium(s).ball_load.max(),
+        "loaded_balls_greatest": lambda s: equilibrium(s).loaded_balls.max(),
+    }
+    for name, of_scene in expected.items():
+        asked = question(name, x, y)
+        found = coarse(asked)
+        assert found.values.shape == (7, 9)
+        for j, i in ((0, 0), (1, 7), (6, 3)):
+            scene = RIG.replace(
+                **{asked.x.quantity.field: found.x.in_si[1][i]},
+                **{asked.y.quantity.field: found.y.in_si[1][j]},
+            )
+            assert found.values[j, i] == pytest.approx(of_scene(scene), rel=1e-9)
+
+
+def test_moving_outputs_are_those_of_the_core() -> None:
+    speeds = ("shaft_speed_hz", "10", "20")
+    motion = Survey(question("acceleration_rms_y", speeds, shape=(2, 2)))
+    band = Survey(question("band_greatest:y1", speeds, shape=(2, 2)))
+    for survey in (motion, band):
+        assert survey.compute(1)
+    scene = RIG.replace(shaft_speed=2.0 * math.pi * 20.0, fy=-240.0)
+    late = simulate(scene).outer_acceleration[:, 1]
+    rms = math.sqrt(float(np.mean(late[late.size // 2 :] ** 2)))
+    assert motion.plane(1).values[0, 1] == pytest.approx(rms, rel=1e-6)
+    found = modes(scene)
+    undamped = found.undamped_frequency[:, found.label.index("y1")].max()
+    assert band.plane(1).values[0, 1] == pytest.approx(undamped)
+    assert undamped == pytest.approx(found.bands()["y1"][1], rel=1e-5)
+
+
+def test_levels_hold_those_before_and_compute_nothing_twice(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    job = Recorder()
+    computed: list[int] = []
+    find = Survey._find
+
+    def counting(self, at, job):
+        computed.append(at[0].size * at[1].size)
+        find(self, at, job)
+
+    monkeypatch.setattr(Survey, "_find", counting)
+    asked = question("k_yy_mean")
+    start = coarse(asked)
+    words = refine(job, asked, 2, start)
+    shapes = [plane.values.shape for plane in job.shown]
+    assert shapes == [(13, 17), (25, 33)]
+    assert sum(computed) == 25 * 33
+    np.testing.assert_array_equal(start.values, job.shown[0].values[::2, ::2])
+    np.testing.assert_array_equal(job.shown[0].values, job.shown[1].values[::2, ::2])
+    assert words.startswith("33 × 25 points after")
+    assert job.part == pytest.approx(1.0)
+
+
+def test_the_first_picture_of_static_outputs_is_there_at_once() -> None:
+    asked = question("k_yy_mean", x=("shaft_speed_hz", "4", "60"))
+    assert asked.at_once
+    assert asked.first_stride == 8
+    assert coarse(asked).values.size < 200
+    assert not question("acceleration_rms_y").at_once
+    assert not question("extent_error").at_once
+
+
+def test_what_has_no_answer_has_a_reason() -> None:
+    unloaded = coarse(question("k_yy_mean"))
+    row = list(unloaded.y.values).index(0.0)
+    assert np.isnan(unloaded.values[row]).all()
+    assert set(unloaded.reasons[row]) == {"nothing touches: no load presses a ball"}
+    assert unloaded.missing == 9
+    assert set(unloaded.reasons[np.isfinite(unloaded.values)]) == {""}
+    # more balls than there is room for: the core's words, with the names of the page
+    crowded = coarse(question("k_yy_mean", x=("n_balls", "10", "30")))
+    reasons = {str(why) for why in crowded.reasons[0] if why}
+    assert any("number of balls" in why or "ball diameter" in why for why in reasons), reasons
+    assert crowded.x.values.tolist() == sorted({round(v) for v in crowded.x.values})
+    # a mode that these scenes do not have
+    tilting = Survey(question("band_least:rx1", shape=(2, 2)))
+    tilting.compute(1)
+    assert set(tilting.plane(1).reasons.ravel()) == {"this scene has no such mode"}
+
+
+def test_motions_that_take_too_many_steps_are_not_begun() -> None:
+    short = question("acceleration_rms_y", ("extent_deg", "0.01", "60"), shape=(2, 2))
+    fast = Question(RIG.replace(shaft_speed=600.0), short.x, short.y, short.output)
+    survey = Survey(fast)
+    survey.compute(1)
+    found = survey.plane(1)
+    assert "too many steps" in found.reasons[0, 0]
+    assert found.reasons[0, 1] == ""
+
+
+@pytest.mark.proof
+def test_the_error_of_a_sizing_and_where_there_can_be_none() -> None:
+    asked = question("extent_error", ("extent_deg", "0", "38.6"), ("depth_um", "50", "60"))
+    small = Question(
+        RIG,
+        Sweep(asked.x.quantity, np.array([0.0, 38.6])),
+        Sweep(asked.y.quantity, np.array([0.0, 50.0])),
+        asked.output,
+    )
+    survey = Survey(small)
+    assert survey.compute(1, Recorder())
+    found = survey.plane(1)
+    assert "extent" in found.reasons[1, 0]
+    assert "depth" in found.reasons[0, 1]
+    scene = RIG.replace(extent=math.radians(38.6), depth=50e-6)
+    assert found.values[1, 1] == pytest.approx(math.degrees(extent_error(scene).error))
+    stopped = Recorder()
+    stopped.stop()
+    assert not Survey(small).compute(1, stopped)
+
+
+def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
+    job = Recorder(stop_after=1)
+    words = refine(job, question("k_yy_mean"), 1)
+    assert [plane.values.shape for plane in job.shown] == [(7, 9)]
+    assert words.startswith("9 × 7 points after")
+
+
+def test_a_slow_first_picture_grows_and_is_gone_on_with(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(explore, "_SHOW_EVERY", 0.0)
+    job = Recorder(stop_after=1)
+    asked = question("acceleration_rms_y", x=("shaft_speed_hz", "10", "20"))
+    words = refine(job, asked, 8)
+    (part,) = job.shown
+    assert words.startswith(f"{20 - part.missing} of 5 × 4 points after")
+    assert part.values.shape == (4, 5)
+    assert 0 < part.missing < 20
+    assert set(part.reasons[np.isnan(part.values)]) == {explore.NOT_COMPUTED}
+    survey = Survey(asked, part)
+    assert survey.missing(16) == part.missing
+    assert survey.compute(16)
+    assert survey.plane(16).missing == 0
+
+
+def test_what_takes_too_long_is_told_with_its_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(explore, "BUDGET", 0.05)
+    job = Recorder()
+    words = refine(job, question("k_yy_mean", x=("shaft_speed_hz", "4", "60")), 1)
+    assert 1 <= len(job.shown) <= 3
+    assert "would take about" in words
+    with pytest.raises(ValueError, match=r"Even 5 × 4 points would take about 12 s"):
+        refine(Recorder(), question("extent_error"), 1)
+
+
+def test_questions_are_equal_where_their_answers_are() -> None:
+    asked = question("k_yy_mean")
+    assert asked == question("k_yy_mean", scene=RIG.replace(extent=0.5, fy=-30.0))
+    assert asked != question("k_yy_mean", scene=RIG.replace(depth=10e-6))
+    assert asked != question("k_xx_mean")
+    assert asked != question("k_yy_mean", y=("fy_n", "-240", "200"))
+    assert len({asked, question("k_yy_mean")}) == 1
+
+
+# The view
+
+
+FORM = {
+    "output": "k_yy_mean", "x": "extent_deg", "x_from": "2", "x_to": "62",
+    "y": "fy_n", "y_from": "-240", "y_to": "240", "grid": "4",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"grid": "-1"}, "at most"),
+        ({"output": "__class__"}, "no such output"),
+        ({"y": "extent_deg"}, "two different"),
+        ({"x": "nothing"}, "no such quantity"),
+        ({"x_from": "70"}, "must be greater"),
+    ],
+)
+def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
+    view, editor = ExplorePlane(PackedSource()), SceneEditor("fan-rig")
+    with pytest.raises(ValueError, match=words):
+        view.asked({**FORM, **change}, editor)
+    assert view.asked(FORM, editor).stride == 4
+
+
+@pytest.mark.parametrize("preset", list(presets))
+def test_the_form_as_it_comes_up_can_be_answered(preset: str) -> None:
+    view, editor = ExplorePlane(PackedSource()), SceneEditor(preset)
+    values, _ = view.form(editor)
+    asked = view.asked(values, editor)
+    found = coarse(asked.of(Results(editor.scene)))
+    assert found.missing == 0
+
+
+def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
+    packed = PackedSource()
+    view, editor = ExplorePlane(packed), SceneEditor("fan-rig")
+    view._asking = view.asked(FORM, editor)
+    results = Results(RIG)
+    sources, ranges = view.data(results)
+    assert sources["explore_mark"]["x"] == pytest.approx([20.0])
+    assert sources["explore_old"]["alpha"].size == 0
+    assert packed.pack(sources, ranges).size > 3
+    words = view.sentence(results)
+    assert words.startswith("9 × 7 points. kyy, mean: least")
+    assert "9 points have no answer, most often: nothing touches" in words
+    view.found = coarse(view._asking.of(results))
+    assert view.data(results)[0]["explore_old"]["alpha"].size == 0
+    table = view.table(results)
+    assert set(table) == {"extent_deg", "fy_n", "k_yy_mean_n_per_m", "no_answer_because"}
+    assert table["k_yy_mean_n_per_m"].shape == (7, 9)
+    # an output that takes a while: what is drawn is veiled until its map is there
+    view._asking = view.asked({**FORM, "output": "acceleration_rms_y"}, editor)
+    assert view.data(results)[0]["explore_old"]["alpha"] == pytest.approx([0.65])
+    assert view.sentence(results).startswith("What is drawn, faint, is another map.")
+    assert summary(view.found) in words
+
+
+@pytest.mark.parametrize("output", ["k_yy_mean", "band_least:y1"])
+def test_lines_of_python_make_the_map_again(output: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("dask")
+    mpl.use("agg")
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    view = ExplorePlane(PackedSource())
+    small = question(output, ("extent_deg", "30", "40"), ("depth_um", "50", "60"), shape=(3, 3))
+    survey = Survey(small)
+    survey.compute(2)
+    view.found = survey.plane(2)
+    made: dict = {}
+    exec(compile(lines_of(view, Results(RIG)), "<lines>", "exec"), made)
+    mpl.pyplot.close("all")
+    table = view.table(Results(RIG))
+    ((column, values),) = made["columns"].items()
+    np.testing.assert_allclose(values, table[column], rtol=1e-9)
+
+
+def test_the_first_page_does_not_wait_for_holoviews() -> None:
+    code = "import sys, bearing_explorer.page; sys.exit('holoviews' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_share_of_mass_is_that_of_the_band_that_was_chosen() -> None:
+    output = MAP_OUTPUTS["mass_share"]
+    low, high = output.in_band(300.0, 2100.0), output.in_band(10e3, 20e3)
+    assert "0.3 to 2.1 kHz" in low.label
+    assert (high.settings.band_low, high.settings.band_high) == (10e3, 20e3)
+    shares = [mass_share_at(question) for question in (low, high)]
+    assert abs(shares[0]) < 0.2
+    assert shares[1] > 0.8
+    for band in ((10.0, 100.0), (5e3, 5.1e3), (5e3, 40e3), (9e3, 5e3)):
+        with pytest.raises(ValueError, match="A band goes from"):
+            output.in_band(*band)
+
+
+def mass_share_at(output: MapOutput) -> float:
+    """The number of one point of a map."""
+    asked = dataclasses.replace(
+        question("mass_share", ("extent_deg", "12.9", "13"), ("shaft_speed_hz", "7", "7.1")),
+        output=output,
+    )
+    grid = asked.grid
+    first = dataclasses.replace(grid, axes=tuple(Axis(a.name, a.values[:1]) for a in grid.axes))
+    status, numbers = first.compute()
+    assert STATUSES[int(status.ravel()[0])] == "complete"
+    return float(numbers["mass_share"].ravel()[0])
+
+
+def test_the_form_of_explore_asks_for_a_band_with_the_share_of_mass_alone() -> None:
+    view = ExplorePlane(PackedSource())
+    bands = [field for field in view.fields() if field["name"].startswith("band_")]
+    assert [field["only"] for field in bands] == [{"output": ["mass_share"]}] * 2
+    editor = SceneEditor("fan-rig")
+    given = {**view.form(editor)[0], "output": "mass_share", "band_from": "10", "band_to": "20"}
+    assert view.asked(given, editor).output.band == (10e3, 20e3)
+    with pytest.raises(ValueError, match="A band goes from"):
+        view.asked({**given, "band_to": "5"}, editor)
+    with pytest.raises(ValueError, match="must be a number"):
+        view.asked({**given, "band_from": "low"}, editor)

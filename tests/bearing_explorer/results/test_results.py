@@ -1,0 +1,146 @@
+"""Each answer is computed once, whoever asks."""
+
+import math
+import threading
+
+import numpy as np
+import pytest
+from bearing_explorer.results.answers import orbits
+from bearing_explorer.results.motion_cost import MOST_STEPS, SHORTEST
+from bearing_explorer.results.results import Results
+from bearing_explorer.results.single_flight import SingleFlightCache
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.settings import Settings
+
+from bearingcore import Scene, equilibrium, presets
+from bearingcore.dynamics.orbit import NOT_CONVERGED
+from bearingcore.dynamics.speed_run import speed_run
+
+
+def test_equal_scenes_share_their_answers() -> None:
+    scene = presets["fan-rig"]
+    one, two = Results(scene), Results(scene.replace(fy=scene.load.fy))
+    assert one.equilibrium is two.equilibrium
+    assert one.healthy_equilibrium is Results(scene.replace(extent=0.5)).healthy_equilibrium
+
+
+def test_settings_say_how_fine() -> None:
+    results = Results(presets["fan-rig"], 0.1, Settings(n_cage_angles=31))
+    assert results.equilibrium.cage_angles.size == 31
+    np.testing.assert_allclose(results.now.cage_angles, [0.1])
+
+
+def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
+    fast = presets["fan-rig"].replace(race="inner", extent=math.radians(0.2), shaft_speed=600.0)
+    motion = Results(fast).motion
+    assert motion.time.size * motion.step_rate / motion.sample_rate <= 1.001 * MOST_STEPS
+    assert SHORTEST <= motion.time[-1] < 1.4
+    with pytest.raises(ValueError, match="steps a second"):
+        _ = Results(fast.replace(extent=1e-5)).motion
+    usual = Results(presets["fan-rig"]).motion
+    assert usual.time[-1] == pytest.approx(1.4, rel=1e-3)
+
+
+def test_what_is_pinned_stands_in_for_the_healthy_bearing() -> None:
+    scene, other = presets["fan-rig"], presets["liew-lim"].replace(n_balls=9)
+    results = Results(scene, 0.1, pinned=Reference(other, "mine"))
+    first, last, n = results.stretch
+    angles = np.linspace(first, last, n)
+    np.testing.assert_array_equal(
+        results.healthy_equilibrium.term("k_yy"), equilibrium(other, angles).term("k_yy")
+    )
+    assert results.healthy_now.scene == other
+    around = results.healthy_all_around.cage_angles
+    assert around[-1] == pytest.approx(2.0 * np.pi / 9)
+    assert results.healthy_modes.cage_angles[-1] == last
+    alone = Results(scene, 0.1)
+    assert alone.beside == scene.healthy()
+    assert alone.healthy_all_around is alone.healthy_equilibrium
+
+
+def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> None:
+    other = presets["liew-lim"].replace(stiffness_z=None)
+    results = Results(presets["fan-rig"], 0.1, pinned=Reference(other, "mine"))
+    for name in ("healthy_modes", "healthy_late_spectra"):
+        with pytest.raises(ValueError, match=r"pinned “mine” cannot be shown.*stiffness_z"):
+            getattr(results, name)
+    assert np.isfinite(results.modes.frequency).all()
+
+
+def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scenes: list[tuple[str, bool]] = []
+    together = threading.Barrier(2, timeout=30.0)
+
+    def slow(scene: Scene, how: object) -> dict:
+        scenes.append((threading.current_thread().name, bool(scene.defects)))
+        together.wait()
+        return {}
+
+    monkeypatch.setattr("bearing_explorer.results.answers.late_spectra", SingleFlightCache(slow, 8))
+    results = Results(presets["fan-rig"])
+    results.begin(frozenset({"late_spectra", "modes"}))
+    assert scenes == []
+    results.begin(frozenset({"late_spectra", "healthy_late_spectra"}))
+    assert results.late_spectra == results.healthy_late_spectra == {}
+    assert sorted(defects for _, defects in scenes) == [False, True]
+    results.begin(frozenset({"late_spectra", "healthy_late_spectra"}))
+    assert len(scenes) == 2
+    assert any(name.startswith("beside") and not defects for name, defects in scenes)
+
+
+def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
+    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi)
+    quick, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
+    assert quick is not None
+    assert patient is not None
+    assert quick.status == patient.status == NOT_CONVERGED
+    assert quick.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
+    usual = presets["fan-rig"]
+    short = Settings(duration=0.3)  # which takes no coarser steps while a hand moves
+    found = Results(usual, moving=True, settings=short).orbit
+    assert found is not None
+    assert found.stable
+    assert Results(usual, settings=short).orbit is found
+
+
+def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi, depth=49e-6)
+    results = Results(hopeless)
+    asked: list[None] = []
+
+    def overtaken() -> bool:
+        asked.append(None)
+        return len(asked) > 40
+
+    results.seek_orbit(overtaken)
+    assert len(asked) <= 43
+    assert not orbits.knows(hopeless, results._marching)
+    results.seek_orbit(lambda: False)
+    monkeypatch.setattr("bearing_explorer.results.answers.core.orbit", None)
+    assert results.orbit is not None
+    assert results.orbit.status == NOT_CONVERGED
+    assert results.orbit.right_hand_side_calls > 100 * len(asked)
+
+
+@pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])
+def test_bands_of_frequencies_are_looked_at_coarsely_while_a_hand_moves(name: str) -> None:
+    scene = presets[name].replace(extent=math.radians(38.0))
+    moving, rested = Results(scene, moving=True), Results(scene)
+    assert moving.band_modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
+    for label, band in moving.bands.items():
+        assert band == pytest.approx(rested.bands[label], rel=0.03)
+
+
+@pytest.mark.parametrize("extent_deg", [12.9, 38.6])
+def test_a_band_is_the_same_whatever_its_curves_are_drawn_by(extent_deg: float) -> None:
+    """By a plan, by even cage angles, along a speed run: within what is written of it."""
+    scene = presets["fan-rig"].replace(extent=math.radians(extent_deg))
+    rested, planned = Results(scene), Results(scene, planned=("modes",))
+    by_hand = Results(scene, settings=Settings(cage_angles=31))
+    run = speed_run(scene, [scene.shaft_speed], duration=0.1)
+    assert planned.bands == rested.bands == by_hand.bands == run.bands
+    assert planned.chain.bands == rested.bands

@@ -1,0 +1,281 @@
+"""Bearings from drawings: contact angle and clearance are one freedom, impossible ones refused."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
+from bearingcore.bearings.drawing import WIDEST_CONFORMITY
+
+D_B, D_P = 9.525e-3, 46e-3
+DRAWING: dict[str, Any] = {
+    "n_balls": 9,
+    "ball_diameter": D_B,
+    "pitch_diameter": D_P,
+    "inner_groove_radius": 0.52 * D_B,
+    "outer_groove_radius": 0.53 * D_B,
+}
+A0 = 0.05 * D_B
+PLAY = 40e-6
+ALL = ("x", "y", "z", "rx", "ry")
+ANGLES = np.linspace(0.0, 2.0 * math.pi / 9.0, 13)
+
+
+def scene_of(bearing: Bearing, load: Load, defect: Defect | None = None) -> Scene:
+    return Scene(bearing, defect or Defect.none(), load, 100.0, presets["fan-rig"].support)
+
+
+# --- one freedom ---
+
+
+def test_clearance_alone_is_a_deep_groove_bearing() -> None:
+    bearing = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
+    assert bearing.contact_angle == 0.0
+    assert bearing.radial_clearance == PLAY / 2
+    assert bearing.diametral_play == pytest.approx(PLAY, rel=1e-14)
+    assert math.cos(bearing.free_contact_angle) == pytest.approx(1.0 - PLAY / (2.0 * A0), rel=1e-13)
+
+
+def test_contact_angle_alone_has_no_clearance_on_top() -> None:
+    angle = math.radians(25.0)
+    bearing = Bearing.from_drawing(**DRAWING, contact_angle=angle)
+    assert bearing.radial_clearance == 0.0
+    assert bearing.free_contact_angle == pytest.approx(angle, rel=1e-13)
+    assert bearing.diametral_play == pytest.approx(2.0 * A0 * (1.0 - math.cos(angle)), rel=1e-13)
+
+
+def test_each_of_angle_and_clearance_gives_the_other_back() -> None:
+    by_clearance = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
+    by_angle = Bearing.from_drawing(**DRAWING, contact_angle=by_clearance.free_contact_angle)
+    assert by_angle.diametral_play == pytest.approx(PLAY, rel=1e-13)
+    seated = by_clearance.seated()
+    assert (seated.contact_angle, seated.radial_clearance) == (by_angle.contact_angle, 0.0)
+
+
+def test_both_put_the_clearance_on_top_of_the_angle() -> None:
+    angle = math.radians(25.0)
+    bearing = Bearing.from_drawing(**DRAWING, contact_angle=angle, diametral_clearance=PLAY)
+    assert (bearing.contact_angle, bearing.radial_clearance) == (angle, PLAY / 2)
+    free = math.acos(math.cos(angle) - PLAY / 2 / A0)
+    assert bearing.free_contact_angle == pytest.approx(free, rel=1e-13)
+    assert bearing.diametral_play > PLAY
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 20.0])
+def test_play_is_how_far_the_ring_moves_sideways(angle_deg: float) -> None:
+    """One ball under a radial load pulls the grooves opposite each other by itself.
+
+    The ring then stands half the play beside the middle, and what the ball gives way further.
+    """
+    drawing = {**DRAWING, "n_balls": 1, "contact_angle": math.radians(angle_deg)}
+    bearing = Bearing.from_drawing(**drawing, diametral_clearance=PLAY)
+    load = 100.0
+    state = equilibrium(scene_of(bearing, Load(fy=-load)), [math.radians(270.0)], ("y", "z"))
+    assert state.converged[0]
+    _, y, z, _, _ = state.displacement[0]
+    pressed = (load / bearing.load_deflection_factor) ** (2.0 / 3.0)
+    assert -y == pytest.approx(0.5 * bearing.diametral_play + pressed, rel=1e-9)
+    assert -z == pytest.approx(A0 * math.sin(bearing.contact_angle), rel=1e-9, abs=1e-15)
+
+
+def test_a_tiny_clearance_keeps_its_angle() -> None:
+    """1 − cos of a small angle must not cancel: α_f → √(s/A0)."""
+    bearing = Bearing.from_drawing(**DRAWING, diametral_clearance=1e-15)
+    assert bearing.free_contact_angle == pytest.approx(math.sqrt(1e-15 / A0), rel=1e-9)
+
+
+def test_neither_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"contact_angle is None; .*diametral_clearance"):
+        Bearing.from_drawing(**DRAWING)
+
+
+LOADS = [
+    pytest.param(Load(fy=-2000.0, fz=800.0), id="radial and axial"),
+    pytest.param(Load(fx=300.0, fy=-1500.0, fz=900.0, mx=4.0, my=-2.0), id="all"),
+    pytest.param(Load(fy=-500.0, fz=-900.0), id="thrust the other way"),
+    pytest.param(Load(fy=-2000.0, fz=5.0), id="nearly radial"),
+    pytest.param(Load(fz=700.0, my=6.0), id="thrust and moment"),
+]
+
+
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("play", [10e-6, PLAY, 200e-6])
+def test_clearance_and_free_angle_are_one_bearing(load: Load, play: float) -> None:
+    """(α0 = 0, clearance) and (free angle, none): alike but for the axial origin A0 sin α_f."""
+    flat = Bearing.from_drawing(**DRAWING, diametral_clearance=play)
+    seated = flat.seated()
+    assert seated.contact_angle > 0.0
+    one = equilibrium(scene_of(flat, load), ANGLES, ALL)
+    other = equilibrium(scene_of(seated, load), ANGLES, ALL)
+    assert one.converged.all()
+    assert other.converged.all()
+    heaviest = one.ball_load.max()
+    assert np.abs(one.ball_load - other.ball_load).max() < 1e-8 * heaviest
+    shift = np.array([0.0, 0.0, A0 * math.sin(seated.contact_angle), 0.0, 0.0])
+    lever = np.array([1.0, 1.0, 1.0, flat.groove_center_radius, flat.groove_center_radius])
+    off = np.abs((one.displacement - shift - other.displacement) * lever)
+    assert off.max() < 1e-13  # m
+    diagonal = np.abs(np.diagonal(one.stiffness, axis1=1, axis2=2)).max(axis=0)
+    scale = np.sqrt(np.outer(diagonal, diagonal))
+    assert (np.abs(one.stiffness - other.stiffness) / scale).max() < 1e-7
+    same = one.ball_load > 1e-6 * heaviest
+    assert np.abs(one.contact_angle - other.contact_angle)[same].max() < 1e-7
+
+
+def test_with_a_defect_they_differ_by_the_direction_of_the_drop() -> None:
+    """The drop d acts along the unloaded line of contact, at 0 in one and at α_f in the other."""
+    load = Load(fy=-2000.0, fz=800.0)
+    defect = Defect(math.radians(30.0), 20e-6, math.radians(270.0))
+    flat = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
+    angles = [math.radians(270.0)]
+    one = equilibrium(scene_of(flat, load, defect), angles, ALL)
+    other = equilibrium(scene_of(flat.seated(), load, defect), angles, ALL)
+    heaviest = one.ball_load.max()
+    assert one.converged.all()
+    assert other.converged.all()
+    assert np.abs(one.ball_load - other.ball_load).max() > 1e-3 * heaviest
+    # the centre sinks d cos α_f instead of d, and the groove centres part by d sin α_f along z
+    sunk = np.array([20e-6, 0.0]) - 20e-6 * np.array(
+        [math.cos(flat.free_contact_angle), math.sin(flat.free_contact_angle)]
+    )
+    assert np.linalg.norm(sunk) == pytest.approx(
+        2 * 20e-6 * math.sin(0.5 * flat.free_contact_angle), rel=1e-12
+    )
+
+
+# --- what follows from the drawing ---
+
+
+def test_groove_centres_and_races_lie_where_the_drawing_puts_them() -> None:
+    """Two circles in an axial section: the ball between them touches at α0 on both sides."""
+    angle = math.radians(30.0)
+    bearing = Bearing.from_drawing(**DRAWING, contact_angle=angle)
+    u = np.array([math.cos(angle), math.sin(angle)])
+    ball = np.array([0.5 * D_P, 0.0])
+    touch_inner, touch_outer = ball - 0.5 * D_B * u, ball + 0.5 * D_B * u
+    inner = touch_inner + DRAWING["inner_groove_radius"] * u
+    outer = touch_outer - DRAWING["outer_groove_radius"] * u
+    assert bearing.groove_center_radius == pytest.approx(inner[0], rel=1e-14)
+    assert bearing.groove_center_distance == pytest.approx(np.linalg.norm(inner - outer), rel=1e-13)
+    # with α0 = 0 the bottoms of the grooves are there
+    flat = Bearing.from_drawing(**DRAWING, contact_angle=0.0)
+    bottom = flat.groove_center_radius - DRAWING["inner_groove_radius"]
+    assert flat.inner_raceway_radius == pytest.approx(bottom, rel=1e-13)
+    assert flat.outer_raceway_radius - flat.inner_raceway_radius == pytest.approx(D_B, rel=1e-13)
+
+
+def test_softer_material_is_softer_in_proportion() -> None:
+    steel = Bearing.from_drawing(**DRAWING, contact_angle=0.0)
+    soft = Bearing.from_drawing(**DRAWING, contact_angle=0.0, youngs_modulus=105e9)
+    assert soft.load_deflection_factor == pytest.approx(0.5 * steel.load_deflection_factor)
+
+
+def test_bearings_of_one_shape_scale() -> None:
+    """Twice the size: K grows as √2 (Hertz), lengths as 2."""
+    twice = {name: 2.0 * value for name, value in DRAWING.items() if name != "n_balls"}
+    small = Bearing.from_drawing(**DRAWING, contact_angle=0.4)
+    large = Bearing.from_drawing(9, **twice, contact_angle=0.4)
+    ratio = large.load_deflection_factor / small.load_deflection_factor
+    assert ratio == pytest.approx(math.sqrt(2.0), rel=1e-12)
+    assert large.groove_center_radius == pytest.approx(2.0 * small.groove_center_radius)
+
+
+CHANGES: list[dict[str, Any]] = [
+    {"ball_diameter": 9.3e-3},
+    {"pitch_diameter": 50e-3},
+    {"contact_angle": 0.5},
+    {"inner_groove_radius": 0.515 * D_B, "poisson": 0.28},
+    {"youngs_modulus": 200e9},
+    {"n_balls": 7},
+]
+
+
+@pytest.mark.parametrize("changes", CHANGES, ids=[" ".join(change) for change in CHANGES])
+def test_a_changed_dimension_redraws_the_bearing(changes: dict[str, Any]) -> None:
+    bearing = Bearing.from_drawing(**DRAWING, contact_angle=0.2)
+    expected = Bearing.from_drawing(**{**DRAWING, "contact_angle": 0.2, **changes})
+    scene = scene_of(bearing, Load(fy=-100.0, fz=50.0))
+    assert scene.replace(**changes).bearing == expected
+
+
+def test_a_changed_clearance_changes_nothing_else() -> None:
+    bearing = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
+    scene = scene_of(bearing, Load(fy=-100.0)).replace(radial_clearance=5e-6)
+    assert scene.bearing == Bearing.from_drawing(**DRAWING, diametral_clearance=10e-6)
+    assert scene.bearing.diametral_play == pytest.approx(10e-6)
+
+
+def test_a_number_set_apart_from_the_drawing_stays_in_proportion() -> None:
+    bearing = Bearing.from_drawing(
+        **DRAWING, contact_angle=0.0, groove_center_radius=0.5 * D_P
+    ).replace(load_deflection_factor=1e10)
+    same = bearing.replace(n_balls=8)
+    assert same.groove_center_radius == 0.5 * D_P
+    assert same.load_deflection_factor == 1e10
+    softer = bearing.replace(youngs_modulus=105e9)
+    assert softer.load_deflection_factor == pytest.approx(5e9)
+    assert softer.groove_center_radius == 0.5 * D_P
+
+
+def test_a_bearing_without_a_drawing_changes_field_by_field() -> None:
+    bearing = presets["fan-rig"].bearing
+    assert not bearing.is_drawn
+    changed = bearing.replace(ball_diameter=7e-3)
+    assert changed == dataclasses.replace(bearing, ball_diameter=7e-3)
+    with pytest.raises(ValueError, match="inner_groove_radius is None"):
+        bearing.race_contact("inner")
+
+
+# --- impossible drawings ---
+
+IMPOSSIBLE: list[tuple[dict[str, Any], str]] = [
+    ({"inner_groove_radius": 0.5 * D_B}, r"inner_groove_radius is 0.0047625; .*above 0.0047625"),
+    ({"outer_groove_radius": 4.7e-3}, r"outer_groove_radius is 0.0047; .*above 0.0047625"),
+    (
+        {"outer_groove_radius": 1.01 * WIDEST_CONFORMITY * D_B},
+        r"outer_groove_radius is 0.0057\d*; .*at most 0.005715",
+    ),
+    ({"n_balls": 16}, r"n_balls is 16; .*0.00897\d* m apart, the ball_diameter is 0.009525"),
+    ({"ball_diameter": 47e-3}, r"pitch_diameter is 0.046; .*above 0.047"),
+    ({"contact_angle": math.radians(81.0)}, r"contact_angle is 1.41372; .*80 degrees"),
+    ({"contact_angle": None, "diametral_clearance": 0.9e-3}, r"diametral_clearance is 0.0009; "),
+    ({"diametral_clearance": -1e-6}, r"diametral_clearance is -1e-06; .*at least 0"),
+    ({"youngs_modulus": 0.0}, r"youngs_modulus is 0; .*above 0"),
+    ({"poisson": 0.5}, r"poisson is 0.5; .*below 0.5"),
+    ({"inner_groove_radius": math.nan}, r"inner_groove_radius is nan; "),
+    ({"groove_center_radius": -1.0}, r"groove_center_radius is -1; "),
+]
+
+
+@pytest.mark.parametrize(("changes", "said"), IMPOSSIBLE, ids=[said for _, said in IMPOSSIBLE])
+def test_impossible_drawings_are_refused_with_the_numbers(
+    changes: dict[str, Any], said: str
+) -> None:
+    good = {**DRAWING, "contact_angle": 0.3}
+    Bearing.from_drawing(**good)
+    with pytest.raises(ValueError, match=said):
+        Bearing.from_drawing(**{**good, **changes})
+
+
+def test_the_largest_clearance_ends_at_80_degrees() -> None:
+    most = 2.0 * A0 * (1.0 - math.cos(math.radians(80.0)))
+    bearing = Bearing.from_drawing(**DRAWING, diametral_clearance=0.999999 * most)
+    assert math.degrees(bearing.seated().contact_angle) == pytest.approx(80.0, abs=1e-3)
+    with pytest.raises(ValueError, match="free contact angle above 80 degrees"):
+        Bearing.from_drawing(**DRAWING, diametral_clearance=1.000001 * most)
+
+
+def test_a_ring_that_slips_through_has_no_free_angle() -> None:
+    bearing = presets["fan-rig"].bearing.replace(radial_clearance=60e-6)
+    with pytest.raises(ValueError, match=r"radial_clearance is 6e-05; allowed: at most 5e-05 m"):
+        _ = bearing.free_contact_angle
+
+
+def test_a_drawing_known_in_part_is_refused() -> None:
+    with pytest.raises(ValueError, match="outer_groove_radius is None"):
+        presets["fan-rig"].bearing.replace(inner_groove_radius=4.2e-3)

@@ -1,0 +1,208 @@
+"""Hertzian contact against the integrals it comes from, and against a commercial code."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
+from bearingcore.bearings.hertz import in_series, race_contact
+
+D_B, D_P = 11.5e-3, 43.5e-3
+STEEL = (210e9, 0.3)
+PER_MM = 10.0**-4.5
+"""N/mm^1.5 in one N/m^1.5."""
+
+COMMERCIAL = 5e-5
+"""Relative tolerance to which the published values of the commercial code are to be met."""
+
+GROOVES = [
+    pytest.param(race, conformity, D_p, angle, id=f"{race} {conformity} {D_p} {angle}")
+    for race in ("inner", "outer")
+    for conformity, D_p, angle in (
+        (0.505, D_P, 0.0),
+        (0.52, D_P, 0.0),
+        (0.53, 3.0 * D_B, 0.7),
+        (0.6, 40.0 * D_B, 0.3),
+        (0.5 + 1e-9, D_P, 0.0),
+    )
+]
+every_groove = pytest.mark.parametrize(("race", "conformity", "D_p", "angle"), GROOVES)
+
+
+def principal_curvatures(
+    race: str, conformity: float, D_p: float, angle: float
+) -> tuple[mpmath.mpf, mpmath.mpf]:
+    """Relative curvatures (along the rolling, across it) of ball and race, from their radii."""
+    D_b, r = mpmath.mpf(D_B), mpmath.mpf(conformity * D_B)
+    to_axis = mpmath.mpf(D_p) / 2 / mpmath.cos(mpmath.mpf(angle))  # along the line of contact
+    around = 1 / (to_axis - D_b / 2) if race == "inner" else -1 / (to_axis + D_b / 2)
+    return 2 / D_b + around, 2 / D_b - 1 / r
+
+
+@every_groove
+def test_contact_fulfils_hertz_integrals(
+    race: str, conformity: float, D_p: float, angle: float
+) -> None:
+    """Half ellipsoid of pressure on half-spaces: both curvatures and the approach come out.
+
+    Displacement of the surfaces under p = p0 √(1 − x²/a² − y²/b²) (Hertz 1882, Love 1944):
+    δ − A x² − B y² = (1 − ν²)/E · 3Q/(2π) · ∫ (1 − x²/(a²+w) − y²/(b²+w)) dw / √((a²+w)(b²+w)w),
+    with A and B half the relative curvatures; no elliptic integral is used here.
+    """
+    load = 1234.0
+    contact = race_contact(race, D_B, D_p, conformity * D_B, angle, *STEEL)
+    a, b = (mpmath.mpf(float(x)) for x in contact.semi_axes(load))
+    with mpmath.workdps(40):
+        along, across = principal_curvatures(race, conformity, D_p, angle)
+        E, nu = map(mpmath.mpf, STEEL)
+        factor = (1 - nu**2) / E * 3 * mpmath.mpf(load) / (2 * mpmath.pi)
+
+        def integral(p: int, q: int) -> mpmath.mpf:
+            """∫ dw / ((a²+w)^p (b²+w)^q √((a²+w)(b²+w)w)), with w = a² u², u = e^t."""
+            k2 = (b / a) ** 2
+
+            def part(t: mpmath.mpf) -> mpmath.mpf:
+                u = mpmath.exp(t)
+                w = u * u
+                below = (1 + w) ** (p + mpmath.mpf(1) / 2) * (k2 + w) ** (q + mpmath.mpf(1) / 2)
+                return 2 * u / below
+
+            points = [mpmath.mpf(x) for x in (-100, -40, -20, -10, -5, 0, 5, 10, 40, 100)]
+            return mpmath.quad(part, points) * a ** (-1 - 2 * p - 2 * q)
+
+        assert float(factor * integral(1, 0) / (across / 2)) == pytest.approx(1.0, abs=2e-10)
+        assert float(factor * integral(0, 1) / (along / 2)) == pytest.approx(1.0, abs=1e-13)
+        approach = factor * integral(0, 0)
+        K = load / approach ** mpmath.mpf("1.5")
+    assert contact.load_deflection_factor == pytest.approx(float(K), rel=1e-13)
+    assert contact.curvature_sum == pytest.approx(float(along + across), rel=1e-14)
+
+
+@every_groove
+def test_ellipse_ratio_at_high_precision(
+    race: str, conformity: float, D_p: float, angle: float
+) -> None:
+    """χ of 1 − 2/(χ²−1)·(K/E − 1) = F(ρ), solved with 40 digits."""
+    contact = race_contact(race, D_B, D_p, conformity * D_B, angle, *STEEL)
+    with mpmath.workdps(40):
+        along, across = principal_curvatures(race, conformity, D_p, angle)
+        F = (along - across) / (along + across)
+
+        def off(chi: mpmath.mpf) -> mpmath.mpf:
+            m = 1 - 1 / chi**2
+            ratio = mpmath.ellipk(m) / mpmath.ellipe(m)
+            return mpmath.log(2 / (chi**2 - 1) * (ratio - 1) / (1 - F))
+
+        guess = contact.ellipse_ratio
+        chi = mpmath.findroot(off, (guess * (1 - 1e-6), guess * (1 + 1e-6)))
+        m = 1 - 1 / chi**2
+        first, second = mpmath.ellipk(m), mpmath.ellipe(m)
+        E, nu = map(mpmath.mpf, STEEL)
+        K = mpmath.pi / mpmath.sqrt(4.5) * chi * E / (1 - nu**2)
+        K *= mpmath.sqrt(second / ((along + across) * first**3))
+    assert contact.ellipse_ratio == pytest.approx(float(chi), rel=1e-13)
+    assert contact.curvature_difference == pytest.approx(float(F), rel=1e-14)
+    assert contact.load_deflection_factor == pytest.approx(float(K), rel=1e-13)
+
+
+def test_a_groove_as_round_as_the_race_makes_a_circle() -> None:
+    """Where both curvatures are equal the contact is a circle: χ = 1, K as of two spheres.
+
+    There Q = 4/3 E* √R δ^1.5 with 1/E* = 2(1 − ν²)/E.
+    """
+    R_o = 0.5 * (D_P + D_B)
+    contact = race_contact("outer", D_B, D_P, R_o * (1.0 - 1e-12), 0.0, *STEEL)
+    E, nu = STEEL
+    sphere = 4.0 / 3.0 * E / (2.0 * (1.0 - nu**2)) / math.sqrt(2.0 / D_B - 1.0 / R_o)
+    assert contact.ellipse_ratio == pytest.approx(1.0, abs=1e-6)
+    assert contact.load_deflection_factor == pytest.approx(sphere, rel=1e-9)
+
+
+@every_groove
+def test_pressure_carries_the_load(race: str, conformity: float, D_p: float, angle: float) -> None:
+    """The half ellipsoid's volume 2/3 π a b p is the load."""
+    contact = race_contact(race, D_B, D_p, conformity * D_B, angle, *STEEL)
+    load = np.array([0.1, 10.0, 5000.0])
+    a, b = contact.semi_axes(load)
+    volume = 2.0 / 3.0 * math.pi * a * b * contact.greatest_pressure(load)
+    assert volume == pytest.approx(load, rel=1e-13)
+    assert np.all(a >= b)
+
+
+def test_no_load_no_pressure() -> None:
+    contact = race_contact("inner", D_B, D_P, 0.52 * D_B, 0.0, *STEEL)
+    assert contact.greatest_pressure(0.0) == 0.0
+
+
+def test_two_springs_in_series_share_one_load() -> None:
+    inner, outer, load = 3e10, 2e10, 700.0
+    approach = (load / inner) ** (2.0 / 3.0) + (load / outer) ** (2.0 / 3.0)
+    assert in_series(inner, outer) * approach**1.5 == pytest.approx(load, rel=1e-14)
+
+
+def test_a_groove_tighter_than_the_ball_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"inner_groove_radius is 0.0057; .*0.00575 m"):
+        race_contact("inner", D_B, D_P, 5.7e-3, 0.0, *STEEL)
+
+
+def test_a_groove_wider_than_its_race_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"outer_groove_radius is 0.03; .*below 0.0275 m"):
+        race_contact("outer", D_B, D_P, 30e-3, 0.0, *STEEL)
+
+
+# --- a commercial code, values published in the repository minzhun/ISO16281 ---
+
+
+def commercial(clearance_mm: float) -> Bearing:
+    return Bearing.from_drawing(
+        n_balls=7,
+        ball_diameter=D_B,
+        pitch_diameter=D_P,
+        inner_groove_radius=0.52 * D_B,
+        outer_groove_radius=0.53 * D_B,
+        diametral_clearance=clearance_mm * 1e-3,
+        youngs_modulus=STEEL[0],
+        poisson=STEEL[1],
+        groove_center_radius=0.5 * D_P,
+    )
+
+
+def displaced(clearance_mm: float, load: Load) -> np.ndarray:
+    """Displacement [m, rad] at a load along y, with a ball on that line (at 270°)."""
+    scene = Scene(commercial(clearance_mm), Defect.none(), load, 1.0, presets["fan-rig"].support)
+    answer = equilibrium(scene, [math.radians(270.0)], ("x", "y", "z", "rx", "ry"))
+    assert answer.residual[0] < 1e-9
+    return answer.displacement[0]
+
+
+def test_commercial_load_deflection_factors() -> None:
+    bearing = commercial(0.0)
+    for race, expected in (("inner", 971_990.0), ("outer", 916_453.0)):
+        factor = bearing.race_contact(race).load_deflection_factor
+        assert factor * PER_MM == pytest.approx(expected, rel=COMMERCIAL)
+    together = bearing.load_deflection_factor * PER_MM
+    assert together == pytest.approx(333_592.0, rel=COMMERCIAL)
+
+
+@pytest.mark.parametrize(("clearance_mm", "expected_um"), [(0.0, 15.1101), (0.01, 21.2230)])
+def test_commercial_radial_displacement(clearance_mm: float, expected_um: float) -> None:
+    y = displaced(clearance_mm, Load(fy=-1000.0))[1]
+    assert -y * 1e6 == pytest.approx(expected_um, rel=COMMERCIAL)
+
+
+def test_commercial_axial_displacement() -> None:
+    z = displaced(0.0, Load(fz=1000.0))[2]
+    assert z * 1e6 == pytest.approx(133.5381, rel=COMMERCIAL)
+
+
+def test_commercial_tilt() -> None:
+    """The moment's vector along y: the ball on its line does not feel the tilt.
+
+    With the ball where the tilt is felt most (moment along x) it is 3.6952 mrad.
+    """
+    tilt = displaced(0.0, Load(my=1.0))[4]
+    assert tilt * 1e3 == pytest.approx(3.6957, rel=COMMERCIAL)

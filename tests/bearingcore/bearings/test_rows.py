@@ -1,0 +1,299 @@
+"""Rows of balls, self-aligning bearings and rollers: other numbers, not other code."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import Bearing, Defect, Scene, equilibrium, modes, orbit, presets, simulate
+from bearingcore.bearings.hertz import spherical_contact
+from bearingcore.bearings.rows import Row
+from bearingcore.common.table import FACTORS
+from bearingcore.scene import packing
+from bearingcore.statics.passes import crossings
+
+LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
+UNLOADED = LIEW_LIM.replace(fy=0.0, fz=0.0, extent=0.0)
+LOW_HIGH = {"face-to-face": 15_157.0, "back-to-back": 147_945.0}
+
+
+def preloaded(bearing: Bearing, by: float) -> Bearing:
+    """All rows with a radial clearance of −by [m]."""
+    clearance = -by - bearing.radial_clearance
+    rows = tuple(dataclasses.replace(row, clearance=clearance) for row in bearing.rows)
+    return dataclasses.replace(bearing, rows=rows)
+
+
+@pytest.mark.parametrize("arrangement", list(LOW_HIGH))
+def test_pairs_have_the_stiffness_that_an_independent_program_found(arrangement: str) -> None:
+    pair = preloaded(LIEW_LIM.bearing.paired(16e-3, arrangement), 5e-6)
+    state = equilibrium(UNLOADED.replace(bearing=pair), [0.0, 0.07])
+    assert state.converged.all()
+    assert state.term("k_yy") == pytest.approx(437.4e6, rel=1e-4)
+    assert state.term("k_rxrx") == pytest.approx(LOW_HIGH[arrangement], rel=1e-4)
+    assert np.abs(state.term("k_yrx")).max() < 1e-9 * state.term("k_yy").max()
+
+
+def test_a_single_row_at_the_middle_is_the_bearing_itself() -> None:
+    one = LIEW_LIM.replace(bearing=dataclasses.replace(LIEW_LIM.bearing, rows=(Row(),)))
+    ours, theirs = equilibrium(one), equilibrium(LIEW_LIM)
+    np.testing.assert_array_equal(ours.ball_load, theirs.ball_load)
+    np.testing.assert_array_equal(ours.stiffness, theirs.stiffness)
+
+
+def test_two_rows_in_tandem_carry_half_the_load_each() -> None:
+    tandem = LIEW_LIM.bearing.paired(0.0, "tandem")
+    load = LIEW_LIM.load
+    double = LIEW_LIM.replace(bearing=tandem, fy=2.0 * load.fy, fz=2.0 * load.fz)
+    ours, theirs = equilibrium(double, [0.0, 0.2]), equilibrium(LIEW_LIM, [0.0, 0.2])
+    for row in (slice(0, 12), slice(12, 24)):
+        np.testing.assert_allclose(ours.ball_load[:, row], theirs.ball_load, rtol=1e-10, atol=1e-9)
+    np.testing.assert_allclose(ours.displacement, theirs.displacement, rtol=1e-10, atol=1e-17)
+    np.testing.assert_allclose(
+        ours.stiffness, 2.0 * theirs.stiffness, rtol=1e-10, atol=1e-10 * ours.stiffness.max()
+    )
+
+
+def test_rows_far_apart_move_as_rigid_geometry_says() -> None:
+    """A moment about x on rows ±z apart, without contact angle: ± load pairs, no sideways move."""
+    wide = dataclasses.replace(FAN_RIG.bearing, rows=(Row(-0.5), Row(0.5)))
+    tight = preloaded(wide, 4e-6)
+    scene = FAN_RIG.replace(bearing=tight, fy=0.0, mx=100.0, extent=0.0, dofs=("x", "y", "rx"))
+    state = equilibrium(scene, [0.0])
+    moment = 0.0
+    for row, place in ((slice(0, 14), -0.5), (slice(14, 28), 0.5)):
+        push = (state.ball_load[0, row] * np.sin(state.ball_angle[0, row])).sum()
+        moment -= push * place  # y-force times z turns about −x
+    # contacts lean by a compression over A0, and with it takes the rest
+    assert moment == pytest.approx(100.0, rel=3e-4)
+    assert abs(state.displacement[0, 1]) < 1e-12
+
+
+def test_a_preload_by_distance_presses_both_rows_and_not_in_tandem() -> None:
+    for arrangement in LOW_HIGH:
+        pair = LIEW_LIM.bearing.paired(16e-3, arrangement, preload=8e-6)
+        state = equilibrium(UNLOADED.replace(bearing=pair), [0.0])
+        assert state.converged.all()
+        assert state.ball_load.min() > 10.0
+        np.testing.assert_allclose(state.ball_load, state.ball_load[0, 0], rtol=1e-9)
+    with pytest.raises(ValueError, match="preload"):
+        LIEW_LIM.bearing.paired(16e-3, "tandem", preload=8e-6)
+    with pytest.raises(ValueError, match="arrangement is 'side by side'"):
+        LIEW_LIM.bearing.paired(16e-3, "side by side")
+
+
+def test_the_axial_preload_is_the_push_between_two_single_bearings() -> None:
+    """Each half of a pair, held axially by half the preload, carries the same as the pair."""
+    pair = LIEW_LIM.bearing.paired(16e-3, "back-to-back", preload=8e-6)
+    together = equilibrium(UNLOADED.replace(bearing=pair), [0.0])
+    axial = together.ball_load[0, :12] @ np.sin(together.contact_angle[0, :12])
+    alone = equilibrium(UNLOADED.replace(fz=axial), [0.0])
+    assert alone.displacement[0, 2] == pytest.approx(4e-6, rel=1e-9)
+
+
+def test_turning_a_self_aligning_bearing_moves_no_ball() -> None:
+    bearing = Bearing.self_aligning(12, 7.94e-3, 20e-3, 4.13e-3, math.radians(12.0))
+    stiff = []
+    for by in (5e-6, 1e-6):
+        tight = preloaded(bearing, by)
+        state = equilibrium(UNLOADED.replace(bearing=tight), [0.0])
+        lever = tight.groove_center_radius
+        share = state.term("k_rxrx")[0] / (lever**2 * state.term("k_yy")[0])
+        left = (state.ball_load.sum() * tight.groove_center_distance) / (
+            lever**2 * state.term("k_yy")[0]
+        )
+        assert share < 0.5 * left  # what linearised rotations leave: of the order of Σ Q A0
+        stiff.append(share)
+    assert stiff[0] == pytest.approx(5.0 * stiff[1], rel=0.01)  # and falls with the preload
+    assert stiff[0] < 3e-4
+
+
+def test_a_ball_in_a_sphere_is_hertz_for_two_spheres() -> None:
+    D, R, E, nu = 8e-3, 20e-3, 210e9, 0.3
+    radius = 1.0 / (2.0 / D - 1.0 / R)
+    expected = 4.0 / 3.0 * E / (2.0 * (1.0 - nu**2)) * math.sqrt(radius)
+    assert spherical_contact(D, R, E, nu).load_deflection_factor == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("n", [6, 9])
+def test_stiffness_of_pairs_is_the_slope_of_their_loads(n: int) -> None:
+    pair = LIEW_LIM.bearing.replace(n_balls=n).paired(14e-3, "back-to-back", preload=6e-6)
+    scene = LIEW_LIM.replace(bearing=pair, fx=150.0, mx=3.0, my=-2.0)
+    state = equilibrium(scene, [0.11])
+    K = state.stiffness[0]
+    assert np.linalg.eigvalsh(K / np.sqrt(np.outer(K.diagonal(), K.diagonal()))).min() > 0.0
+    for i, name in enumerate(("fx", "fy", "fz", "mx", "my")):
+        step = 1e-3 * (1.0 if name.startswith("f") else 0.01)
+        value = getattr(scene.load, name)
+        high, low = (
+            equilibrium(scene.replace(**{name: value + s}), [0.11]).displacement[0]
+            for s in (step, -step)
+        )
+        push = K @ ((high - low) / (2.0 * step))
+        np.testing.assert_allclose(push, np.eye(5)[i], atol=2e-5)
+
+
+def test_a_defect_in_one_row_is_met_by_its_balls_alone() -> None:
+    pair = LIEW_LIM.bearing.paired(16e-3, "back-to-back", preload=6e-6)
+    both = LIEW_LIM.replace(bearing=pair, fz=0.0)
+    defect = LIEW_LIM.defect
+    assert isinstance(defect, Defect)
+    lower = both.replace(defect=dataclasses.replace(defect, row=0))
+    upper = both.replace(defect=dataclasses.replace(defect, row=1))
+    first, second = equilibrium(lower, [0.1]), equilibrium(upper, [0.1])
+    np.testing.assert_allclose(
+        first.ball_load[0, :12], second.ball_load[0, 12:], rtol=1e-8, atol=1e-6
+    )
+    assert not np.allclose(first.ball_load[0, :12], first.ball_load[0, 12:], rtol=0.01)
+    assert {crossing.ball // 12 for crossing in crossings(upper, 0.0, 1.0)} == {1}
+    with pytest.raises(ValueError, match="row of a defect is 2"):
+        both.replace(defect=dataclasses.replace(defect, row=2))
+
+
+def test_rows_move_and_come_back_from_files() -> None:
+    pair = LIEW_LIM.bearing.paired(16e-3, "face-to-face", preload=4e-6)
+    scene = LIEW_LIM.replace(bearing=pair)
+    motion = simulate(scene, 0.02, ball_loads=True)
+    assert motion.completed
+    assert motion.ball_load is not None
+    assert motion.ball_load.shape[1] == 24
+    assert len(modes(scene).bands()) == 10
+    assert Scene.from_toml(scene.to_toml()) == scene
+    assert orbit(scene).period > 0.0
+
+
+def test_half_a_spacing_between_rows_doubles_the_ball_pass_of_the_pair() -> None:
+    spacing = FAN_RIG.bearing.ball_spacing
+    rows = (Row(), Row(turn=0.5 * spacing))
+    both = FAN_RIG.replace(bearing=dataclasses.replace(FAN_RIG.bearing, rows=rows))
+    angles = np.linspace(0.0, spacing, 41)
+    load = equilibrium(both, angles).displacement[:, 1]
+    np.testing.assert_allclose(load[:21], load[20:], rtol=1e-8)
+
+
+ROLLERS = Bearing.cylindrical(12, 10e-3, 10e-3, 50e-3)
+
+
+def test_one_and_two_loaded_rollers_follow_palmgren() -> None:
+    """Q = 8.06e4 l^(8/9) δ^(10/9), N and mm; straight below, or half a spacing to either side."""
+    K = 8.06e4 * 10.0 ** (8.0 / 9.0)
+    loose = dataclasses.replace(ROLLERS, radial_clearance=20e-6)  # neighbours stay free
+    scene = FAN_RIG.replace(bearing=loose, extent=0.0, fy=-100.0)
+    below = equilibrium(scene, [math.radians(270.0)])
+    assert (below.ball_load > 0.0).sum() == 1
+    mm = (100.0 / K) ** 0.9
+    assert -below.displacement[0, 1] == pytest.approx(20e-6 + 1e-3 * mm, rel=1e-9)
+    beside = equilibrium(scene, [math.radians(270.0) + 0.5 * ROLLERS.ball_spacing])
+    assert (beside.ball_load > 0.0).sum() == 2
+    lean = math.cos(0.5 * ROLLERS.ball_spacing)
+    mm = (50.0 / lean / K) ** 0.9
+    assert -beside.displacement[0, 1] == pytest.approx((20e-6 + 1e-3 * mm) / lean, rel=1e-9)
+    assert FACTORS["m", "mm"] * mm < 1.0
+
+
+def test_rollers_share_a_load_as_harris_says() -> None:
+    """J_r(0.5) = 0.2453 without clearance: heaviest roller F/(Z J_r), many rollers."""
+    many = Bearing.cylindrical(60, 2e-3, 2e-3, 50e-3)
+    state = equilibrium(FAN_RIG.replace(bearing=many, extent=0.0, fy=-3000.0), [0.0])
+    assert 3000.0 / (60.0 * state.ball_load.max()) == pytest.approx(0.2453, rel=4e-3)
+
+
+def test_rollers_carry_radial_loads_only_and_say_so() -> None:
+    scene = FAN_RIG.replace(bearing=ROLLERS, depth=20e-6)
+    assert scene.active_dofs == ("x", "y")
+    assert simulate(scene, 0.02).completed
+    with pytest.raises(ValueError, match="cylindrical rollers carry radial loads only"):
+        scene.replace(fz=10.0)
+    with pytest.raises(ValueError, match="x and y, where the bearing has rollers"):
+        scene.replace(dofs=("x", "y", "z"))
+    assert Scene.from_toml(scene.to_toml()) == scene
+
+
+def test_contacts_are_packed_row_after_row() -> None:
+    pair = LIEW_LIM.bearing.paired(16e-3, "back-to-back")
+    every = packing.contacts(pair)
+    assert every.rows.tolist() == [[0, 12], [12, 12]]
+    assert np.all(every.line_z[:12] == -every.line_z[12:])
+    assert every.line_z[0] > 0.0 > every.arm[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"facing": 0}, "facing of a row is 0; allowed: 1 or -1"),
+        ({"place": math.inf}, "place of a row"),
+        ({"clearance": 1.0}, "clearance of a row"),
+    ],
+)
+def test_rows_refuse_what_cannot_be(change: dict, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        Row(**change)
+
+
+@pytest.mark.parametrize("arrangement", ["back-to-back", "face-to-face", "tandem"])
+def test_a_pair_knows_how_it_stands_and_can_be_moved(arrangement: str) -> None:
+    preload = 0.0 if arrangement == "tandem" else 6e-6
+    pair = LIEW_LIM.bearing.paired(16e-3, arrangement, preload)
+    assert pair.arrangement == arrangement
+    assert (pair.row_distance, pair.preload) == (pytest.approx(16e-3), pytest.approx(preload))
+    assert pair.total_balls == 24
+    assert pair.respaced(20e-3) == LIEW_LIM.bearing.paired(20e-3, arrangement, preload)
+    if preload:
+        assert pair.respaced(preload=2e-6) == LIEW_LIM.bearing.paired(16e-3, arrangement, 2e-6)
+    assert LIEW_LIM.bearing.arrangement == ""
+    with pytest.raises(ValueError, match="two rows that stand as a pair"):
+        LIEW_LIM.bearing.respaced(20e-3)
+
+
+def test_a_self_aligning_bearing_carries_its_contacts() -> None:
+    """Groove radius and modulus come back from its numbers; contacts in series make K."""
+    made = Bearing.self_aligning(
+        12, 7.94e-3, 20e-3, 4.13e-3, math.radians(12.0), youngs_modulus=205e9
+    )
+    assert made.is_self_aligning
+    assert made.arrangement == ""
+    assert made.sphere_groove == pytest.approx(4.13e-3, rel=1e-12)
+    inner = made.race_contact("inner")
+    assert inner.youngs_modulus == pytest.approx(205e9, rel=1e-9)
+    factors = made.race_factors
+    assert factors[0] == pytest.approx(inner.load_deflection_factor, rel=1e-9)
+    assert factors[1] == pytest.approx(
+        spherical_contact(7.94e-3, 20e-3, 205e9, 0.3).load_deflection_factor, rel=1e-9
+    )
+    assert sum(made.race_distances) == pytest.approx(made.groove_center_distance)
+    assert made.race_distances[1] == pytest.approx(20e-3 - 3.97e-3)
+    assert not LIEW_LIM.bearing.is_self_aligning
+    assert not LIEW_LIM.bearing.paired(16e-3, "face-to-face").is_self_aligning
+    scene = FAN_RIG.replace(bearing=made, depth=20e-6)
+    assert scene.active_dofs == ("x", "y", "z")
+
+
+def test_pressure_of_a_roller_is_that_of_hertz() -> None:
+    """The load is the pressure over the contact's half ellipse, and b is that of the textbook."""
+    contact = ROLLERS.race_contact("inner")
+    a, b = contact.semi_axes(1000.0)
+    p = contact.greatest_pressure(1000.0)
+    assert float(a) == pytest.approx(5e-3)
+    assert float(0.5 * math.pi * p * b * 2.0 * a) == pytest.approx(1000.0)
+    radius = 1.0 / (1.0 / 5e-3 + 1.0 / 20e-3)  # roller on the inner race of 20 mm
+    E = 210e9 / (2.0 * (1.0 - 0.3**2))
+    assert float(b) == pytest.approx(math.sqrt(4.0 * 1000.0 * radius / (math.pi * 10e-3 * E)))
+    assert ROLLERS.race_contact("outer").greatest_pressure(1000.0) < p
+    assert float(contact.semi_axes(0.0)[0]) == float(contact.semi_axes(0.0)[1]) == 0.0
+
+
+def test_rollers_follow_their_dimensions_and_never_become_balls() -> None:
+    longer = ROLLERS.replace(roller_length=20e-3, pitch_diameter=60e-3)
+    assert longer == Bearing.cylindrical(12, 10e-3, 20e-3, 60e-3)
+    with pytest.raises(ValueError, match="roller_length"):
+        ROLLERS.replace(roller_length=None)
+    with pytest.raises(ValueError, match="roller_length"):
+        FAN_RIG.bearing.replace(roller_length=10e-3)
+
+
+def test_a_self_aligning_bearing_has_no_length_of_rollers() -> None:
+    with pytest.raises(ValueError, match=r"roller_length is 0\.01"):
+        presets["1208"].bearing.replace(roller_length=0.01)

@@ -1,0 +1,490 @@
+"""Rows with balls and dimensions of their own: by what each row is and carries alone."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bearingcore import (
+    Bearing,
+    Load,
+    Recording,
+    Scene,
+    contact_pressures,
+    diagnose,
+    dynamic_load_rating,
+    equilibrium,
+    film,
+    life,
+    limits,
+    modes,
+    orbit,
+    presets,
+    simulate,
+    size_defect,
+    stiffness_maps,
+)
+from bearingcore.bearings.drawing import Derived
+from bearingcore.bearings.rows import Row
+from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.dynamics.orbit import NO_PERIOD, common_ball_passes
+from bearingcore.plan.cage_angles import place
+from bearingcore.scene import packing
+from bearingcore.statics.ball_positions import ball_positions, static_state
+from bearingcore.statics.equilibrium import default_cage_angles
+from bearingcore.statics.film import rolling_speed
+from bearingcore.statics.life import race_ratings
+from bearingcore.statics.passes import ball_drop, crossings, drops_now
+from tests.helpers.random_rows import Contacts, Long
+from tests.two_contacts import TwoContacts
+
+ONE = presets["7208-25deg"]
+STEEP = math.radians(40.0)
+
+
+def with_rows(*rows: Row) -> Scene:
+    return ONE.replace(bearing=dataclasses.replace(ONE.bearing, rows=rows))
+
+
+UNLIKE = with_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP))
+OWN = {"n_balls": 11, "ball_diameter": 10e-3, "pitch_diameter": 55e-3}
+BALLS = with_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP, **OWN))  # type: ignore[arg-type]
+SMALL = Bearing.from_drawing(11, 10e-3, 55e-3, 5.2e-3, 5.3e-3, contact_angle=STEEP)
+both = pytest.mark.parametrize("scene", [UNLIKE, BALLS], ids=["angles", "balls"])
+
+
+def test_a_row_of_the_bearings_own_angle_is_as_if_none_were_given() -> None:
+    angle = ONE.bearing.contact_angle
+    n, ball = ONE.bearing.n_balls, ONE.bearing.ball_diameter
+    told = with_rows(
+        Row(-9e-3, -1, contact_angle=angle, n_balls=n), Row(9e-3, ball_diameter=ball)
+    ).replace(extent=0.2)
+    plain = with_rows(Row(-9e-3, -1), Row(9e-3)).replace(extent=0.2)
+    assert told.bearing.rows_are_alike
+    assert not UNLIKE.bearing.rows_are_alike
+    assert told.bearing.of_row(1) is told.bearing
+    one, other = equilibrium(told), equilibrium(plain)
+    for name in ("displacement", "ball_load", "stiffness"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    assert life(told, 4e4).million_revolutions == life(plain, 4e4).million_revolutions
+    fewer = told.replace(n_balls=n - 1).bearing
+    assert fewer.of_row(0).n_balls == n, "what is a row's own stays, whatever the bearing's is"
+
+
+def test_what_follows_from_the_angle_follows_for_the_row() -> None:
+    bearing = UNLIKE.bearing
+    steep = ONE.bearing.replace(contact_angle=STEEP)
+    assert bearing.of_row(0) == dataclasses.replace(bearing, rows=()) == ONE.bearing
+    assert bearing.of_row(1) == steep
+    contacts, n = packing.contacts(bearing), bearing.n_balls
+    assert contacts.line_r[n] == math.cos(STEEP)
+    assert contacts.line_z[0] == -math.sin(bearing.contact_angle)
+    assert contacts.factor[n] == steep.load_deflection_factor != contacts.factor[0]
+    lever = bearing.groove_center_radius
+    assert contacts.reach[n] * lever == pytest.approx(steep.groove_center_radius)
+    assert steep.bpfo(10.0) > bearing.bpfo(10.0), "its cage turns faster"
+
+
+def test_a_row_of_other_balls_is_a_bearing_of_them() -> None:
+    bearing = BALLS.bearing
+    assert bearing.of_row(1).n_balls == SMALL.n_balls == 11
+    for name in (*Derived._fields, "inner_groove_radius", "outer_groove_radius"):
+        assert getattr(bearing.of_row(1), name) == pytest.approx(getattr(SMALL, name), rel=1e-12)
+    assert bearing.balls_of_rows == (slice(0, 14), slice(14, 25))
+    assert bearing.total_balls == 25
+    assert bearing.row_of_ball(13) == (0, 13)
+    assert bearing.row_of_ball(14) == (1, 0)
+    assert bearing.of_row(1).bpfo(10.0) == pytest.approx(SMALL.bpfo(10.0), rel=1e-12)
+    assert bearing.pace(1) == pytest.approx(SMALL.cage_ratio / bearing.cage_ratio, rel=1e-12)
+    assert bearing.n_balls == 14
+    assert bearing.ball_spacing == pytest.approx(2.0 * math.pi / 14)
+    assert bearing.period == 2.0 * math.pi, "its cages never come back together"
+    wider = with_rows(Row(), Row(ball_diameter=10e-3, inner_groove_radius=5.4e-3)).bearing
+    assert wider.of_row(1).inner_groove_radius == 5.4e-3
+    heavier = BALLS.replace(load_deflection_factor=2.0 * bearing.load_deflection_factor).bearing
+    assert heavier.of_row(1).load_deflection_factor == pytest.approx(
+        2.0 * SMALL.load_deflection_factor, rel=1e-12
+    ), "a factor set apart from the drawing keeps its proportion in each row"
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        (Row(n_balls=40), "row 2: n_balls is 40"),
+        (Row(ball_diameter=70e-3), "row 2: ball_diameter is 0.07"),
+        (Row(inner_groove_radius=5e-3), "row 2: inner_groove_radius"),
+    ],
+)
+def test_rows_that_cannot_be_built_are_named(row: Row, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        with_rows(Row(), row)
+
+
+def test_nothing_follows_from_dimensions_without_a_drawing() -> None:
+    bearing = presets["liew-lim"].bearing
+    fewer = dataclasses.replace(bearing, rows=(Row(-8e-3, -1), Row(8e-3, 1, n_balls=9)))
+    assert fewer.period == pytest.approx(2.0 * math.pi / 3.0)
+    with pytest.raises(ValueError, match=r"row 2: ball_diameter of a row .* groove radii"):
+        dataclasses.replace(bearing, rows=(Row(), Row(ball_diameter=5e-3)))
+
+
+@pytest.mark.parametrize("balls", ["massless", "with mass"])
+def test_rows_with_every_number_of_their_own_are_the_bearing_of_those_numbers(balls: str) -> None:
+    """At rest and in motion, although cages and tilts are counted in other units."""
+    own: dict[str, Any] = {
+        name: getattr(SMALL, name)
+        for name in (*OWN, "contact_angle", "inner_groove_radius", "outer_groove_radius")
+    }
+    rows = (Row(-9e-3, -1, offset=-3e-6), Row(9e-3, 1, offset=3e-6, turn=0.2))
+    plain = ONE.replace(
+        bearing=dataclasses.replace(SMALL, rows=rows), balls=balls, contact_damping=120.0,
+        extent=0.3, dofs=("x", "y", "z", "rx", "ry"), race="inner", edge="exact",
+        load=Load(200.0, -2000.0, 500.0, 8.0, -5.0),
+    )  # fmt: skip
+    bearing = dataclasses.replace(
+        ONE.bearing, rows=tuple(dataclasses.replace(row, **own) for row in rows)
+    )
+    told = plain.replace(bearing=bearing)
+    pace = bearing.pace(0)
+    assert bearing.pace(1) == pace != 1.0
+    assert bearing.period * pace == pytest.approx(SMALL.ball_spacing)
+    angles = np.array([0.0, 0.1, 2.0])
+    one, other = static_state(plain, angles * pace), static_state(told, angles)
+    np.testing.assert_allclose(other.ball_load, one.ball_load, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(other.displacement, one.displacement, rtol=1e-8, atol=1e-15)
+    scale = np.sqrt(np.einsum("nii,njj->nij", one.stiffness, one.stiffness))
+    assert np.abs((other.stiffness - one.stiffness) / scale).max() < 1e-9
+    marched = [simulate(scene, 2e-3, 65536.0, step_rate=8 * 65536.0) for scene in (plain, told)]
+    assert all(motion.completed for motion in marched)
+    a, b = (motion.outer_acceleration for motion in marched)
+    assert np.abs(a).max() > 1.0
+    np.testing.assert_allclose(b, a, rtol=0.0, atol=1e-6 * np.abs(a).max())
+    one_load, other_load = (motion.ball_loads() for motion in marched)
+    np.testing.assert_allclose(other_load, one_load, rtol=1e-7, atol=1e-4)
+
+
+def test_rows_far_apart_carry_what_is_hung_on_each() -> None:
+    """Ten metres either way the shaft's tilt turns no row: each is a bearing on its own."""
+    away = 10.0
+    pair = dataclasses.replace(
+        presets["6206"].bearing, radial_clearance=0.0,
+        rows=(Row(-away), Row(away, **OWN)),  # type: ignore[arg-type]
+    )  # fmt: skip
+    hung = (np.array([100.0, -900.0]), np.array([-300.0, -1500.0]))
+    (fx1, fy1), (fx2, fy2) = hung
+    load = Load(fx1 + fx2, fy1 + fy2, 0.0, away * (fy1 - fy2), away * (fx2 - fx1))
+    scene = presets["6206"].healthy().replace(bearing=pair, load=load)
+    found = equilibrium(scene, [0.3])
+    assert found.converged.all()
+    for k, (fx, fy) in enumerate(hung):
+        alone = scene.replace(bearing=pair.of_row(k), load=Load(fx, fy), dofs=("x", "y"))
+        single = equilibrium(alone, [0.3 * pair.pace(k)])
+        loads = found.ball_load[0, pair.balls_of_rows[k]]
+        np.testing.assert_allclose(loads, single.ball_load[0], atol=3e-3 * loads.max())
+
+
+@pytest.mark.parametrize("own", [{}, OWN], ids=["angles", "balls"])
+def test_each_row_carries_what_it_would_alone(own: dict[str, Any]) -> None:
+    """At the middle of the shaft: a row alone, under the load it carries, moves as the pair does.
+
+    What a row carries comes from its balls' loads and contact angles alone.
+    """
+    pair = with_rows(Row(turn=0.1), Row(contact_angle=STEEP, **own)).replace(dofs=("x", "y", "z"))
+    angles = [0.0, 0.13]
+    found = equilibrium(pair, angles)
+    assert found.converged.all()
+    total = np.zeros((2, 3))
+    for k, row in enumerate(pair.bearing.rows):
+        own_balls = pair.bearing.balls_of_rows[k]
+        Q, phi = found.ball_load[:, own_balls], found.ball_angle[:, own_balls]
+        alpha = np.nan_to_num(found.contact_angle[:, own_balls])
+        assert (Q > 0.0).any()
+        F = np.stack(
+            [
+                (Q * np.cos(alpha) * np.cos(phi)).sum(axis=1),
+                (Q * np.cos(alpha) * np.sin(phi)).sum(axis=1),
+                (Q * np.sin(alpha)).sum(axis=1),
+            ],
+            axis=1,
+        )
+        total += F
+        alone = dataclasses.replace(pair.bearing.of_row(k), rows=(Row(turn=row.turn),))
+        for i, angle in enumerate(angles):
+            fx, fy, fz = F[i]
+            single = pair.replace(bearing=alone, fx=fx, fy=fy, fz=fz)
+            state = equilibrium(single, [angle * pair.bearing.pace(k)])
+            np.testing.assert_allclose(
+                state.displacement[0, :3], found.displacement[i, :3], rtol=1e-7, atol=1e-13
+            )
+            np.testing.assert_allclose(state.ball_load[0], Q[i], rtol=1e-6, atol=1e-6)
+    load = pair.load
+    np.testing.assert_allclose(total, [[load.fx, load.fy, load.fz]] * 2, rtol=1e-7, atol=1e-6)
+
+
+@both
+def test_stiffness_is_symmetric_positive_and_the_slope_of_the_load(scene: Scene) -> None:
+    scene = scene.healthy().replace(dofs=("x", "y", "z", "rx", "ry"))
+    found = equilibrium(scene, [0.05])
+    assert found.converged.all()
+    K = found.stiffness[0]
+    np.testing.assert_array_equal(K, K.T)
+    assert np.linalg.eigvalsh(K / np.sqrt(np.outer(K.diagonal(), K.diagonal()))).min() > 0.0
+    for column, name, step in ((1, "fy", 0.5), (2, "fz", 0.5), (3, "mx", 5e-3)):
+        ends = [
+            equilibrium(scene.replace(**{name: getattr(scene.load, name) + s}), [0.05]).displacement
+            for s in (-step, step)
+        ]
+        slope = (ends[1] - ends[0])[0] / (2.0 * step)
+        expected = np.linalg.solve(K, np.eye(5)[column])
+        np.testing.assert_allclose(slope, expected, rtol=2e-4, atol=1e-4 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+@pytest.mark.parametrize("edge", ["published", "exact"])
+@both
+def test_each_rows_balls_run_on_its_own_raceway(scene: Scene, race: str, edge: str) -> None:
+    scene = scene.replace(race=race, edge=edge, extent=0.15, depth=150e-6, row=None)
+    angles = scene.defects[0].center + np.linspace(-0.1, 0.1, 301)
+    for row in range(2):
+        alone = ONE.replace(
+            bearing=dataclasses.replace(scene.bearing.of_row(row), rows=()), defect=scene.defect
+        )
+        expected = ball_drop(alone, angles)
+        assert np.ptp(expected) > 1e-5
+        np.testing.assert_allclose(ball_drop(scene, angles, row=row), expected, atol=1e-15)
+    if race == "inner":  # the shaft is where the bearing's cage says
+        turned = ball_drop(scene, angles + 0.3 / scene.bearing.cage_ratio, 0.3, row=1)
+        np.testing.assert_allclose(turned, ball_drop(scene, angles, row=1), atol=1e-12)
+
+
+@both
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_balls_enter_and_leave_when_their_own_cage_says(scene: Scene, race: str) -> None:
+    scene = scene.replace(race=race, edge="exact", extent=0.2, row=None)
+    found = crossings(scene, 0.0, 1.5)
+    rows = {scene.bearing.row_of_ball(one.ball)[0] for one in found}
+    assert rows == {0, 1}
+    for one in found:
+        before, after = (drops_now(scene, one.cage_angle + d)[one.ball] for d in (-1e-4, 1e-4))
+        assert (after > 0.0) == one.enters
+        assert (before > 0.0) != one.enters
+
+
+def test_depths_are_judged_by_the_balls_that_meet_them() -> None:
+    deep = 5.5e-3
+    assert BALLS.replace(depth=deep, row=0).defects[0].depth == deep
+    for row in (None, 1):
+        with pytest.raises(ValueError, match=r"at most the ball radius of 0\.005 m"):
+            BALLS.replace(depth=deep, row=row)
+
+
+@both
+def test_maps_modes_and_balls_positions_follow(scene: Scene) -> None:
+    scene = scene.replace(extent=0.12, row=None)
+    angles = [0.0, 0.1]
+    state = equilibrium(scene, angles)
+    maps = stiffness_maps(scene, [0.0, 0.12], angles)
+    np.testing.assert_allclose(maps.term("k_yy")[1], state.term("k_yy"), rtol=1e-9)
+    massless = ball_positions(scene, angles, centrifugal_load=0.0)
+    np.testing.assert_allclose(massless.load[0], state.ball_load, rtol=1e-6, atol=1e-6)
+    fast = static_state(scene.replace(balls="with mass", shaft_speed=2000.0), angles)
+    slack = fast.positions.load[0] == 0.0  # type: ignore[attr-defined]
+    for row, own in enumerate(scene.bearing.balls_of_rows):
+        F_c = scene.bearing.of_row(row).centrifugal_load(2000.0)
+        assert fast.ball_load[:, own][slack[:, own]] == pytest.approx(F_c, rel=1e-6)
+    assert np.isfinite(modes(scene, angles).frequency).all()
+
+
+def test_curves_run_over_what_rows_have_in_common() -> None:
+    spacing = ONE.bearing.ball_spacing
+    more = with_rows(Row(), Row(n_balls=10))
+    assert more.bearing.period == pytest.approx(7.0 * spacing)
+    ends = equilibrium(more, [0.0, more.bearing.period]).displacement
+    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-7, atol=1e-13)
+    assert default_cage_angles(more)[-1] == more.bearing.period
+    assert default_cage_angles(BALLS)[-1] == 2.0 * math.pi
+    assert default_cage_angles(with_rows(Row(), Row(turn=0.1)))[-1] == spacing
+    planned = place(more.replace(dofs=("x", "y", "z")), "load", 5e-2)
+    assert planned.angles[-1] == more.bearing.period
+    assert planned.met
+
+
+@both
+def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scene: Scene) -> None:
+    scene = scene.replace(fz=-1500.0)
+    oil = film(scene, viscosity=0.05)
+    state = equilibrium(scene)
+    told = {one.name: one for one in limits(scene)}
+    rows = [scene.bearing.of_row(k) for k in range(2)]
+    heaviest = [float(state.ball_load[:, own].max()) for own in scene.bearing.balls_of_rows]
+    speeds = [rolling_speed(own, scene.shaft_speed) for own in rows]
+    row = speeds.index(oil.rolling_speed)
+    assert oil.inner.load == pytest.approx(heaviest[row])
+    p = max(
+        float(own.race_contact("inner").greatest_pressure(load))
+        for own, load in zip(rows, heaviest, strict=True)
+    )
+    assert told["contact pressure, inner race"].value == pytest.approx(p, rel=1e-2)
+    assert contact_pressures(scene, state).inner.greatest_pressure == pytest.approx(p, rel=1e-12)
+    assert math.isfinite(told["contact angle at the shoulder"].value)
+    assert told["centrifugal force, least loaded ball"].value > 0.0
+
+
+@both
+def test_loads_in_motion_are_those_of_independent_sums(scene: Scene) -> None:
+    """Extended precision, cages at speeds of their own; from the static state at the beginning."""
+    scene = scene.replace(extent=0.2, row=None)
+    motion = simulate(scene, 6e-3, ball_loads=True)
+    assert motion.completed
+    assert motion.ball_load is not None
+    np.testing.assert_allclose(
+        motion.ball_load[0], equilibrium(scene, [0.0]).ball_load[0], rtol=1e-6, atol=1e-4
+    )
+    for i in (0, 150, 390):
+        contacts = Contacts(scene, float(motion.cage_angle[i]))
+        q = np.zeros(5, dtype=Long)
+        q[:3] = motion.inner_displacement[i] - motion.outer_displacement[i]
+        delta = contacts.state(q)[3]
+        expected = contacts.K * np.maximum(delta, 0.0) ** Long(1.5)
+        np.testing.assert_allclose(
+            motion.ball_load[i], expected.astype(float), rtol=1e-6, atol=1e-4
+        )
+
+
+def test_heavy_balls_of_each_row_are_pressed_as_independent_sums_say() -> None:
+    """Both rows at the middle of the shaft: each by itself, from the places that are returned."""
+    scene = with_rows(Row(), Row(turn=0.1, contact_angle=STEEP, **OWN)).replace(  # type: ignore[arg-type]
+        dofs=("x", "y", "z"), balls="with mass", extent=0.2, row=None
+    )
+    motion = simulate(scene, 6e-3)
+    assert motion.completed
+    rings = np.zeros((2, 5))
+    for i in (0, 200, 390):
+        rings[0, :3], rings[1, :3] = motion.inner_displacement[i], motion.outer_displacement[i]
+        for k, own in enumerate(scene.bearing.balls_of_rows):
+            angle = scene.bearing.pace(k) * float(motion.cage_angle[i]) + 0.1 * k
+            alone = scene.replace(bearing=scene.bearing.of_row(k))
+            sums = TwoContacts(alone, angle, *rings, motion.ball_position[i][:, own])
+            for race, load in enumerate((motion.ball_load_inner, motion.ball_load_outer)):
+                assert load[i, own] == pytest.approx(sums.load[race], rel=1e-6, abs=1e-5)
+    assert motion.ball_load_inner[390].max() > 100.0
+
+
+def test_nothing_repeats_where_cages_turn_at_speeds_of_their_own() -> None:
+    assert common_ball_passes(UNLIKE) is None
+    assert orbit(UNLIKE).status == NO_PERIOD
+    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=10))) == 7
+    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=7))) == 2
+    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=9))) == 14
+
+
+def test_an_orbit_holds_whole_passes_of_both_rows() -> None:
+    """Fourteen and seven balls: after a pass of the one half a pass of the other is not enough."""
+    rows = (Row(-9e-3, n_balls=7), Row(9e-3, 1))
+    scene = ONE.healthy().replace(
+        bearing=dataclasses.replace(ONE.bearing, rows=rows), dofs=("x", "y", "z")
+    )
+    assert common_ball_passes(scene) == 2
+    found = orbit(scene)
+    assert found.stable
+    assert found.period * scene.bearing.of_row(0).bpfo(scene.shaft_speed) == pytest.approx(1.0)
+
+
+@both
+def test_life_of_both_rows_is_the_formula_by_hand(scene: Scene) -> None:
+    """Under a thrust all balls of a row carry alike, and so do means; C_r is parted by ISO 281."""
+    bearing = dataclasses.replace(
+        scene.bearing, rows=tuple(dataclasses.replace(row, facing=1) for row in scene.bearing.rows)
+    )
+    scene = scene.healthy().replace(
+        bearing=bearing, load=Load(fz=3000.0), dofs=("z",), shaft_speed=100.0
+    )
+    C = 44_000.0
+    alone = [dynamic_load_rating(bearing.of_row(k)) for k in range(2)]
+    assert dynamic_load_rating(bearing) == pytest.approx(sum(alone) * 2.0**-0.3, rel=1e-12)
+    loads = equilibrium(scene, [0.0]).ball_load[0]
+    failing, rows = 0.0, []
+    for k, own in enumerate(bearing.balls_of_rows):
+        one = bearing.of_row(k)
+        Q = loads[own]
+        assert np.ptp(Q) < 1e-6 * Q.max()
+        D, angle = one.ball_diameter, one.contact_angle
+        r_i, r_e = one.inner_groove_radius, one.outer_groove_radius
+        assert r_i is not None
+        assert r_e is not None
+        gamma = D * math.cos(angle) / one.pitch_diameter
+        B = 1.044 * ((1 - gamma) / (1 + gamma)) ** 1.72
+        B *= (r_i / r_e * (2 * r_e - D) / (2 * r_i - D)) ** 0.41
+        C_k = C * 2.0**0.3 * alone[k] / sum(alone)
+        share = C_k / (one.n_balls * math.cos(angle))
+        Q_ci = share / 0.407 * (1 + B ** (10 / 3)) ** 0.3
+        Q_ce = share / 0.389 * (1 + B ** (-10 / 3)) ** 0.3
+        assert race_ratings(bearing, C, k) == pytest.approx((Q_ci, Q_ce), rel=1e-12)
+        here = (Q[0] / Q_ci) ** (10 / 3) + (Q[0] / Q_ce) ** (10 / 3)
+        rows.append(here**-0.9)
+        failing += here
+    found = life(scene, C)
+    assert found.positions == "all"
+    assert found.million_revolutions == pytest.approx(failing**-0.9, rel=1e-6)
+    assert found.rows == pytest.approx(tuple(rows), rel=1e-6)
+    assert min(found.rows) > found.million_revolutions
+    with pytest.raises(ValueError, match='"all" for rows that are not alike'):
+        life(scene, C, positions="load line")
+
+
+def test_life_averages_over_all_that_rows_come_to_be_to_each_other() -> None:
+    """Against a fine grid of both cages' angles."""
+    scene = BALLS.healthy().replace(dofs=("x", "y", "z"))
+    bearing, C = scene.bearing, 40_000.0
+    spacings = [bearing.of_row(k).ball_spacing for k in range(2)]
+    used = [np.zeros(2), np.zeros(2)]
+    for part in np.arange(24) / 24:
+        low, high = bearing.rows
+        turned = dataclasses.replace(high, turn=high.turn + part * spacings[1])
+        at = scene.replace(bearing=dataclasses.replace(bearing, rows=(low, turned)))
+        loads = equilibrium(at, np.arange(24) / 24 * spacings[0]).ball_load
+        for k, own in enumerate(bearing.balls_of_rows):
+            used[k] += [np.mean(loads[:, own] ** 3), np.mean(loads[:, own] ** (10 / 3))]
+    failing = 0.0
+    for k in range(2):
+        Q_ci, Q_ce = race_ratings(bearing, C, k)
+        Q_ei, Q_ee = (used[k] / 24) ** [1 / 3, 0.3]
+        failing += (Q_ei / Q_ci) ** (10 / 3) + (Q_ee / Q_ce) ** (10 / 3)
+    assert life(scene, C).million_revolutions == pytest.approx(failing**-0.9, rel=2e-4)
+
+
+def test_a_damaged_race_of_unlike_rows() -> None:
+    """It stands in the outer race; of the inner one life is refused with the reason."""
+    scene = BALLS.replace(extent=0.3, row=1, dofs=("x", "y", "z"))
+    found = life(scene, 40_000.0)
+    assert found.known
+    assert found.million_revolutions != found.healthy_million_revolutions
+    with pytest.raises(ValueError, match="rows that are not alike"):
+        life(scene.replace(race="inner"), 40_000.0)
+
+
+def test_a_signal_is_diagnosed_for_one_row_at_a_time() -> None:
+    noise = np.random.default_rng(1).normal(size=(20_000, 1))
+    heard = Recording(noise, 20_000.0, ("y",), "noise")
+    with pytest.raises(ValueError, match="one row at a time"):
+        diagnose(heard, BALLS.bearing, BALLS.shaft_speed)
+    assert part_lines(BALLS.bearing.of_row(1)) == part_lines(SMALL)
+    with pytest.raises(ValueError, match="rows are not alike"):
+        size_defect(heard, BALLS.replace(race="outer"))
+
+
+def test_angles_come_back_from_files_and_bad_ones_are_named() -> None:
+    assert Scene.from_toml(UNLIKE.to_toml()) == UNLIKE
+    assert Scene.from_toml(BALLS.to_toml()) == BALLS
+    assert presets["7208-tandem"].to_toml().count("contact_angle") == 1, "the bearing's alone"
+    for angle in (-0.1, 2.0, math.nan, "steep"):
+        with pytest.raises(ValueError, match="contact_angle"):
+            Row(contact_angle=angle)  # type: ignore[arg-type]
+    aligning = presets["1208"].bearing
+    turned = tuple(dataclasses.replace(row, contact_angle=0.1) for row in aligning.rows)
+    assert not dataclasses.replace(aligning, rows=turned).is_self_aligning
+    assert isinstance(UNLIKE.bearing, Bearing)

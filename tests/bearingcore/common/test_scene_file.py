@@ -1,0 +1,148 @@
+"""Scenes as text: every scene comes back as it was, and nothing else is let in."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
+from bearingcore.common.scene_file import LARGEST_TEXT
+from bearingcore.scene.floor import MOST_ROWS
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_presets_come_back_as_they_were(name: str) -> None:
+    assert Scene.from_toml(presets[name].to_toml()) == presets[name]
+
+
+def test_floors_several_defects_and_options_come_back() -> None:
+    scene = presets["fan-rig"].replace(
+        defect=(
+            Defect(0.1, 50e-6, 1.0, floor=RoughFloor(3e-6, 0.4e-3, 7)),
+            Defect(0.2, 1.0 / 3.0 * 1e-4, 3.0, "inner", "exact"),
+            Defect(0.2, 40e-6, 5.0, floor=MeasuredFloor((-1.0, 0.1, 1.0), (0.0, 1.0, 0.3))),
+        ),
+        contact_damping=math.pi,
+        contact_law="no tension",
+        dofs=("x", "y", "z"),
+    )
+    assert Scene.from_toml(scene.to_toml()) == scene
+
+
+def test_a_healthy_scene_has_no_defect_table() -> None:
+    healthy = presets["fan-rig"].healthy()
+    assert healthy.to_data()["defect"] == []
+    assert Scene.from_toml(healthy.to_toml()).defects == ()
+
+
+@settings(max_examples=60, derandomize=True)
+@given(st.floats(0.0, 2.0 * math.pi), st.floats(0.0, 1e-3), st.floats(-1e9, 1e9))
+def test_all_digits_are_kept(extent: float, depth: float, fy: float) -> None:
+    scene = presets["liew-lim"].replace(extent=extent, depth=depth, fy=fy)
+    again = Scene.from_toml(scene.to_toml())
+    assert again.load == scene.load
+    assert again.defects == scene.defects
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda d: d.update(version=2), "version is 2"),
+        (lambda d: d.update(speed=1.0), "field of scene"),
+        (lambda d: d["bearing"].update(n_balls=0), "n_balls"),
+        (lambda d: d["bearing"].update(n_balls="many"), "n_balls"),
+        (lambda d: d["bearing"].pop("pitch_diameter"), "pitch_diameter of bearing"),
+        (lambda d: d.pop("bearing"), "bearing"),
+        (lambda d: d["load"].update(fy="nan"), "fy"),
+        (lambda d: d["load"].update(fy=[1.0]), "fy"),
+        (lambda d: d["defect"][0].update(race="middle"), "race"),
+        (lambda d: d["defect"][0].update(floor={"kind": "lunar"}), "kind of the floor"),
+        (lambda d: d["defect"][0].update(floor=3), "floor of defect 1"),
+        (lambda d: d.update(defect=[d["defect"][0]] * 21), "at most 20"),
+        (lambda d: d.update(defect=7), "defect"),
+        (lambda d: d.update(dofs="xy"), "dofs"),
+        (lambda d: d.update(dofs=["w"]), "dofs"),
+        (lambda d: d.update(shaft_speed=10**400), "shaft_speed|scene"),
+    ],
+)
+def test_wrong_data_are_refused_by_name(change, words: str) -> None:
+    data = presets["fan-rig"].to_data()
+    change(data)
+    with pytest.raises(ValueError, match=words):
+        Scene.from_data(data)
+
+
+@pytest.mark.parametrize("text", ["", "= 3", "[[[", "a" * 100, "x = " + "[" * 5000])
+def test_what_is_not_a_scene_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r"."):
+        Scene.from_toml(text)
+
+
+def test_an_endless_text_is_not_parsed() -> None:
+    with pytest.raises(ValueError, match="length of the text"):
+        Scene.from_toml("#" * (LARGEST_TEXT + 1))
+
+
+_JUNK = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8),
+    lambda inner: (
+        st.lists(inner, max_size=3)
+        | st.dictionaries(
+            st.sampled_from(
+                ["version", "bearing", "load", "support", "defect", "dofs", "floor", "fy"]
+            ),
+            inner,
+            max_size=4,
+        )
+    ),
+    max_leaves=12,
+)
+
+
+@settings(max_examples=300, derandomize=True)
+@given(_JUNK)
+def test_nothing_but_a_clear_refusal_comes_of_junk(junk: object) -> None:
+    with pytest.raises(ValueError, match=r"."):
+        Scene.from_data(junk)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a=[" + "1," * 900_000 + "]",  # 5.6 s to read
+        "a" + ".a" * 30_000 + "=1",  # a minute
+        "\n".join("a." * 40 + f"k{k}=1" for k in range(9000)),
+        "\n" * 1_900_000,
+        "\n".join(f"[a{k}]" for k in range(200_000)),
+        "a=" + "[" * 900_000,
+        "a=" + "{b=" * 20_000,
+    ],
+    ids=range(7),
+)
+def test_what_would_take_long_to_read_is_counted_and_not_read(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def begun(_: str) -> None:
+        raise AssertionError("it was read")
+
+    monkeypatch.setattr("bearingcore.common.scene_file.tomllib.loads", begun)
+    with pytest.raises(ValueError, match="in the text is"):
+        Scene.from_toml(text)
+
+
+def test_a_long_measured_floor_is_read() -> None:
+    # as few characters as there can be: 2,000,000 are read
+    places = np.linspace(-0.999, 0.999, 40_000).round(6)
+    floor = MeasuredFloor(tuple(places.tolist()), (0.5,) * len(places))
+    assert len(places) <= MOST_ROWS
+    (defect,) = presets["fan-rig"].defects
+    scene = presets["fan-rig"].replace(
+        defect=Defect(defect.extent, defect.depth, defect.center, floor=floor)
+    )
+    text = scene.to_toml()
+    assert len(text) <= LARGEST_TEXT
+    assert Scene.from_toml(text) == scene

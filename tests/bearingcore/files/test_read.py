@@ -1,0 +1,365 @@
+"""Files with signals: what is read from good ones, and what is said about bad ones."""
+
+import contextlib
+import io
+import random
+import struct
+import zlib
+
+import h5py
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.io import savemat, wavfile
+
+from bearingcore.files import read
+from bearingcore.files.read import read_table
+
+RATE = 12_800.0
+N = 3000
+SIGNAL = np.random.default_rng(5).standard_normal((N, 2))
+TIME = np.arange(N) / RATE
+
+
+def text(rows, delimiter=",", heading="", decimal=".") -> bytes:
+    lines = [delimiter.join(f"{v:.9g}".replace(".", decimal) for v in row) for row in rows]
+    return (heading + "\n".join(lines)).encode()
+
+
+def wav(data, rate=12_800) -> bytes:
+    buffer = io.BytesIO()
+    wavfile.write(buffer, rate, data)
+    return buffer.getvalue()
+
+
+def matlab(variables, **options) -> bytes:
+    buffer = io.BytesIO()
+    savemat(buffer, variables, **options)
+    return buffer.getvalue()
+
+
+TABLE = np.column_stack([TIME, SIGNAL])
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        text(TABLE),
+        text(TABLE, heading="time,x,y\n"),
+        text(TABLE, heading="# a remark\r\n\r\nRig 7, run 3\ntime [s],horizontal,vertical\n"),
+        text(TABLE, delimiter=";", decimal=",", heading="Zeit;x;y\n"),
+        text(TABLE, delimiter="\t", heading="t\tx\ty\n"),
+        text(TABLE, delimiter="  "),
+        text(TABLE, delimiter=";").replace(b"\n", b";\n"),
+        b"\xef\xbb\xbf" + text(TABLE, heading="time,x,y\n"),
+        text(TABLE).decode().encode("utf-16"),
+        text(TABLE, heading="Neigung 3\u00b0\nt,x,y\n").decode().encode("latin-1"),
+        text(np.column_stack([TIME * 1e3, SIGNAL]), heading="time [ms],x,y\n"),
+    ],
+)
+def test_text_in_many_habits_gives_the_same_recording(content):
+    table = read_table("rig.csv", content)
+    assert table.time_column == 0
+    assert table.suggested_rate == pytest.approx(RATE, rel=1e-5)
+    got = table.recording([1, 2], ["x", "y"], "m/s²")
+    assert got.sample_rate == pytest.approx(RATE, rel=1e-5)
+    np.testing.assert_allclose(got.acceleration, SIGNAL, rtol=1e-7, atol=1e-9)
+
+
+def test_headings_name_the_columns_and_g_is_standard_gravity():
+    table = read_table("rig.csv", text(TABLE, heading="time,horizontal,vertical\n"))
+    assert table.names == ("time", "horizontal", "vertical")
+    got = table.recording(["vertical"], ["y"], "g", full_scale=2.0)
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:, 1] * 2.0 * 9.80665, rtol=1e-7)
+    assert got.directions == ("y",)
+    assert got.duration == pytest.approx(N / RATE, rel=1e-5)
+
+
+def test_a_file_without_a_rate_asks_for_it():
+    table = read_table("rig.csv", text(SIGNAL))
+    assert table.suggested_rate is None
+    with pytest.raises(ValueError, match="sample_rate is None"):
+        table.recording([0], ["y"], "g")
+    assert table.recording([0], ["y"], "g", sample_rate=500.0).sample_rate == 500.0
+
+
+def test_rows_after_dropped_samples_are_not_joined_to_those_before():
+    short = np.delete(TABLE, slice(1000, 1010), axis=0)
+    table = read_table("rig.csv", text(short, heading="t,x,y\n"))
+    got = table.recording([1, 2], ["x", "y"], "m/s²")
+    assert got.sample_rate == pytest.approx(RATE, rel=1e-5)
+    np.testing.assert_allclose(got.acceleration, SIGNAL[1010:], rtol=1e-7, atol=1e-9)
+    assert "10 samples are missing" in got.notes[0]
+    assert "rows 1001 to 2990" in got.notes[0]
+
+
+def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():
+    time = np.arange(24_000) / 12_000.0
+    time[15_001:] += 0.5
+    lines = "".join(f"{t:.6f},{np.sin(400.0 * t):.4f}\n" for t in time)
+    table = read_table("gap.csv", ("t [s],ay [m/s²]\n" + lines).encode())
+    assert "6\u202f000 samples are missing" in table.contents.sampling.trouble
+
+
+def test_dates_and_times_of_day_are_a_time_column():
+    begin = np.datetime64("2024-02-28T23:59:59.900000000")
+    steps = (TIME * 1e9).round().astype("timedelta64[ns]")
+    rows = zip(begin + steps, SIGNAL, strict=True)
+    lines = [f"{when};{x:.9g};{y:.9g}".replace(".", ",") for when, (x, y) in rows]
+    table = read_table("log.csv", ("Zeitstempel;x;y\n" + "\n".join(lines)).encode())
+    assert table.time_column == 0
+    got = table.recording([1, 2], ["x", "y"], "g")
+    assert got.sample_rate == pytest.approx(RATE, rel=1e-6)
+    np.testing.assert_allclose(got.acceleration, SIGNAL * 9.80665, rtol=1e-7)
+
+
+def test_gaps_matter_only_in_the_columns_taken():
+    lines = text(TABLE).decode().splitlines()
+    lines[700] = lines[700].rsplit(",", 1)[0] + ","
+    table = read_table("rig.csv", "\n".join(lines).encode())
+    assert table.recording([1], ["x"], "g").duration > 0.0
+    with pytest.raises(ValueError, match="not a finite number in 1 sample, first in number 701"):
+        table.recording([2], ["y"], "g")
+
+
+@pytest.mark.parametrize(
+    ("data", "one"),
+    [
+        ((SIGNAL * 3000.0).astype(np.int16), 32768.0),
+        ((SIGNAL * 1e8).astype(np.int32), 2.0**31),
+        ((SIGNAL * 20.0 + 128.0).clip(0, 255).astype(np.uint8), None),
+        (SIGNAL.astype(np.float32), 1.0),
+    ],
+)
+def test_wav(data, one):
+    table = read_table("rig.wav", wav(data))
+    assert table.suggested_rate == 12_800.0
+    wanted = data / one if one else data / 128.0 - 1.0
+    got = table.recording([0, 1], ["x", "y"], "m/s²", full_scale=50.0)
+    np.testing.assert_allclose(got.acceleration, wanted * 50.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize("options", [{}, {"do_compression": True}, {"format": "4"}])
+def test_matlab(options):
+    variables = {"vertical": SIGNAL[:, :1], "horizontal": SIGNAL[:, 1], "fs": RATE, "rpm": 420.0}
+    if "format" not in options:
+        variables |= {"short": SIGNAL[:9], "words": "remark", "turned": SIGNAL * 1j}
+    table = read_table("rig.mat", matlab(variables, **options))
+    assert table.names == ("vertical", "horizontal")
+    assert table.scalars == {"fs": RATE, "rpm": 420.0}
+    if "format" not in options:
+        assert table.texts == {"words": "remark", "short": "9 × 2 numbers, not used"}
+    got = table.recording(["vertical", "horizontal"], ["y", "x"], "m/s²")
+    assert got.sample_rate == RATE
+    assert got.shaft_speed == pytest.approx(2.0 * np.pi * 7.0)
+    np.testing.assert_allclose(got.acceleration, SIGNAL)
+
+
+def test_structs_and_cells_are_read_by_their_paths():
+    run = {"gs": SIGNAL[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
+    parts = np.empty(2, dtype=object)
+    parts[:] = [SIGNAL[:, :1], {"deep": SIGNAL[:, 1:], "word": "inside"}]
+    table = read_table("s.mat", matlab({"bearing": run, "parts": parts}, do_compression=True))
+    assert table.names == ("bearing.gs", "parts{1}", "parts{2}.deep")
+    assert table.scalars == {"bearing.sr": 48_828.0, "bearing.rate": 25.0}
+    assert table.texts == {"bearing.load": "150", "parts{2}.word": "inside"}
+    np.testing.assert_array_equal(table.columns, SIGNAL[:, [0, 0, 1]])
+
+
+def test_a_struct_array_is_numbered_and_shorter_vectors_end_earlier():
+    runs = np.empty((1, 2), dtype=[("gs", "O")])
+    runs["gs"][0] = [SIGNAL[:, 0], SIGNAL[:2000, 1]]
+    table = read_table("r.mat", matlab({"runs": runs}))
+    assert table.names == ("runs(1).gs", "runs(2).gs")
+    got = table.recording([1], ["y"], "g", 1000.0)
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:2000, 1] * 9.80665)
+
+
+def nested(depth: int) -> dict[str, object]:
+    inside: dict[str, object] = {"a": SIGNAL}
+    for _ in range(depth):
+        inside = {"s": inside}
+    return inside
+
+
+def hdf5(fill) -> bytes:
+    """A file of MATLAB's version 7.3: HDF5 after 512 bytes of text."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w", userblock_size=512) as file:
+        fill(file)
+    content = bytearray(buffer.getvalue())
+    content[:116] = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116)
+    content[124:128] = b"\x00\x02IM"
+    return bytes(content)
+
+
+def matlab_7_3(file) -> None:
+    """As MATLAB writes a struct `bearing` with numbers and words, and a cell that points."""
+    bearing = file.create_group("bearing")
+    bearing.attrs["MATLAB_class"] = b"struct"
+    bearing["gs"] = SIGNAL[:, :1].T  # MATLAB's columns are rows here
+    bearing["sr"] = np.array([[48_828]], dtype="u2")
+    bearing["rate"] = np.array([[25.0]])
+    bearing["load"] = np.array([[ord(letter)] for letter in "150"], dtype="u2")
+    bearing["load"].attrs["MATLAB_class"] = np.bytes_(b"char")
+    kept = file.create_group("#refs#").create_dataset("b", data=SIGNAL[:, 1:].T)
+    file.create_dataset("cell", data=np.array([[kept.ref]], dtype=h5py.ref_dtype))
+
+
+def test_matlab_7_3_is_read_like_the_versions_before():
+    table = read_table("new.mat", hdf5(matlab_7_3))
+    assert table.names == ("bearing.gs", "cell")
+    assert table.scalars == {"bearing.sr": 48_828.0, "bearing.rate": 25.0}
+    assert table.texts == {"bearing.load": "150"}
+    np.testing.assert_array_equal(table.columns, SIGNAL)
+    assert table.suggested_rate == 48_828.0
+
+
+def test_any_hdf5_file_is_read_with_what_stands_beside_its_numbers():
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        data = file.create_dataset("run/vertical", data=SIGNAL[:, 0], compression="gzip")
+        data.attrs["sampling_rate"] = RATE
+        data.attrs["unit"] = "mm/s²"
+    table = read_table("run.h5", buffer.getvalue())
+    got = table.recording(["run.vertical"], ["y"])
+    assert got.sample_rate == RATE
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:, 0] * 1e-3)
+
+
+def test_hdf5_names_no_other_files(tmp_path):
+    """External links, data kept outside and views of other files would read this machine."""
+    (tmp_path / "secret").write_bytes(SIGNAL.tobytes())
+    with h5py.File(tmp_path / "other.h5", "w") as other:
+        other["a"] = SIGNAL
+
+    def fill(file):
+        file["linked"] = h5py.ExternalLink(str(tmp_path / "other.h5"), "/a")
+        file["soft"] = h5py.SoftLink("/own")
+        external = [(str(tmp_path / "secret"), 0, SIGNAL.nbytes)]
+        file.create_dataset("outside", SIGNAL.shape, "f8", external=external)
+        layout = h5py.VirtualLayout(SIGNAL.shape, "f8")
+        layout[:] = h5py.VirtualSource(str(tmp_path / "other.h5"), "a", SIGNAL.shape)
+        file.create_virtual_dataset("view", layout)
+        file["own"] = SIGNAL[:, 0]
+
+    assert read_table("x.mat", hdf5(fill)).names == ("own",)
+
+
+def test_hdf5_that_would_unpack_to_much_is_refused():
+    def fill(file):
+        file.create_dataset("zeros", (4_000_000, 3), "f8", fillvalue=0.0, chunks=True)
+
+    content = hdf5(fill)
+    assert len(content) < 500_000
+    with pytest.raises(ValueError, match="more numbers than are taken"):
+        read_table("zeros.mat", content)
+
+
+def bomb() -> bytes:
+    """A small MATLAB file that unpacks to much more than a signal would."""
+    packed = zlib.compress(struct.pack("<II", 14, 2**30) + bytes(2**26), 9)
+    head = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<H", 0x0100) + b"IM"
+    return head + struct.pack("<II", 15, len(packed)) + packed
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "told"),
+    [
+        ("a.csv", b"", "allowed: one that is not empty"),
+        ("a.csv", b"\n\n# nothing\n", "lines of numbers"),
+        ("a.csv", b"hello\nworld\n", "a table of numbers"),
+        ("a.csv", b"words\n" * 5000, "a table of numbers"),
+        ("a.csv", text(TABLE) + b"\nseventeen,2,3\n", "line 3001 of a.csv"),
+        ("a.csv", text(TABLE) + b"\n1,2\n", "3 columns as in the first"),
+        ("a.csv", text(TABLE[:20]), "number of rows in a.csv is 20"),
+        ("a.csv", b",".join([b"1"] * 100) + b"\n" + text(TABLE), "columns"),
+        ("a.png", b"\x89PNG\r\n\x1a\n\x00\x00" + bytes(1000), "text with numbers"),
+        ("a.wav", b"RIFF\x00\x00\x00\x00WAVE", "a whole WAV file"),
+        ("a.wav", wav(SIGNAL.astype(np.float32))[:30], "a whole WAV file"),
+        ("a.mat", b"MATLAB 5.0 MAT-file", "MATLAB file"),
+        ("a.mat", b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(600), "head of version 7.3"),
+        ("a.mat", b"\x89HDF\r\n\x1a\n".ljust(600), "damaged or unknown part"),
+        ("a.mat", hdf5(matlab_7_3)[:9000], "damaged or unknown part"),
+        ("a.mat", matlab({"s": nested(12)}), "structs inside one another deeper than 8"),
+        ("a.csv", b"\n" * 6_000_000, "number of lines in a.csv is 6000000"),
+        ("a.csv", b"1 " * 200_000, "longest line of a.csv"),
+        ("a.mat", b"random text that is no such file".ljust(600), "MATLAB file"),
+        ("a.mat", matlab({"words": "only"}), "vector or matrix"),
+        ("a.mat", matlab({"a": SIGNAL[:10]}), "number of rows in a.mat is 10"),
+        ("a.mat", matlab({"a": SIGNAL * 1j}), "vector or matrix"),
+        ("a.mat", matlab({"a": np.zeros((500, 400))}), "number of columns in a.mat is 400"),
+    ],
+)
+def test_bad_files_are_refused_with_a_sentence(name, content, told):
+    with pytest.raises(ValueError, match=told) as caught:
+        read_table(name, content)
+    assert "\n" not in str(caught.value)
+
+
+def test_huge_files_are_refused_before_they_are_read(monkeypatch):
+    monkeypatch.setattr(read, "MOST_BYTES", 2**20)
+    with pytest.raises(ValueError, match=r"size of a.csv is '2 MB'"):
+        read_table("a.csv", bytes(2**21))
+    with pytest.raises(ValueError, match="over 8 MB once unpacked"):
+        read_table("a.mat", bomb())
+    monkeypatch.setattr(read, "MOST_NUMBERS", 5000)
+    with pytest.raises(ValueError, match=r"count of numbers in a\.csv is 'over 5000'"):
+        read_table("a.csv", text(TABLE))
+
+
+@pytest.mark.parametrize(
+    ("columns", "directions", "unit", "told"),
+    [
+        ([5], ["y"], "g", "column is 5"),
+        (["z"], ["y"], "g", "column is 'z'"),
+        ([True, 1], ["x"], "g", "columns"),
+        ([1, 1], ["x", "y"], "g", "different ones, one a direction"),
+        ([1], ["y"], "furlongs", "unit is 'furlongs'"),
+        ([1], ["y"], None, "unit is None; allowed: one of m/s², g"),
+        ([1], ["y"], "mV", "sensitivity is nan"),
+    ],
+)
+def test_tables_refuse_what_they_do_not_have(columns, directions, unit, told):
+    table = read_table("a.csv", text(TABLE, heading="time,x,y\n"))
+    with pytest.raises(ValueError, match=told):
+        table.recording(columns, directions, unit)
+
+
+WHOLE = {
+    "a.csv": text(TABLE[:400], heading="time,x,y\n"),
+    "a.wav": wav((SIGNAL[:400] * 1000).astype(np.int16)),
+    "a.mat": matlab({"a": SIGNAL[:400], "fs": RATE}, do_compression=True),
+    "b.mat": matlab({"a": SIGNAL[:400], "fs": RATE}),
+    "c.mat": matlab({"s": {"a": SIGNAL[:400], "r": {"n": 7.0, "w": "x"}}}),
+}
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.sampled_from(sorted(WHOLE)), st.integers(0, 2**32 - 1))
+def test_damaged_files_are_read_or_refused_but_never_fail_otherwise(name, seed):
+    draw = random.Random(seed)
+    content = bytearray(WHOLE[name])
+    for _ in range(draw.randint(1, 12)):
+        reach = min(len(content), draw.choice([64, 400, 10**6]))
+        content[draw.randrange(reach)] = draw.randrange(256)
+    if draw.random() < 0.3:
+        del content[draw.randrange(len(content)) :]
+    with contextlib.suppress(ValueError):
+        table = read_table(name, bytes(content))
+        assert table.columns.shape[1] == len(table.names)
+        assert table.columns.dtype == float
+
+
+def test_damaged_hdf5_files_never_end_this_process():
+    """A few of them: each is read in a process of its own."""
+    whole = hdf5(matlab_7_3)
+    for seed in range(6):
+        draw = random.Random(seed)
+        content = bytearray(whole)
+        for _ in range(draw.randint(1, 60)):
+            content[draw.randrange(512, len(content) - 48_000)] = draw.randrange(256)
+        with contextlib.suppress(ValueError):
+            table = read_table("a.mat", bytes(content))
+            assert table.columns.shape[1] == len(table.names)

@@ -1,0 +1,204 @@
+"""Floors that are not flat, and defects that run into one another."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import EDGES, RACES, Defect, MeasuredFloor, RoughFloor, equilibrium, presets
+from bearingcore.scene.defect import drop_into, edge_drop, path_tables
+from bearingcore.scene.floor import read_floor
+
+BEARING = presets["fan-rig"].bearing
+ANGLES = np.linspace(-0.4, 0.5, 3001)
+# a tabulated path cuts the corner where the ball reaches the floor by at most this much [m]
+TABLE_ERROR = 3e-8
+
+
+@pytest.mark.parametrize("race", RACES)
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize("floor", [RoughFloor(0.0, 1e-3), MeasuredFloor((-1.0, 1.0), (1.0, 1.0))])
+def test_a_circle_rolled_over_a_square_slot_takes_the_edge_model(race, edge, floor) -> None:
+    flat = Defect(0.5, 50e-6, 0.1, race, edge)
+    other = Defect(0.5, 50e-6, 0.1, race, edge, floor)
+    np.testing.assert_allclose(
+        other.path(ANGLES, BEARING), flat.path(ANGLES, BEARING), rtol=0.0, atol=TABLE_ERROR
+    )
+
+
+@pytest.mark.parametrize("race", RACES)
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize("overlap", [0.0, 0.1])
+def test_two_slots_that_touch_are_one(race, edge, overlap) -> None:
+    one = Defect(0.5, 50e-6, 0.1, race, edge)
+    half = 0.25 + overlap / 2
+    left, right = 0.1 - 0.25 + half / 2, 0.1 + 0.25 - half / 2
+    two = tuple(Defect(half, 50e-6, center, race, edge) for center in (left, right))
+    np.testing.assert_allclose(
+        drop_into(two, BEARING, ANGLES), one.path(ANGLES, BEARING), rtol=0.0, atol=TABLE_ERROR
+    )
+
+
+@pytest.mark.parametrize("race", RACES)
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize("extent", [0.01, 0.15, 2.0 * math.pi])
+def test_the_ball_rests_on_the_point_that_lets_it_sink_least(race, edge, extent) -> None:
+    """Against all points tried one by one, at some nodes of the table."""
+    rough = Defect(extent, 50e-6, 1.0, race, edge, RoughFloor(20e-6, 0.1e-3, 5))
+    _, table = path_tables((rough,), BEARING)
+    angle = np.linspace(-0.5 * extent, 0.5 * extent, table.size)
+    surface = rough.surface(1.0 + angle, BEARING)
+    whole = extent == 2.0 * math.pi
+    surface[[0, -1]] = min(surface[0], surface[-1]) if whole else 0.0
+    for i in [0, 1, table.size // 3, table.size // 2, table.size - 2, table.size - 1]:
+        away = np.abs(angle - angle[i])
+        away = np.minimum(away, 2.0 * math.pi - away) if whole else away
+        sunk = surface + edge_drop(away, rough, BEARING, BEARING.ball_radius)
+        assert table[i] == pytest.approx(sunk.min(), abs=1e-16)
+        assert sunk.argmin() != i or table[i] == surface[i]
+    assert table[0] == pytest.approx(table[-1], abs=1e-16)
+    assert np.any(table < surface - 1e-6)
+
+
+def test_a_step_inside_a_defect_holds_the_ball_as_an_edge_does() -> None:
+    """Just inside the deeper half the ball hangs on the step: the step and an edge's drop."""
+    shallow, deep = Defect(0.3, 30e-6, 0.0, edge="exact"), Defect(0.3, 80e-6, 0.3, edge="exact")
+    s = 0.005
+    alone = Defect(math.pi, BEARING.ball_radius, math.pi / 2, edge="exact")
+    expected = 30e-6 + float(alone.path(s, BEARING))
+    assert expected < 80e-6
+    drop = float(drop_into((shallow, deep), BEARING, 0.15 + s))
+    assert drop == pytest.approx(expected, abs=TABLE_ERROR)
+
+
+def test_defects_apart_are_each_their_own() -> None:
+    first, second = Defect(0.2, 50e-6, 0.0), Defect(0.2, 50e-6, 0.3)
+    both = drop_into((first, second), BEARING, ANGLES)
+    np.testing.assert_array_equal(both, first.path(ANGLES, BEARING) + second.path(ANGLES, BEARING))
+
+
+def test_drops_into_both_races_add() -> None:
+    outer, inner = Defect(0.2, 50e-6, 0.0), Defect(0.3, 20e-6, 0.0, "inner")
+    both = drop_into((outer, inner), BEARING, 0.0)
+    assert both == pytest.approx(70e-6)
+
+
+def test_a_defect_across_zero_is_one_defect() -> None:
+    here, there = (Defect(0.4, 50e-6, center) for center in (0.0, 2.0 * math.pi))
+    np.testing.assert_allclose(
+        here.path(ANGLES, BEARING), there.path(ANGLES, BEARING), rtol=0.0, atol=1e-15
+    )
+    assert float(here.path(-0.05, BEARING)) == float(here.path(0.05, BEARING)) > 0.0
+
+
+def test_the_ball_never_sinks_into_a_rough_floor() -> None:
+    rough = Defect(0.5, 50e-6, 0.1, edge="exact", floor=RoughFloor(5e-6, 0.5e-3, 7))
+    surface, path = rough.surface(ANGLES, BEARING), rough.path(ANGLES, BEARING)
+    inside = np.abs(ANGLES - 0.1) < 0.249
+    assert np.all(path[inside] <= surface[inside] + TABLE_ERROR)
+    assert np.any(path[inside] < surface[inside] - 1e-6)  # it bridges valleys
+
+
+def test_roughness_has_the_height_and_correlation_asked_for() -> None:
+    height, length, R = 4e-6, 0.4e-3, BEARING.outer_raceway_radius
+    lag = length / R
+    angle = np.arange(-3.0, 3.0, lag / 10)
+    products, squares = [], []
+    for seed in range(40):
+        floor = RoughFloor(height, length, seed)
+        z = floor.surface(angle, 6.1, 1e-3, R) - 1e-3
+        squares.append(np.mean(z**2))
+        products.append(np.mean(z[10:] * z[:-10]))
+    assert math.sqrt(np.mean(squares)) == pytest.approx(height, rel=0.02)
+    assert np.mean(products) / np.mean(squares) == pytest.approx(math.exp(-1.0), abs=0.02)
+
+
+def test_a_longer_defect_continues_the_same_surface() -> None:
+    floor = RoughFloor(4e-6, 0.4e-3, 3)
+    short, long = (Defect(extent, 50e-6, 0.1, floor=floor) for extent in (0.3, 0.6))
+    near = np.abs(ANGLES - 0.1) < 0.15
+    np.testing.assert_array_equal(
+        short.surface(ANGLES[near], BEARING), long.surface(ANGLES[near], BEARING)
+    )
+    other = Defect(0.3, 50e-6, 0.1, floor=RoughFloor(4e-6, 0.4e-3, 4))
+    assert not np.array_equal(other.surface(ANGLES, BEARING), short.surface(ANGLES, BEARING))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "angle, depth\n# a comment\n260,0\n265,40\n270,50\n280,0\n",
+        "Winkel;Tiefe\n260,0;0,0\n265;40\n270;50,0\n280,0;0\n",
+        "angle [deg]\tdepth [µm]\r\n260\t0\r\n265\t40\r\n270\t50\r\n280\t0\r\n",
+        "260 0\n\n265 40\n270   50\n280 0",
+        "260,0 0,0\n265,0 40,0\n270,0 50,0\n280,0 0,0",
+        "angle_deg;depth_mm\n260;0\n265;0,04\n270;0,05\n280;0\n",
+        "phi [rad],h (nm)\n4.53785606,0\n4.62512252,40000\n4.71238898,50000\n4.88692191,0\n",
+    ],
+)
+def test_a_floor_is_read_from_two_columns(text: str) -> None:
+    floor, extent, depth, center = read_floor(text)
+    assert math.degrees(extent) == pytest.approx(20.0)
+    assert math.degrees(center) == pytest.approx(270.0)
+    assert depth == pytest.approx(50e-6)
+    defect = Defect(extent, depth, center, floor=floor)
+    assert float(defect.surface(math.radians(265.0), BEARING)) == pytest.approx(40e-6)
+    assert float(defect.surface(math.radians(275.0), BEARING)) == pytest.approx(25e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "lines of two numbers"),
+        ("1 2\n", "1 angles"),
+        ("1 2\n3 x\n", "line 2"),
+        ("1 2 3\n4 5 6\n", "number of columns in the floor is 3"),
+        ("1 2\n1 3\n", "different angles"),
+        ("1 -2\n2 3\n", "at least 0"),
+        ("1 0\n2 0\n", "not 0 everywhere"),
+        ("1 nan\n2 3\n", "finite"),
+        ("0 1\n400 1\n", "within one turn"),
+    ],
+)
+def test_an_unreadable_floor_is_refused_in_words(text: str, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        read_floor(text)
+
+
+def test_touching_defects_of_different_edges_are_refused() -> None:
+    pair = (Defect(0.2, 50e-6, 0.0), Defect(0.2, 50e-6, 0.1, edge="exact"))
+    with pytest.raises(ValueError, match="run into one another"):
+        presets["fan-rig"].replace(defect=pair)
+
+
+def test_a_race_worn_all_round_only_shifts_the_ring() -> None:
+    """With no edge left, a depth all around is a clearance: the ball loads stay."""
+    scene = presets["fan-rig"]
+    angles = np.linspace(0.0, scene.bearing.ball_spacing, 7)
+    worn = scene.replace(extent=2.0 * math.pi, depth=20e-6)
+    loose = scene.healthy().replace(radial_clearance=23e-6)
+    np.testing.assert_allclose(
+        equilibrium(worn, angles).ball_load, equilibrium(loose, angles).ball_load, rtol=1e-9
+    )
+
+
+def test_several_defects_load_the_ring_at_once() -> None:
+    """Two defects far apart: where balls stand in neither, the healthy bearing's loads."""
+    scene = presets["fan-rig"]
+    pair = (Defect(0.1, 50e-6, 1.5 * math.pi - 0.3), Defect(0.1, 50e-6, 1.5 * math.pi + 0.3))
+    several = scene.replace(defect=pair)
+    state, healthy = equilibrium(several), equilibrium(scene.healthy())
+    free = np.all(drop_into(pair, scene.bearing, state.ball_angle) == 0.0, axis=1)
+    assert 0 < free.sum() < free.size
+    np.testing.assert_allclose(state.ball_load[free], healthy.ball_load[free], rtol=1e-9, atol=1e-9)
+    assert np.all(np.abs(state.ball_load[~free] - healthy.ball_load[~free]).max(axis=1) > 1e-3)
+
+
+@pytest.mark.parametrize("extent", [1e-6, 1e-9, 1e-320])
+def test_a_defect_may_be_tiny_and_rough(extent: float) -> None:
+    """The circle of the ball is rolled no farther than the floor is long, or memory would end."""
+    scene = presets["fan-rig"].replace(extent=extent, floor=RoughFloor(2e-6, 200e-6))
+    healthy = equilibrium(scene.healthy()).ball_load
+    np.testing.assert_allclose(equilibrium(scene).ball_load, healthy, rtol=1e-3, atol=1e-3)

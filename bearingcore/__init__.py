@@ -15,7 +15,6 @@ from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.files.read import read_table
 from bearingcore.files.table import Table
-from bearingcore.plan.warm_up import warm
 from bearingcore.scene.defect import EDGES, RACES, Defect
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.scene.load import Load
@@ -33,6 +32,7 @@ from bearingcore.statics.limit import Limit
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
 from bearingcore.statics.validity import limits
+from bearingcore.warm_up import warm
 
 __all__ = [
     "CONTACT_LAWS",

@@ -44,7 +44,7 @@ def compile_all() -> None:
     event.register("numba:compile", listener)
     from bearing_explorer.page import page  # noqa: F401
 
-    from bearingcore.plan import warm_up
+    from bearingcore import warm_up
 
     imported = time.process_time() - begun
     warm_up.processors = lambda: 1  # or another process compiles the motions

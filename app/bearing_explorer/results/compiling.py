@@ -18,7 +18,7 @@ from bearingcore import kernels, presets
 from bearingcore.experiments.ball_steps import march_split_balls
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
-from bearingcore.plan.warm_up import motions_with_mass, start_python
+from bearingcore.warm_up import motions_with_mass, start_python
 
 
 class StillCompiling(ValueError):  # noqa: N818

@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from bearingcore.plan import warm_up
+from bearingcore import warm_up
 
 WORDS = (
     "What it computes with is being compiled for this processor. That is done once and takes about "

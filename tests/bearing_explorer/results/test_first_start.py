@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 from bearing_explorer.results.first_start import FirstStart
 
-from bearingcore.plan import warm_up
+from bearingcore import warm_up
 
 
 def test_it_has_words_until_all_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:

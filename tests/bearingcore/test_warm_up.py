@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bearingcore import kernels, warm
-from bearingcore.plan import warm_up
+from bearingcore import kernels, warm, warm_up
 
 
 def signatures() -> dict[str, int]:

@@ -1,4 +1,4 @@
-"""Refusing bad input: one sentence that names the field, its value and what is allowed."""
+"""Checks of what comes in: each returns the value, or raises a `FieldError`."""
 
 from __future__ import annotations
 
@@ -9,14 +9,12 @@ from typing import SupportsFloat
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-_short = reprlib.Repr()
-_short.maxstring = _short.maxother = _short.maxlong = 80  # it may be a stranger's whole file
+from bearingcore.errors import FieldError, Interval
 
 
-def refuse(field: str, value: object, allowed: str) -> ValueError:
-    """The error to raise for `field`: its value and what is allowed stand in the message."""
-    shown = f"{value:g}" if isinstance(value, float) else _short.repr(value)
-    return ValueError(f"{field} is {shown}; allowed: {allowed}")
+def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: float) -> FieldError:
+    """The error to raise for `field`; `allowed` may hold ``{name:unit}`` for each of `numbers`."""
+    return FieldError(field, value, allowed, unit, numbers)
 
 
 def number(
@@ -33,7 +31,7 @@ def number(
 
     Raises
     ------
-    ValueError
+    FieldError
         naming `field`, its value and the allowed range.
     """
     given: object = value
@@ -44,19 +42,7 @@ def number(
                 return x
     except (TypeError, ValueError, OverflowError):
         pass
-    limits = []  # in words, which are long to make and seldom needed
-    if at_least > -math.inf:
-        limits.append(f"at least {at_least:g}")
-    if above > -math.inf:
-        limits.append(f"above {above:g}")
-    if at_most < math.inf:
-        limits.append(f"at most {at_most:g}")
-    if below < math.inf:
-        limits.append(f"below {below:g}")
-    allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
-    if unit:
-        allowed += f" [{unit}]"
-    raise refuse(field, given, allowed)
+    raise FieldError(field, given, Interval(at_least, at_most, above, below), unit)
 
 
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:

@@ -1,0 +1,151 @@
+"""Refusals and statuses as data: a field, its value and what is allowed; a name and its sentence.
+
+Nothing reads a message to find out what was wrong: `FieldError` has it as attributes, and a solver
+says how it ended with a member of a `Status`.
+"""
+
+from __future__ import annotations
+
+import enum
+import math
+import reprlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Self
+
+_short = reprlib.Repr()
+_short.maxstring = _short.maxother = _short.maxlong = 80  # a value may be a whole file
+
+
+class Status(enum.StrEnum):
+    """How a solver ended. A member equals its text, so files and tables hold that."""
+
+    @property
+    def sentence(self) -> str:
+        """The status in words; the text itself where a class says no more."""
+        return str(self.value)
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Finite numbers between two bounds, each of which belongs to it or does not.
+
+    Attributes
+    ----------
+    at_least, at_most
+        bounds that belong to it.
+    above, below
+        bounds that do not.
+    """
+
+    at_least: float = -math.inf
+    at_most: float = math.inf
+    above: float = -math.inf
+    below: float = math.inf
+
+    def __contains__(self, number: float) -> bool:
+        """True for a finite number within the bounds."""
+        return (
+            math.isfinite(number)
+            and self.at_least <= number <= self.at_most
+            and self.above < number < self.below
+        )
+
+    def words(self, amount: Callable[[float], str]) -> str:
+        """The interval in words, its bounds written by `amount`."""
+        bounds = (
+            ("at least", self.at_least),
+            ("above", self.above),
+            ("at most", self.at_most),
+            ("below", self.below),
+        )
+        said = [f"{word} {amount(bound)}" for word, bound in bounds if math.isfinite(bound)]
+        return " ".join(["a finite number", " and ".join(said)]).rstrip()
+
+
+class FieldError(ValueError):
+    """A value that a field cannot have.
+
+    Parameters
+    ----------
+    field
+        name of the field, as `Scene.replace` or the function that refused knows it.
+    value
+        the value that was given [unit].
+    allowed
+        the values that are allowed: an `Interval` [unit], or words. In words ``{name}`` stands for
+        a field and ``{name:unit}`` for its number, both out of `numbers`.
+    unit
+        SI unit of the value and of the bounds of an interval; empty where it is not said.
+    numbers
+        numbers that the words speak of, by name, in the unit given there.
+    where
+        the parts that the field is in, outermost first: ("row 2",), ("line 7",).
+    """
+
+    def __init__(
+        self,
+        field: str,
+        value: object,
+        allowed: str | Interval,
+        unit: str = "",
+        numbers: Mapping[str, float] = MappingProxyType({}),
+        where: tuple[str, ...] = (),
+    ) -> None:
+        # the arguments in full, so that an error comes out of another process as it went in
+        super().__init__(field, value, allowed, unit, dict(numbers), where)
+        self.field, self.value, self.allowed, self.unit = field, value, allowed, unit
+        self.numbers, self.where = dict(numbers), where
+
+    def inside(self, where: str) -> Self:
+        """The same error of a part: ``error.inside("row 2")``."""
+        return type(self)(
+            self.field, self.value, self.allowed, self.unit, self.numbers, (where, *self.where)
+        )
+
+    def allowed_words(self, name: Callable[[str], str], amount: Callable[[float, str], str]) -> str:
+        """What is allowed, in words.
+
+        Parameters
+        ----------
+        name
+            called with the name of a field: what it is called.
+        amount
+            called with a number and its SI unit: both as text.
+        """
+        if isinstance(self.allowed, Interval):
+            return self.allowed.words(lambda bound: amount(bound, self.unit))
+        if not self.numbers:
+            return self.allowed
+        return self.allowed.format(
+            **{key: _Told(key, number, name, amount) for key, number in self.numbers.items()}
+        )
+
+    @property
+    def shown(self) -> str:
+        """The value as text of bounded length."""
+        return f"{self.value:g}" if isinstance(self.value, float) else _short.repr(self.value)
+
+    def __str__(self) -> str:
+        """Field, value and what is allowed, in SI units."""
+        if isinstance(self.allowed, Interval):
+            allowed = self.allowed.words("{:g}".format) + (f" [{self.unit}]" if self.unit else "")
+        else:
+            allowed = self.allowed_words(str, lambda number, unit: f"{number:g} {unit}".rstrip())
+        return "".join(f"{part}: " for part in self.where) + (
+            f"{self.field} is {self.shown}; allowed: {allowed}"
+        )
+
+
+@dataclass(frozen=True)
+class _Told:
+    """A number inside words: formatted without a unit it is its name, else the amount."""
+
+    name: str
+    number: float
+    name_of: Callable[[str], str]
+    amount_of: Callable[[float, str], str]
+
+    def __format__(self, unit: str) -> str:
+        return self.amount_of(self.number, unit) if unit else self.name_of(self.name)

@@ -1,0 +1,79 @@
+"""Units: the one table of what sliders, files, plots, tables and sweeps turn numbers into."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit of measurement.
+
+    Attributes
+    ----------
+    si
+        the SI unit of the same kind: "m" for millimetres.
+    factor
+        what a number in this unit is multiplied by to be one in the SI unit.
+    suffix
+        what it is called at the end of a name: "mm" in ``ball_diameter_mm``.
+    """
+
+    si: str
+    factor: float = 1.0
+    suffix: str = ""
+
+
+UNITS: Mapping[str, Unit] = {
+    "": Unit(""),
+    "1": Unit("1"),
+    "m": Unit("m", 1.0, "m"),
+    "mm": Unit("m", 1e-3, "mm"),
+    "µm": Unit("m", 1e-6, "um"),
+    "rad": Unit("rad", 1.0, "rad"),
+    "deg": Unit("rad", math.pi / 180.0, "deg"),
+    "°": Unit("rad", math.pi / 180.0, "deg"),
+    "mrad": Unit("rad", 1e-3, "mrad"),
+    "s": Unit("s", 1.0, "s"),
+    "ms": Unit("s", 1e-3, "ms"),
+    "h": Unit("s", 3600.0, "h"),
+    "rad/s": Unit("rad/s", 1.0, "rad_per_s"),
+    "Hz": Unit("rad/s", 2.0 * math.pi, "hz"),
+    "rpm": Unit("rad/s", math.pi / 30.0, "rpm"),
+    "N": Unit("N", 1.0, "n"),
+    "kN": Unit("N", 1e3, "kn"),
+    "N·m": Unit("N·m", 1.0, "n_m"),
+    "N/m": Unit("N/m", 1.0, "n_per_m"),
+    "MN/m": Unit("N/m", 1e6, "mn_per_m"),
+    "N/rad": Unit("N/rad", 1.0, "n_per_rad"),
+    "N·m/rad": Unit("N·m/rad", 1.0, "n_m_per_rad"),
+    "N/m^1.5": Unit("N/m^1.5", 1.0, "n_per_m1_5"),
+    "MN/m¹·⁵": Unit("N/m^1.5", 1e6, "mn_per_m1_5"),
+    "N·s/m": Unit("N·s/m", 1.0, "n_s_per_m"),
+    "N·m·s/rad": Unit("N·m·s/rad", 1.0, "n_m_s_per_rad"),
+    "kg": Unit("kg", 1.0, "kg"),
+    "kg/m³": Unit("kg/m³", 1.0, "kg_per_m3"),
+    "kg·m": Unit("kg·m", 1.0, "kg_m"),
+    "g·mm": Unit("kg·m", 1e-6, "g_mm"),
+    "kg·m²": Unit("kg·m²", 1.0, "kg_m2"),
+    "g·m²": Unit("kg·m²", 1e-3, "g_m2"),
+    "m/s": Unit("m/s", 1.0, "m_per_s"),
+    "m/s²": Unit("m/s²", 1.0, "m_per_s2"),
+    "rad/s²": Unit("rad/s²", 1.0, "rad_per_s2"),
+    "(m/s²)²/Hz": Unit("(m/s²)²/Hz", 1.0, "m2_per_s4_per_hz"),
+    "(rad/s²)²/Hz": Unit("(rad/s²)²/Hz", 1.0, "rad2_per_s4_per_hz"),
+    "Pa": Unit("Pa", 1.0, "pa"),
+    "GPa": Unit("Pa", 1e9, "gpa"),
+    "dB": Unit("dB", 1.0, "db"),
+}
+"""All units by the text that stands behind a number."""
+
+
+def factor_between(given: str, wanted: str) -> float | None:
+    """What a number in `given` is multiplied by to be one in `wanted`; None of another kind."""
+    one, other = UNITS.get(given), UNITS.get(wanted)
+    if one is None or other is None or one.si != other.si:
+        return None
+    return one.factor * (1.0 / other.factor)

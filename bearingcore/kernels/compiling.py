@@ -1,12 +1,11 @@
 """How functions are compiled and kept on disk, and what keeps their machine code up to date.
 
-numba compares a function on disk with the file that the function stands in, and with nothing else
-(it hashes that file, so that not even a new date of it counts): a function that has compiled a
-callee from another file into itself would be used with the old callee for ever. So the contents of
-all files of a folder of compiled code are part of the version that numba writes at the head of
-each index and reads before anything else in it. Another version is no index: what it names is
-compiled again and takes its place. Nothing is deleted, so two processes that start at once, or a
-folder that cannot be written, need no care of ours.
+numba compares a function on disk with the file that the function stands in, and with nothing else:
+a function that has compiled a callee from another file into itself would be used with the old
+callee for ever. And it believes what it reads: half a file ends the program with a traceback, a
+flipped byte in machine code ends the process. So each file carries a digest of itself, and a
+version made of the contents of all files of its folder of compiled code. What does not match is
+compiled again and takes its place; what cannot be written is not kept.
 
 Fast mathematics that drops NaN or reorders sums stays off: NaN stands where an answer is missing.
 "contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
@@ -15,13 +14,23 @@ statics a quarter faster. NaN, signs and the order of sums are as written.
 
 from __future__ import annotations
 
+import glob
 import hashlib
+import logging
+import pickle
+import shutil
+import uuid
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numba
 from numba import njit
+from numba.core.caching import FunctionCache
+from numba.core.serialize import dumps
+
+log = logging.getLogger(__name__)
 
 _OPTIONS = {"nogil": True, "fastmath": {"contract"}}
 
@@ -53,36 +62,118 @@ def inlined(function: Callable[..., Any]) -> Any:
 
 
 def _made(function: Callable[..., Any], **options: bool) -> Any:
+    kernel = njit(**_OPTIONS, **options)(function)
+    if not hasattr(kernel, "_cache"):  # compiling is switched off
+        return kernel
     try:
-        return kept_up_to_date(njit(**_OPTIONS, cache=True, **options)(function))
+        kernel._cache = KernelCache(function)
     except RuntimeError:
-        # numba found no folder that it may write to: not beside the sources, not in the home of
-        # whoever runs this. Each start compiles then, which `kept_on_disk` tells.
-        _nowhere.append(function.__name__)
-        return njit(**_OPTIONS, **options)(function)
+        # numba found no folder that it may write to: neither next to the sources nor in the home
+        # of the user. Each start compiles then, which `kept_on_disk` tells.
+        _not_kept.append(function.__name__)
+    return kernel
 
 
-_nowhere: list[str] = []
+_not_kept: list[str] = []
 
 
 def kept_on_disk() -> bool:
     """Whether machine code is kept for the next start; False where no folder can be written."""
-    return not _nowhere
-
-
-def kept_up_to_date(kernel: Any) -> Any:
-    """Make numba ignore the kernel's machine code from other sources than those of now."""
-    index = getattr(getattr(kernel, "_cache", None), "_cache_file", None)
-    if index is not None:  # none where compiling is switched off
-        own = Path(kernel.py_func.__code__.co_filename).parent
-        index._version = f"{index._version} {sources(Path(__file__).parent)} {sources(own)}"
-    return kernel
+    return not _not_kept
 
 
 def on_disk(kernel: Any) -> bool:
     """Whether machine code of a kernel, made of the sources of now, lies on disk."""
-    index = getattr(getattr(kernel, "_cache", None), "_cache_file", None)
-    return index is None or bool(index._load_index())
+    kept = getattr(kernel, "_cache", None)
+    return kept._cache_file.has_any() if isinstance(kept, KernelCache) else True
+
+
+@cache
+def _warn_once(words: str) -> None:
+    log.warning(words)
+
+
+class KernelCache(FunctionCache):  # type: ignore[misc]
+    """numba's cache of a function, of which no fault ends the program.
+
+    What cannot be read is removed and compiled anew; what cannot be written is not kept.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        base = Path(self._cache_path) / self._impl.filename_base
+        own = Path(function.__code__.co_filename).parent
+        version = f"{numba.__version__} {sources(Path(__file__).parent)} {sources(own)}"
+        self._cache_file = KernelFiles(base, version)
+
+    def load_overload(self, signature: Any, context: Any) -> Any:
+        """The machine code for a signature; None where it has to be compiled."""
+        try:
+            return super().load_overload(signature, context)
+        except Exception as error:
+            _warn_once(f"kept machine code cannot be used and is made anew: {error!r}")
+            return None
+
+    def save_overload(self, signature: Any, compiled_code: Any) -> None:
+        """Keep machine code, where that is possible."""
+        try:
+            super().save_overload(signature, compiled_code)
+        except Exception as error:
+            _warn_once(f"compiled kernels are not kept: {error}")
+            _not_kept.append(self._name)
+
+
+class KernelFiles:
+    """The files of one function, one for each signature: a digest, a version, machine code.
+
+    Stands for numba's `IndexDataCacheFile`, whose files tell nothing of a flipped byte: machine
+    code with one ends the process.
+    """
+
+    def __init__(self, base: Path, version: str) -> None:
+        self._base, self._version = base, hashlib.sha256(version.encode()).digest()
+
+    def has_any(self) -> bool:
+        """Whether there is machine code of this version for any signature."""
+        files = self._base.parent.glob(f"{glob.escape(self._base.name)}.*.kernel")
+        return any(self._read(file) is not None for file in files)
+
+    def load(self, key: object) -> Any:
+        """What was saved with a key; None if it is missing, outdated or broken."""
+        content = self._read(self._file(key))
+        return None if content is None else pickle.loads(content)
+
+    def save(self, key: object, data: object) -> None:
+        """Write a file whole or not at all: two processes may do it at once."""
+        file, content = self._file(key), self._version + dumps(data)
+        partial = file.with_name(f"{file.name}.{uuid.uuid4().hex[:16]}")
+        try:
+            partial.write_bytes(hashlib.sha256(content).digest() + content)
+            partial.replace(file)
+        except BaseException:
+            partial.unlink(missing_ok=True)
+            raise
+
+    def flush(self) -> None:
+        """Forget nothing: another version counts as no file. numba calls it when recompiling."""
+
+    def _file(self, key: object) -> Path:
+        digest = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
+        return self._base.with_name(f"{self._base.name}.{digest}.kernel")
+
+    def _read(self, file: Path) -> bytes | None:
+        if not file.exists():
+            return None
+        content = b"" if file.is_dir() else file.read_bytes()
+        digest, content = content[:32], content[32:]
+        if hashlib.sha256(content).digest() == digest:
+            return content[32:] if content.startswith(self._version) else None
+        _warn_once("kept machine code is broken and made anew")
+        if file.is_dir():
+            shutil.rmtree(file)
+        else:
+            file.unlink(missing_ok=True)
+        return None
 
 
 @cache

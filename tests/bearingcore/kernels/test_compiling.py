@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -118,6 +119,69 @@ def test_an_upgrade_that_changes_only_a_callee_counts(
     assert told(start(package, cache))[0] == 8.0, "and back again"
 
 
+def flip(file: Path, at: int) -> None:
+    content = bytearray(file.read_bytes())
+    content[at] ^= 0x10
+    file.write_bytes(content)
+
+
+def folder(file: Path) -> None:
+    file.unlink()
+    file.mkdir()
+    (file / "something").write_text("x")
+
+
+BROKEN: dict[str, Callable[[Path], object]] = {
+    "empty": lambda file: file.write_bytes(b""),
+    "cut in half": lambda file: file.write_bytes(file.read_bytes()[: file.stat().st_size // 2]),
+    "all zeros": lambda file: file.write_bytes(bytes(file.stat().st_size)),
+    "a flipped byte in the digest": lambda file: flip(file, 3),
+    "a flipped byte in the version": lambda file: flip(file, 40),
+    "a flipped byte in the code": lambda file: flip(file, file.stat().st_size // 2),
+    "too long": lambda file: file.write_bytes(2 * file.read_bytes()),
+    "a folder": folder,
+}
+
+
+def test_broken_files_are_dropped_and_made_anew(package: Path, tmp_path: Path) -> None:
+    told(start(package, tmp_path))
+    files = list(tmp_path.rglob("*.kernel"))
+    assert len(files) == 2, "of the caller and of what it calls"
+    for shape, break_file in BROKEN.items():
+        for file in files:
+            break_file(file)
+        process = start(package, tmp_path)
+        out, err = process.communicate(timeout=300.0)
+        assert (shape, process.returncode, out.split()[:2]) == (shape, 0, ["8.0", "0"])
+        assert err.count("\n") == 1, f"{shape}: one line says so: {err}"
+        assert "broken and made anew" in err
+        assert told(start(package, tmp_path)) == (8.0, 1, True, True), shape
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is full")
+def test_a_full_disk_keeps_nothing_and_says_so(package: Path, tmp_path: Path) -> None:
+    """Writing fails as on a full disk: computing goes on, and one line says so."""
+    full = (
+        "from pathlib import Path; write = Path.write_bytes\n"
+        "Path.write_bytes = lambda self, data: write(Path('/dev/full'), data)\n"
+    )
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(package.parent),
+        "NUMBA_CACHE_DIR": str(tmp_path),
+    }
+    ended = subprocess.run(
+        [sys.executable, "-c", full + RUN + "print(compiling.kept_on_disk())"],
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    assert ended.stdout.split() == ["8.0", "0", "False", "False", "False"]
+    assert ended.stderr.count("\n") == 1
+    assert "No space left" in ended.stderr
+    assert not list(tmp_path.rglob("*.kernel*")), "nothing is left half written"
+
+
 def test_four_processes_that_start_at_once_are_all_right(package: Path, tmp_path: Path) -> None:
     told(start(package, tmp_path))
     write_callee(package, "Later", "2.0")
@@ -133,7 +197,7 @@ def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: 
     home = tmp_path / "home"
     home.mkdir()
     own = {"XDG_CACHE_HOME": str(home), "HOME": str(home)}
-    before = {file: file.read_bytes() for file in package.rglob("*.nb?")}
+    before = {file: file.read_bytes() for file in package.rglob("*.kernel*")}
     modes = {folder: folder.stat().st_mode for folder in (package, package / "__pycache__")}
     for folder in modes:
         folder.chmod(0o555)
@@ -143,7 +207,7 @@ def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: 
     finally:
         for folder, mode in modes.items():
             folder.chmod(mode)
-    assert before == {file: file.read_bytes() for file in package.rglob("*.nb?")}
+    assert before == {file: file.read_bytes() for file in package.rglob("*.kernel*")}
 
 
 def test_where_nothing_can_be_written_each_start_compiles_and_says_so(

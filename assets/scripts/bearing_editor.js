@@ -54,11 +54,11 @@ export function render({ model }) {
       called.placeholder = name
       if (called.getRootNode().activeElement !== called) called.value = own
     }
-    if (state.choices?.kind) {
-      const rollers = state.choices.kind === "rollers"
+    if (state.bearing) {
+      const { element: one } = state.bearing
       for (const { root, label } of Object.values(panel.rows))
-        root.querySelector("label").textContent = rollers
-          ? label.replace(/\bballs\b/, "rollers").replace(/^Ball\b/, "Roller") : label
+        root.querySelector("label").textContent = label.replace(/\bballs\b/, `${one}s`)
+          .replace(/^Ball\b/, one[0].toUpperCase() + one.slice(1))
     }
     if (state.draft) {
       waits.hidden = !state.draft.words

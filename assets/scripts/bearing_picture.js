@@ -61,7 +61,7 @@ function bearing_picture(pointed) {
     const axis = 372, middle = 155
     const up = (radius) => axis - scale * radius
     const ball = 0.5 * scale * n.ball_diameter
-    const rollers = n.kind === "rollers", sphere = n.kind === "self-aligning"
+    const rollers = n.picture.element === "roller", sphere = n.picture.outer === "sphere"
     const long = rollers ? 0.5 * scale * n.roller_length : ball
     const centre = up(0.5 * n.pitch_diameter)
     const half = 0.5 * scale * (span + (rollers ? n.roller_length + 0.6 * largest : 1.6 * largest))
@@ -137,7 +137,7 @@ function bearing_picture(pointed) {
   }
 
   // A ball between its grooves; what is small in a bearing is drawn large.
-  const contact = (n) => n.kind === "rollers" ? line_contact(n) : grooves(n)
+  const contact = (n) => n.picture.element === "roller" ? line_contact(n) : grooves(n)
   // A roller lies on its races along its length.
   const line_contact = (n) => {
     const x = 440, y = 142, high = 60
@@ -158,7 +158,7 @@ function bearing_picture(pointed) {
     const x = 440, y = 142, ball = 76
     const drawn = (radius) => ball * (0.16 + 2.4 * Math.min(Math.max(2 * radius / n.ball_diameter - 1, 0), 0.2))
     const known = n.outer_groove_radius !== null
-    const sphere = n.kind === "self-aligning"
+    const sphere = n.picture.outer === "sphere"
     const likely = 0.5 * (n.groove_center_distance + n.ball_diameter)
     const far = [n.outer_groove_radius ?? (sphere ? n.outer_raceway_radius : likely),
       n.inner_groove_radius ?? likely].map(drawn)
@@ -231,13 +231,13 @@ function bearing_picture(pointed) {
     const most = 20e-6, greatest = 1.6e10
     const top = Math.min(1, Math.sqrt(n.load_deflection_factor / greatest))
     const points = Array.from({ length: 25 }, (_, i) =>
-      `${x + width * i / 24} ${y - height * top * (i / 24) ** (n.kind === "rollers" ? 10 / 9 : 1.5)}`)
+      `${x + width * i / 24} ${y - height * top * (i / 24) ** n.exponent}`)
     return [
       shape("path", { class: "ring", d: `M${x} ${y - height - 8}V${y}H${x + width + 8}` }),
       dimension("load_deflection_factor",
         shape("path", { class: "line curve", d: "M" + points.join("L") }),
         shape("path", { class: "grip", d: "M" + points.join("L") }),
-        label(x + 8, y - height + 4, ["Q = K δ", "", n.kind === "rollers" ? "¹⁰⁄⁹" : "¹·⁵"], "start")),
+        label(x + 8, y - height + 4, ["Q = K δ", "", n.exponent_text], "start")),
       label(x + width, y + 16, [`compression δ, to ${1e6 * most} µm`], "end"),
     ]
   }

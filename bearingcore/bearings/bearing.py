@@ -25,10 +25,11 @@ from functools import lru_cache
 from itertools import accumulate
 from typing import Any, Self, cast
 
-from bearingcore.bearings import drawing
-from bearingcore.bearings.hertz import RaceContact, in_series, race_contact, spherical_contact
-from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
-from bearingcore.bearings.rows import LENGTHS, MOST_ROWS, Row, arrangement_of, pair, spaced
+from bearingcore.bearings import KINDS, drawing, roller, self_aligning
+from bearingcore.bearings.hertz import RaceContact
+from bearingcore.bearings.kind import Kind, kind_named
+from bearingcore.bearings.line_contact import RollerContact
+from bearingcore.bearings.rows import ARRANGEMENTS, LENGTHS, MOST_ROWS, Row, pair, spaced
 from bearingcore.common import checks, scene_file
 from bearingcore.common.lazy import cached_property
 
@@ -73,6 +74,9 @@ class Bearing:
     density
         of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
         it.
+    kind
+        a `Kind` or its name, out of `bearingcore.bearings.KINDS`. Empty: the one whose numbers
+        these are, as in files that do not say it.
 
     Raises
     ------
@@ -99,6 +103,7 @@ class Bearing:
     rows: tuple[Row, ...] = ()
     roller_length: float | None = None
     density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
+    kind: Kind = field(default="")  # type: ignore[assignment]  # a name becomes its kind
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -155,12 +160,8 @@ class Bearing:
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
         if self.roller_length is not None:
             keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
-            if self.contact_angle != 0.0 or self.rows or self.is_drawn:
-                raise checks.refuse(
-                    "roller_length",
-                    self.roller_length,
-                    "None, unless contact_angle is 0 with one row and no groove radii",
-                )
+        object.__setattr__(self, "kind", _kind_of(self))
+        self.kind.check(self)
         for k in range(len(self.rows)):
             self.of_row(k)  # refuses dimensions that do not fit each other
 
@@ -183,21 +184,10 @@ class Bearing:
         ValueError
             naming the field, its value and what is allowed.
         """
-        length = checks.number("roller_length", roller_length, above=0.0, unit="m")
-        diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
-        pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
         return cls(
-            n_balls=n_rollers,
-            ball_diameter=diameter,
-            pitch_diameter=pitch,
-            contact_angle=0.0,
-            groove_center_radius=0.5 * pitch,
-            groove_center_distance=diameter,  # of no account where contacts never swivel
-            radial_clearance=radial_clearance,
-            load_deflection_factor=palmgren_factor(length),
-            outer_raceway_radius=0.5 * (pitch + diameter),
-            inner_raceway_radius=0.5 * (pitch - diameter),
-            roller_length=length,
+            **roller.fields(
+                n_rollers, roller_diameter, roller_length, pitch_diameter, radial_clearance
+            )
         )
 
     @classmethod
@@ -214,9 +204,7 @@ class Bearing:
     ) -> Self:
         """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
 
-        All balls' outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b
-        is the distance of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0:
-        turning the inner ring about the middle moves no ball.
+        See `bearingcore.bearings.self_aligning` for what follows from these.
 
         Parameters
         ----------
@@ -236,33 +224,17 @@ class Bearing:
         ValueError
             for a drawing that cannot be built.
         """
-        angle = drawing.check_contact_angle(contact_angle)
-        checks.number("contact_angle", angle, above=0.0, unit="rad")
-        diameter = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
-        sphere = checks.number("sphere_radius", sphere_radius, above=diameter, unit="m")
-        drawing.check_groove("inner", inner_groove_radius, diameter)
-        centers = sphere - 0.5 * diameter
-        pitch = 2.0 * centers * math.cos(angle)
-        distance = sphere + inner_groove_radius - diameter
-        inner = race_contact(
-            "inner", diameter, pitch, inner_groove_radius, angle, youngs_modulus, poisson
-        )
-        outer = spherical_contact(diameter, sphere, youngs_modulus, poisson)
-        place = distance * math.sin(angle)
         return cls(
-            n_balls=n_balls,
-            ball_diameter=diameter,
-            pitch_diameter=pitch,
-            contact_angle=angle,
-            groove_center_radius=distance * math.cos(angle),
-            groove_center_distance=distance,
-            radial_clearance=radial_clearance,
-            load_deflection_factor=in_series(
-                inner.load_deflection_factor, outer.load_deflection_factor
-            ),
-            outer_raceway_radius=sphere,
-            inner_raceway_radius=0.5 * pitch - 0.5 * diameter * math.cos(angle),
-            rows=(Row(-place, -1), Row(place, 1)),
+            **self_aligning.fields(
+                n_balls,
+                ball_diameter,
+                sphere_radius,
+                inner_groove_radius,
+                contact_angle,
+                radial_clearance,
+                youngs_modulus,
+                poisson,
+            )
         )
 
     def paired(self, distance: float, arrangement: str, preload: float = 0.0) -> Self:
@@ -280,7 +252,7 @@ class Bearing:
             raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
         if preload > 0.0 and self.contact_angle == 0.0:
             raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
-        return dataclasses.replace(self, rows=pair(distance, arrangement, preload))
+        return self.replace(rows=pair(distance, arrangement, preload))
 
     def respaced(self, distance: float | None = None, preload: float | None = None) -> Self:
         """The pair with another distance of its rows, or another preload [m]; see `paired`.
@@ -291,7 +263,7 @@ class Bearing:
             raise checks.refuse("rows", len(self.all_rows), "two rows that stand as a pair")
         if preload is not None and preload > 0.0 and self.contact_angle == 0.0:
             raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
-        return dataclasses.replace(self, rows=spaced(self.rows, distance, preload))
+        return self.replace(rows=spaced(self.rows, distance, preload))
 
     @property
     def row_distance(self) -> float | None:
@@ -325,16 +297,16 @@ class Bearing:
         if self.rows_are_alike:
             return self
         try:
-            return _with_own(self, tuple(self._unlike(self.rows[row]).items()))
+            return _with_own(self, tuple(self.unlike(self.rows[row]).items()))
         except ValueError as refused:
             raise ValueError(f"row {row + 1}: {refused}") from None
 
     @property
     def rows_are_alike(self) -> bool:
         """True where no row has balls or dimensions of its own; places and turns may differ."""
-        return not any(row.own and self._unlike(row) for row in self.rows)
+        return not any(row.own and self.unlike(row) for row in self.rows)
 
-    def _unlike(self, row: Row) -> dict[str, float]:
+    def unlike(self, row: Row) -> dict[str, float]:
         """What a row has of its own that is not the bearing's."""
         return {name: held for name, held in row.own.items() if held != getattr(self, name)}
 
@@ -384,20 +356,15 @@ class Bearing:
         return 2.0 * math.pi / math.gcd(*counts) / self.pace(0)
 
     @property
-    def is_roller(self) -> bool:
-        """True for cylindrical rollers instead of balls."""
-        return self.roller_length is not None
-
-    @property
     def contact_exponent(self) -> float:
         """Exponent of load over compression: 3/2 for balls, 10/9 for rollers (Palmgren)."""
-        return 10.0 / 9.0 if self.is_roller else 1.5
+        return self.kind.exponent
 
     @property
     def is_flat(self) -> bool:
         """True where a radial load moves nothing out of the plane of the balls."""
         return self.contact_angle == 0.0 and all(
-            row.place == 0.0 and not self._unlike(row) for row in self.all_rows
+            row.place == 0.0 and not self.unlike(row) for row in self.all_rows
         )
 
     @classmethod
@@ -469,67 +436,7 @@ class Bearing:
         A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
         its proportion to it; one named in `changes` is taken as it is.
         """
-        if self.is_self_aligning and not self.is_drawn and "rows" not in changes:
-            return cast(Self, self._aligned(dict(changes)))
-        changed = dataclasses.replace(self, **changes)
-        if changed.is_roller != self.is_roller:
-            raise checks.refuse(
-                "roller_length", changed.roller_length, "what it was: see Bearing.cylindrical"
-            )
-        drawn = self.is_drawn and changed.is_drawn
-        if not (drawn or (self.is_roller and changed.is_roller)):
-            return changed
-        before, after = self._derived(), changed._derived()
-        for name in drawing.Derived._fields:
-            old, was, now = getattr(self, name), getattr(before, name), getattr(after, name)
-            if name not in changes and now != was:
-                changes[name] = now if old == was else old * (now / was)
-        return dataclasses.replace(self, **changes)
-
-    def _aligned(self, changes: dict[str, Any]) -> Bearing:
-        """A self-aligning bearing with what it is drawn by changed: all else follows."""
-        for name in ("pitch_diameter", "groove_center_radius", "groove_center_distance",
-                     "inner_raceway_radius", "outer_groove_radius", "roller_length"):  # fmt: skip
-            given, own = changes.pop(name, None), getattr(self, name)
-            if given is not None and (own is None or not math.isclose(given, own, rel_tol=1e-9)):
-                raise checks.refuse(
-                    name, given, "what follows from ball, sphere, groove and contact angle"
-                )
-        drawn_by = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
-        if not any(changes.get(name) is not None for name in drawn_by):
-            return dataclasses.replace(self, **changes)
-
-        def built(given: dict[str, Any]) -> Bearing:
-            get = given.get
-            return Bearing.self_aligning(
-                n_balls=get("n_balls", self.n_balls),
-                ball_diameter=get("ball_diameter", self.ball_diameter),
-                sphere_radius=get("outer_raceway_radius", self.outer_raceway_radius),
-                inner_groove_radius=get("inner_groove_radius") or self.sphere_groove,
-                contact_angle=get("contact_angle", self.contact_angle),
-                radial_clearance=get("radial_clearance", self.radial_clearance),
-            )
-
-        new = built(changes)
-        stiffer = self.load_deflection_factor / built({}).load_deflection_factor
-        rows = tuple(
-            dataclasses.replace(row, place=fresh.place)
-            for row, fresh in zip(self.rows, new.rows, strict=True)
-        )
-        factor = changes.get("load_deflection_factor", new.load_deflection_factor * stiffer)
-        density = changes.get("density", self.density)
-        return dataclasses.replace(new, rows=rows, load_deflection_factor=factor, density=density)
-
-    def _derived(self) -> drawing.Derived:
-        if self.roller_length is not None:
-            return drawing.Derived(
-                groove_center_radius=0.5 * self.pitch_diameter,
-                groove_center_distance=self.ball_diameter,
-                load_deflection_factor=palmgren_factor(self.roller_length),
-                outer_raceway_radius=0.5 * (self.pitch_diameter + self.ball_diameter),
-                inner_raceway_radius=0.5 * (self.pitch_diameter - self.ball_diameter),
-            )
-        return drawing.derive(**{name: getattr(self, name) for name in drawing.DIMENSIONS})
+        return cast(Self, self.kind.replaced(self, changes))
 
     @property
     def is_drawn(self) -> bool:
@@ -537,21 +444,10 @@ class Bearing:
         return any(getattr(self, name) is not None for name in drawing.OPTIONAL_FIELDS)
 
     @property
-    def is_self_aligning(self) -> bool:
-        """True for two rows whose balls run on one sphere about the middle of the bearing."""
-        if len(self.rows) != 2 or self.contact_angle == 0.0:
-            return False
-        radius = self.groove_center_distance * math.cos(self.contact_angle)
-        place = self.groove_center_distance * math.sin(self.contact_angle)
-        return math.isclose(self.groove_center_radius, radius, rel_tol=1e-9) and all(
-            not self._unlike(row) and math.isclose(row.place, row.facing * place, rel_tol=1e-9)
-            for row in self.rows
-        )
-
-    @property
     def arrangement(self) -> str:
         """How two rows stand, out of ARRANGEMENTS; empty of one row and of any other rows."""
-        return "" if self.is_self_aligning else arrangement_of(self.rows)
+        variant = self.kind.variant(self)
+        return variant if variant in ARRANGEMENTS else ""
 
     @property
     def total_balls(self) -> int:
@@ -561,7 +457,7 @@ class Bearing:
     @property
     def knows_contacts(self) -> bool:
         """True where `race_contact` has an answer."""
-        return self.is_drawn or self.is_roller or self.is_self_aligning
+        return self.kind.knows_contacts(self)
 
     def race_contact(self, race: str) -> RaceContact | RollerContact:
         """Hertzian contact of a ball or roller with a race, "outer" or "inner".
@@ -571,51 +467,14 @@ class Bearing:
         drawing.
         """
         checks.choice("race", race, ("outer", "inner"))
-        if self.roller_length is not None:
-            return roller_contact(race, self.ball_diameter, self.pitch_diameter, self.roller_length)
-        if self.is_self_aligning and not self.is_drawn:
-            return self._aligning_contact(race)
-        name = f"{race}_groove_radius"
-        radius = getattr(self, name)
-        if radius is None or self.youngs_modulus is None or self.poisson is None:
-            raise checks.refuse(name, radius, "a number, where contact pressure is asked for")
-        return race_contact(
-            race,
-            self.ball_diameter,
-            self.pitch_diameter,
-            radius,
-            self.contact_angle,
-            self.youngs_modulus,
-            self.poisson,
-        )
+        return self.kind.race_contact(self, race)
 
-    @property
-    def sphere_groove(self) -> float:
-        """Inner groove radius r_i = A0 + D_b − R_e [m] of a self-aligning bearing."""
-        return self.groove_center_distance + self.ball_diameter - self.outer_raceway_radius
+    def groove_radius(self, race: str) -> float | None:
+        """Radius [m] of a race across the rolling, "outer" or "inner"; None where not known.
 
-    def _aligning_contact(self, race: str) -> RaceContact:
-        """Contact of a ball of a self-aligning bearing; the modulus is the one that gives K."""
-        poisson = 0.3
-
-        def both(modulus: float) -> dict[str, RaceContact]:
-            return {
-                "inner": race_contact(
-                    "inner",
-                    self.ball_diameter,
-                    self.pitch_diameter,
-                    self.sphere_groove,
-                    self.contact_angle,
-                    modulus,
-                    poisson,
-                ),
-                "outer": spherical_contact(
-                    self.ball_diameter, self.outer_raceway_radius, modulus, poisson
-                ),
-            }
-
-        unit = in_series(*(contact.load_deflection_factor for contact in both(1.0).values()))
-        return both(self.load_deflection_factor / unit)[race]
+        Of a self-aligning bearing R_e and r_i = A0 + D_b − R_e; rollers run in no groove.
+        """
+        return self.kind.groove_radius(self, checks.choice("race", race, ("outer", "inner")))
 
     @property
     def diametral_play(self) -> float:
@@ -667,9 +526,7 @@ class Bearing:
     @property
     def ball_mass(self) -> float:
         """Mass of a ball or roller [kg], of its density throughout."""
-        if self.roller_length is not None:
-            return self.density * math.pi / 4.0 * self.ball_diameter**2 * self.roller_length
-        return self.density * math.pi / 6.0 * self.ball_diameter**3
+        return self.density * self.kind.volume(self)
 
     def centrifugal_load(self, shaft_speed: float) -> float:
         """Centrifugal load F_c = m ω_c² D_p/2 [N] of a ball on the pitch circle; speed in rad/s."""
@@ -685,7 +542,7 @@ class Bearing:
         """
         inner, outer = (
             (self.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
-            if self.is_drawn or self.is_self_aligning
+            if self.groove_radius("inner") is not None
             else (1.0, 1.0)
         )
         n = self.contact_exponent
@@ -698,13 +555,10 @@ class Bearing:
 
         r_i − D_b/2 and r_o − D_b/2, in proportion to make A0; halves of it without a drawing.
         """
+        r_i, r_o = self.groove_radius("inner"), self.groove_radius("outer")
         inner, outer = 1.0, 1.0
-        if self.inner_groove_radius is not None and self.outer_groove_radius is not None:
-            inner = self.inner_groove_radius - self.ball_radius
-            outer = self.outer_groove_radius - self.ball_radius
-        elif self.is_self_aligning:
-            inner = self.sphere_groove - self.ball_radius
-            outer = self.outer_raceway_radius - self.ball_radius
+        if r_i is not None and r_o is not None:
+            inner, outer = r_i - self.ball_radius, r_o - self.ball_radius
         scale = self.groove_center_distance / (inner + outer)
         return scale * inner, scale * outer
 
@@ -767,4 +621,14 @@ def _with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
         larger = values["ball_diameter"] / bearing.ball_diameter
         for name in drawing.GROOVES:
             values.setdefault(name, larger * getattr(bearing, name))
-    return dataclasses.replace(bearing, rows=()).replace(**values)
+    return bearing.replace(rows=()).replace(**values)
+
+
+def _kind_of(bearing: Bearing) -> Kind:
+    """The kind that a bearing is made with, or the one that recognizes its numbers."""
+    given: object = bearing.kind
+    if isinstance(given, Kind):
+        return given
+    if given:
+        return kind_named(given)  # type: ignore[arg-type]  # it refuses what is no name
+    return next(kind for kind in KINDS.values() if kind.recognizes(bearing))

@@ -9,14 +9,23 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+from bearingcore.bearings.ball import BALL, SECTION, Ball
 from bearingcore.bearings.drawing import check_contact_angle
+from bearingcore.bearings.kind import Variant
 from bearingcore.common import checks
+
+if TYPE_CHECKING:
+    from bearingcore.bearings.bearing import Bearing
 
 ARRANGEMENTS = ("back-to-back", "face-to-face", "tandem")
 """How the two rows of a pair stand to each other: O, X, or one behind the other."""
 
 MOST_ROWS = 8
+
+USUAL_DISTANCE = 1.5
+"""Distance of the rows of a new pair, in ball diameters."""
 
 LENGTHS = ("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius")
 OWN = ("n_balls", "contact_angle", *LENGTHS)
@@ -154,3 +163,67 @@ def spaced(rows: tuple[Row, ...], distance: float | None, preload: float | None)
         dataclasses.replace(row, place=new.place, offset=new.offset)
         for row, new in zip(rows, made, strict=True)
     )
+
+
+class Rows(Ball):
+    """Two rows of balls or more, which may have balls and dimensions of their own."""
+
+    name = "rows"
+    element = "ball"
+    variants = (
+        Variant(
+            "back-to-back",
+            "Pair, back to back (O)",
+            "Two rows whose lines of contact meet the shaft far apart: stiff against tilt.",
+        ),
+        Variant(
+            "face-to-face",
+            "Pair, face to face (X)",
+            "Two rows whose lines of contact meet the shaft close together: soft against tilt.",
+        ),
+        Variant("tandem", "Pair, tandem", "Two rows that share an axial load one way."),
+    )
+    picture = SECTION._replace(dimensions=(*SECTION.dimensions, "row_distance"))
+
+    def recognizes(self, bearing: Bearing) -> bool:
+        return bearing.roller_length is None and len(bearing.rows) > 1
+
+    def check(self, bearing: Bearing) -> None:
+        if len(bearing.rows) < 2:
+            raise checks.refuse("rows", len(bearing.rows), "at least 2 where the kind is 'rows'")
+        self._check_balls(bearing)
+
+    def variant(self, bearing: Bearing) -> str:
+        return arrangement_of(bearing.rows)
+
+    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
+        distance, preload = bearing.row_distance, bearing.preload
+        made = BALL.nearest(bearing, "").paired(
+            USUAL_DISTANCE * bearing.ball_diameter if distance is None else distance,
+            variant,
+            0.0 if variant == "tandem" or preload is None else preload,
+        )
+        if bearing.rows_are_alike or len(bearing.rows) != 2:
+            return made
+        return made.replace(
+            rows=tuple(
+                dataclasses.replace(new, **old.own)  # type: ignore[arg-type]  # its own numbers
+                for new, old in zip(made.rows, bearing.rows, strict=True)
+            )
+        )
+
+    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+        given = super().inputs(bearing)
+        arrangement = self.variant(bearing)
+        if not arrangement:
+            return given
+        own = OWN if bearing.is_drawn else [name for name in OWN if name not in LENGTHS]
+        second = (f"second_{name}" for name in own)
+        return (*given, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
+
+    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+        meet = self.variant(bearing) in ("back-to-back", "face-to-face")
+        return (*(("pressure_centers_apart",) if meet else ()), *super().facts(bearing))
+
+
+ROWS = Rows()

@@ -281,7 +281,7 @@ def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Pat
         there = tuple(
             dataclasses.replace(one, row=row) for one in defects if one.row in (None, row)
         )
-        own = path_tables(there, dataclasses.replace(bearing.of_row(row), rows=()))
+        own = path_tables(there, bearing.of_row(row).replace(rows=()))
         lines = own.defects.copy()
         lines[:, _TABLE_START] += size
         found.append(lines)

@@ -5,7 +5,6 @@ Tilts are carried times r_d and moments over r_d, r_d being the bearing's `groov
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
@@ -44,6 +43,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
     rows = bearing.all_rows
     owns = [bearing.of_row(k) for k in range(len(rows))]
     counts = [own.n_balls for own in owns]
+    numbers = [bearing.kind.contact_numbers(own) for own in owns]
     lever = bearing.groove_center_radius
 
     def each(*values: float) -> Array:
@@ -59,16 +59,14 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         ),
         pace=each(*(bearing.pace(k) for k in range(len(rows)))),
         arm=each(*(row.place / lever for row in rows)),
-        reach=each(*(own.groove_center_radius / lever for own in owns)),
-        line_r=each(*(math.cos(own.contact_angle) for own in owns)),
-        line_z=each(
-            *(row.facing * math.sin(own.contact_angle) for row, own in zip(rows, owns, strict=True))
-        ),
-        distance=each(*(own.groove_center_distance for own in owns)),
+        reach=each(*(one.groove_center_radius / lever for one in numbers)),
+        line_r=each(*(one.cosine for one in numbers)),
+        line_z=each(*(row.facing * one.sine for row, one in zip(rows, numbers, strict=True))),
+        distance=each(*(one.distance for one in numbers)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
-        factor=each(*(own.load_deflection_factor for own in owns)),
-        exponent=each(*(own.contact_exponent for own in owns)),
+        factor=each(*(one.factor for one in numbers)),
+        exponent=each(*(one.exponent for one in numbers)),
         rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
     )
 

@@ -8,14 +8,18 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.kind import DIRECTIONS
 from bearingcore.common import checks, scene_file
 from bearingcore.scene.defect import Defect, path_tables
 from bearingcore.scene.load import Load
 from bearingcore.scene.support import Support
 
-DOF_NAMES = ("x", "y", "z", "rx", "ry")
+DOF_NAMES = DIRECTIONS
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
+
+LOAD_ALONG = {"x": "fx", "y": "fy", "z": "fz", "rx": "mx", "ry": "my"}
+"""The field of `Load` along each direction."""
 
 CONTACT_LAWS = ("published", "no tension")
 """`published`: viscous damping in every loaded contact (Eq. 18), which can pull as a ball leaves.
@@ -90,8 +94,7 @@ class Scene:
         for name, kind in (("bearing", Bearing), ("load", Load), ("support", Support)):
             if not isinstance(getattr(self, name), kind):
                 raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
-        if self.bearing.is_roller:
-            self._check_radial()
+        self._check_directions()
         for defect in self.defects:
             defect.check_row(self.bearing)
             defect.check_depth(self.bearing)
@@ -99,15 +102,14 @@ class Scene:
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
 
-    def _check_radial(self) -> None:
-        """Refuse what cylindrical rollers cannot carry."""
-        for name in ("fz", "mx", "my"):
-            if getattr(self.load, name) != 0.0:
-                raise checks.refuse(
-                    name, getattr(self.load, name), "0: cylindrical rollers carry radial loads only"
-                )
-        if self.dofs is not None and not set(self.dofs) <= set(DOF_NAMES[:2]):
-            raise checks.refuse("dofs", self.dofs, "x and y, where the bearing has rollers")
+    def _check_directions(self) -> None:
+        """Refuse loads and directions that the kind of bearing cannot have."""
+        kind = self.bearing.kind
+        for direction, name in LOAD_ALONG.items():
+            if direction not in kind.directions and (value := getattr(self.load, name)) != 0.0:
+                raise checks.refuse(name, value, f"0: {kind.carries}")
+        if self.dofs is not None:
+            kind.check_directions(self.dofs)
 
     @property
     def defects(self) -> tuple[Defect, ...]:
@@ -120,22 +122,28 @@ class Scene:
         """The directions that can move: all five, unless a smaller set is exact.
 
         A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
-        symmetry: z, rx and ry stay zero and only x and y are needed. The inner ring of a
-        self-aligning bearing tilts freely, so nothing but another bearing keeps the shaft from it:
-        x, y and z, as for cylindrical rollers x and y.
+        symmetry: z, rx and ry stay zero and only x and y are needed. Of some kinds of bearing
+        fewer than five are all there is, see `Kind.needed_directions`.
         """
-        if self.bearing.is_roller:
-            return DOF_NAMES[:2]  # it carries nothing else
-        if self.bearing.is_self_aligning:
-            return DOF_NAMES[:3]  # its ring tilts freely: what holds it is the shaft
         flat = self.bearing.is_flat
         radial = self.load.fz == self.load.mx == self.load.my == 0.0
-        return DOF_NAMES[:2] if flat and radial else DOF_NAMES
+        return DOF_NAMES[:2] if flat and radial else self.bearing.kind.needed_directions
 
     @property
     def active_dofs(self) -> tuple[str, ...]:
         """The directions that are computed: `dofs` if given, else `needed_dofs`."""
         return self.dofs if self.dofs is not None else self.needed_dofs
+
+    def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
+        """The directions that a computation leaves free: `dofs` if given, else `active_dofs`.
+
+        ValueError for names that are none, or that the kind of bearing cannot move along.
+        """
+        if dofs is None:
+            return self.active_dofs
+        names = check_dofs(dofs)
+        self.bearing.kind.check_directions(names)
+        return names
 
     @property
     def cage_speed(self) -> float:
@@ -149,7 +157,9 @@ class Scene:
     def to_data(self) -> dict[str, Any]:
         """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
-        return {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+        data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+        data["bearing"]["kind"] = self.bearing.kind.name
+        return data
 
     @classmethod
     def from_data(cls, data: object) -> Scene:

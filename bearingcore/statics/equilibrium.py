@@ -16,7 +16,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import scientific, thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
-from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene, check_dofs
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.load_capacity import runs_away
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -221,7 +221,7 @@ def equilibrium(
         angles = default_cage_angles(scene)
     else:
         angles = checks.finite("cage_angles", cage_angles, "rad")
-    free = scene.active_dofs if dofs is None else check_dofs(dofs)
+    free = scene.free_dofs(dofs)
     if cost := too_many_contacts(scene, angles.size, most_contacts):
         return _not_begun(scene, free, angles, cost)
     units = packing.length_units(scene)

@@ -123,7 +123,7 @@ class Film:
     @property
     def sentence(self) -> str:
         """The thinner film in words, and what was left out."""
-        left_out = ROLLER_LEFT_OUT if self.scene.bearing.is_roller else LEFT_OUT
+        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else LEFT_OUT
         return f"{self.thinner.sentence} {left_out}"
 
     @property
@@ -292,7 +292,7 @@ def _film_of(
                 h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)
             else:
                 h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
-        element = "roller" if scene.bearing.is_roller else "ball"
+        element = scene.bearing.kind.element
         films[race] = _race_film(race, load, contact.ellipse_ratio, h, sigma[race], element=element)
     return Film(scene, u, films["inner"], films["outer"])
 

@@ -251,7 +251,7 @@ def life(
         raise checks.refuse(
             "turning_race", turning_race, '"inner" for a damaged bearing: its load stands still'
         )
-    contact = LINE_CONTACT if scene.bearing.is_roller else POINT_CONTACT
+    contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     rows = range(len(scene.bearing.all_rows))
     ratings = [race_ratings(scene.bearing, C, k) for k in rows]
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
@@ -320,10 +320,10 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     own = bearing.of_row(row)
     cosine = math.cos(own.contact_angle)
     return ratings_of_races(
-        LINE_CONTACT if bearing.is_roller else POINT_CONTACT,
+        LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
         dynamic_load_rating * _part_of_rating(bearing, row) / (own.n_balls * cosine),
         own.ball_diameter * cosine / own.pitch_diameter,
-        1.0 if bearing.is_roller else _groove_ratio(*_conformities(own)),
+        1.0 if bearing.kind.line_contact else _groove_ratio(*_conformities(own)),
         len(bearing.all_rows),
     )
 
@@ -343,16 +343,11 @@ def _ratings_alone(bearing: Bearing) -> list[float]:
 
 def _conformities(bearing: Bearing) -> tuple[float, float]:
     """Groove radii of the inner and outer race over the ball diameter."""
-    if bearing.is_self_aligning:
-        inner, outer = bearing.sphere_groove, bearing.outer_raceway_radius
-        return inner / bearing.ball_diameter, outer / bearing.ball_diameter
-    conformity = []
-    for name in ("inner_groove_radius", "outer_groove_radius"):
-        radius = getattr(bearing, name)
-        if radius is None:
-            raise checks.refuse(name, radius, "a number, where life is asked for")
-        conformity.append(radius / bearing.ball_diameter)
-    return conformity[0], conformity[1]
+    inner, outer = bearing.groove_radius("inner"), bearing.groove_radius("outer")
+    if inner is None or outer is None:
+        name = f"{'inner' if inner is None else 'outer'}_groove_radius"
+        raise checks.refuse(name, None, "a number, where life is computed")
+    return inner / bearing.ball_diameter, outer / bearing.ball_diameter
 
 
 def ratings_of_races(
@@ -406,12 +401,8 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     ValueError for self-aligning bearings, whose factors the standard tabulates apart: their rating
     comes from the catalogue.
     """
-    if bearing.is_self_aligning:
-        raise checks.refuse(
-            "dynamic_load_rating",
-            "to be computed for a self-aligning bearing",
-            "that of the catalogue",
-        )
+    if words := bearing.kind.rating_unknown:
+        raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
     if bearing.roller_length is not None:
         return _roller_rating(bearing, bearing.roller_length)
     if not bearing.rows_are_alike:
@@ -458,7 +449,7 @@ def _capacity_factor(gamma: float, f_i: float, f_e: float) -> float:
 
 @lru_cache(maxsize=256)
 def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
-    contact = LINE_CONTACT if scene.bearing.is_roller else POINT_CONTACT
+    contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     law = contact.load_exponent, contact.scatter
     if positions == "all":
         return race_loads(scene, *law, turning_race)

@@ -19,7 +19,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.defect import TWO_PI, Defect, floor_bytes, path_tables
-from bearingcore.scene.scene import Scene, check_dofs
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
     REASONS,
@@ -169,7 +169,7 @@ def stiffness_maps(
         angles = default_cage_angles(scene)
     else:
         angles = checks.finite("cage_angles", cage_angles, "rad")
-    free = scene.active_dofs if dofs is None else check_dofs(dofs)
+    free = scene.free_dofs(dofs)
     bearing = scene.bearing
     shape = sizes.size, angles.size
     if cost := too_many_contacts(scene, sizes.size * angles.size, most_contacts):

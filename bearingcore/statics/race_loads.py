@@ -147,9 +147,7 @@ def _rows_turned(scene: Scene) -> list[Scene]:
             part = (i * SPREAD[kinds.index(paces[k])] / TURNS_OF_ROWS) % 1.0
             turn = math.remainder(row.turn + part * 2.0 * math.pi / math.gcd(*alike), 2.0 * math.pi)
             rows.append(dataclasses.replace(row, turn=turn))
-        scenes.append(
-            dataclasses.replace(scene, bearing=dataclasses.replace(bearing, rows=tuple(rows)))
-        )
+        scenes.append(dataclasses.replace(scene, bearing=bearing.replace(rows=tuple(rows))))
     return scenes
 
 

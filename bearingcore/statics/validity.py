@@ -57,12 +57,6 @@ from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
 ANGLES = 361
 """Cage angles in a ball spacing at which a scene is looked at."""
 
-STATIC_PRESSURE = 4.2e9
-"""Contact pressure [Pa] that ISO 76 allows a ball bearing at rest."""
-
-ROLLER_PRESSURE, ALIGNING_PRESSURE = 4.0e9, 4.6e9
-"""The same for roller bearings, and for self-aligning ball bearings."""
-
 CENTRIFUGAL_SHARE = {"least": 1.0}
 """Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
 lift off the inner race."""
@@ -154,16 +148,15 @@ def limits(
     in_motion = None
     if dynamic_load is not None:
         in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
-    roller = scene.bearing.is_roller
+    kind = scene.bearing.kind
     found: list[Limit | None] = [
         _pressure(scene.bearing, "inner", heaviest),
         _pressure(scene.bearing, "outer", heaviest),
         _pressure_in_motion(scene, in_motion),
-        # the sphere of a self-aligning bearing has no shoulders, its inner grooves have
-        _askew() if roller else _shoulder(scene, state, shoulder_height),
+        _shoulder(scene, state, shoulder_height),
         *_centrifugal(scene, state),
     ]
-    if not roller:
+    if not kind.line_contact:
         found += [
             _compression(scene.bearing, heaviest),
             _compression_in_motion(scene, in_motion),
@@ -181,26 +174,6 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
     return np.isfinite(state.ball_load.sum(axis=1))
 
 
-def _askew() -> Limit:
-    """Rollers do not tilt here: what a tilted ring does to them is not known."""
-    sentence = (
-        "Tilt of the rollers: not known, as rollers stay parallel to the shaft in this model. A "
-        "ring that tilts presses their ends on the races."
-    )
-    return Limit("tilt of the rollers", math.nan, math.nan, "rad", False, sentence)
-
-
-def static_pressure(bearing: Bearing) -> float:
-    """Contact pressure [Pa] that ISO 76 allows this kind of bearing at rest."""
-    if bearing.is_roller:
-        return ROLLER_PRESSURE
-    return ALIGNING_PRESSURE if bearing.is_self_aligning else STATIC_PRESSURE
-
-
-def _element(bearing: Bearing) -> str:
-    return "roller" if bearing.is_roller else "ball"
-
-
 LEFT_OUT = "the static model leaves it out"
 LEFT_OUT_WITH_MASS = (
     "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
@@ -216,7 +189,7 @@ NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not giv
 def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -> Limit:
     """Greatest pressure between a most loaded ball, of each row that is unlike, and a race."""
     name = f"contact pressure, {race} race"
-    allowed = static_pressure(bearing)
+    allowed = bearing.kind.static_pressure
     if not bearing.knows_contacts:
         return unknown(name, allowed, "Pa", NO_DRAWING)
     if any(math.isnan(ball.load) for ball in heaviest):
@@ -227,7 +200,7 @@ def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -
     )
     crossed = p > allowed
     sentence = (
-        f"The most loaded {_element(bearing)} presses on the {race} race with "
+        f"The most loaded {bearing.kind.element} presses on the {race} race with "
         f"{number(p / 1e9)} GPa (load {with_prefix(load, 'N')}), {_dents(crossed, allowed)}"
     )
     return Limit(name, p, allowed, "Pa", crossed, sentence)
@@ -244,7 +217,7 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
     """Greatest pressure of a simulated motion, on the race where it is greater."""
     if scene.shaft_speed == 0.0:
         return None
-    name, allowed = "contact pressure in motion", static_pressure(scene.bearing)
+    name, allowed = "contact pressure in motion", scene.bearing.kind.static_pressure
     if not scene.bearing.knows_contacts:
         return unknown(name, allowed, "Pa", NO_DRAWING)
     if load is None:
@@ -257,7 +230,7 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
     )
     crossed = p > allowed
     sentence = (
-        f"In the simulated motion a {_element(scene.bearing)} carries up to "
+        f"In the simulated motion a {scene.bearing.kind.element} carries up to "
         f"{with_prefix(load, 'N')} and presses on the {race} race with {number(p / 1e9)} GPa, "
         f"{_dents(crossed, allowed)}"
     )
@@ -267,6 +240,9 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
 def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     """`_shoulder_of` all rows, or of the one that is nearest to its shoulder where they differ."""
     bearing, kept = scene.bearing, _known(state)
+    if words := bearing.kind.tilt_unknown:
+        name = f"tilt of the {bearing.kind.elements}"
+        return Limit(name, math.nan, math.nan, "rad", False, words)
     loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
     return _worst(
         _shoulder_of(own, loads[:, balls], angles[:, balls], height)
@@ -300,8 +276,8 @@ def _shoulder_of(
     reach, angles = angles[carries], angles[carries]
     known = bearing.knows_contacts
     if known:
-        races = ("inner",) if bearing.is_self_aligning else ("inner", "outer")
-        half = [bearing.race_contact(race).semi_axes(loads[carries])[0] for race in races]
+        contacts = map(bearing.race_contact, bearing.kind.shoulders)
+        half = [contact.semi_axes(loads[carries])[0] for contact in contacts]
         spread = np.arcsin(np.minimum(np.maximum.reduce(half) / bearing.ball_radius, 1.0))
         reach = angles + spread
     worst = int(np.argmax(reach))
@@ -345,7 +321,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
     lightest = lightest[np.isfinite(lightest)]
     median = float(np.median(lightest)) if lightest.size else math.nan
-    element = _element(bearing)
+    element = bearing.kind.element
     return _share(
         f"least loaded {element}",
         bearing.centrifugal_load(scene.shaft_speed),
@@ -368,8 +344,8 @@ def _centrifugal_change(scene: Scene) -> Limit:
     value = max(effect.load, effect.stiffness)
     crossed = value > limit
     sentence = (
-        f"The centrifugal force of a {_element(scene.bearing)}, {with_prefix(force, 'N')}, changes "
-        f"loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
+        f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
+        f"changes loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
         f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
         f"{number(math.degrees(effect.contact_angle), 2)}°"
         + (

@@ -109,7 +109,7 @@ def _bearing(rng: np.random.Generator, kind: str, decades: Any) -> Bearing:
     if kind == UNLIKE:
         low, high = (_unlike(rng, row, one) for row in (low, high))
     high = dataclasses.replace(high, turn=float(rng.choice([0.0, 0.5 * pair.ball_spacing])))
-    return dataclasses.replace(pair, rows=(low, high))
+    return pair.replace(rows=(low, high))
 
 
 def _unlike(rng: np.random.Generator, row: Row, one: Bearing) -> Row:
@@ -188,7 +188,7 @@ class Contacts:
         slack = np.repeat([b.radial_clearance + row.clearance for row in rows], n).astype(Long)
         offset = np.repeat([row.offset for row in rows], n).astype(Long)
         self.A0, self.K = of("A0"), of("K")
-        self.exponent = Long(10) / Long(9) if b.is_roller else Long(1.5)
+        self.exponent = Long(10) / Long(9) if b.kind.line_contact else Long(1.5)
         self.r0 = self.A0 * self.ca - slack - drop * self.ca
         self.z0 = self.A0 * self.sa + offset - drop * self.sa
         self.units = np.array([1.0, 1.0, 1.0, *[b.groove_center_radius] * 2], dtype=Long)

@@ -5,20 +5,15 @@ from __future__ import annotations
 from bearingcore import Bearing
 
 
-def element(bearing: Bearing) -> str:
-    """What one is called."""
-    return "roller" if bearing.is_roller else "ball"
-
-
 def elements(bearing: Bearing, count: int = 2) -> str:
     """What so many of them are called."""
-    return element(bearing) + ("" if count == 1 else "s")
+    return bearing.kind.element if count == 1 else bearing.kind.elements
 
 
 def element_name(bearing: Bearing, index: int) -> str:
     """The name of one, counted from 0 row after row: "ball 3", "ball 3 of row 2"."""
     row, number = bearing.row_of_ball(int(index))
-    name = f"{element(bearing)} {number + 1}"
+    name = f"{bearing.kind.element} {number + 1}"
     return name if len(bearing.all_rows) == 1 else f"{name} of row {row + 1}"
 
 

@@ -53,10 +53,10 @@ def other_dofs(scene: Scene) -> tuple[str, ...]:
     """What the free directions of `scene` are to be compared with.
 
     What the scene needs, where others are forced on it; else all five, which shows that leaving
-    some out changes nothing. Cylindrical rollers carry nothing along the others, and a
-    self-aligning ring tilts freely: there is nothing to compare with.
+    some out changes nothing. Where the kind of bearing has fewer directions there is nothing to
+    compare with.
     """
-    if scene.bearing.is_roller or scene.bearing.is_self_aligning:
+    if scene.bearing.kind.left_out:
         return scene.needed_dofs
     return scene.needed_dofs if scene.active_dofs != scene.needed_dofs else DOF_NAMES
 

@@ -65,6 +65,7 @@ from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quan
 from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor, clean_name
 from bearingcore import (
     DOF_NAMES,
+    Bearing,
     Defect,
     MeasuredFloor,
     RoughFloor,
@@ -420,6 +421,8 @@ def _part(part: Any, fields: Mapping[str, float | None], **others: Any) -> Any:
     for name, value in own.items():
         if name == "n_balls" and isinstance(value, float):
             own[name] = int(value) if value == int(value) else value
+    if isinstance(part, Bearing):
+        own["kind"] = ""  # links do not say it: the numbers do
     return dataclasses.replace(part, **own)
 
 

@@ -37,7 +37,8 @@ def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
     def fault(fields: tuple[str, ...], sentence: str) -> None:
         found.append((fields, sentence))
 
-    if not bearing.is_self_aligning:
+    given = bearing.kind.inputs(bearing)
+    if "pitch_diameter" in given:
         if not 0.0 < ball < pitch:
             fault(
                 ("ball_diameter_mm", "pitch_diameter_mm"),
@@ -65,8 +66,7 @@ def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
                 "diameters.",
             )
     inner, outer = get("inner_raceway_radius_mm"), get("outer_raceway_radius_mm")
-    direct = not (bearing.is_drawn or bearing.is_roller or bearing.is_self_aligning)
-    if direct and not inner < outer:
+    if "inner_raceway_radius" in given and not inner < outer:
         fault(
             ("inner_raceway_radius_mm", "outer_raceway_radius_mm"),
             f"The inner raceway radius is {_mm(inner)}; allowed: below the outer raceway radius "
@@ -94,8 +94,8 @@ class _Numbers:
         quantity = QUANTITIES[name]
         si = getattr(self._bearing, quantity.last_name)
         if quantity.last_name in ("inner_groove_radius", "outer_groove_radius"):
-            if quantity.last_name[0] == "i" and self._bearing.is_self_aligning:
-                si = self._bearing.sphere_groove
+            if quantity.last_name in self._bearing.kind.inputs(self._bearing):
+                si = self._bearing.groove_radius(quantity.last_name[:5])
             if si is not None and "ball_diameter_mm" in self._draft:
                 # grooves that are not in the draft go with their ball
                 ball = in_si(QUANTITIES["ball_diameter_mm"], self._draft["ball_diameter_mm"])

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from bearing_explorer.state.quantities import defects_of
-from bearingcore import Bearing, MeasuredFloor, RoughFloor, Scene, preset_notes, presets
+from bearingcore import MeasuredFloor, RoughFloor, Scene, preset_notes, presets
+from bearingcore.bearings import KINDS
 
 NOTHING = object()
 """What an option is in the core that is None there."""
@@ -292,40 +293,16 @@ NUMBERS = Choice(
     not_in_lessons=frozenset({"direct", "drawing"}),
 )
 
+KIND_OF_VARIANT = {variant.name: kind for kind in KINDS.values() for variant in kind.variants}
+"""The kind of bearing that each option of KIND is of."""
+
 KIND = Choice(
     "kind",
     "Kind of bearing",
     "",
-    (
-        Option("single", "One row of balls", "Deep groove, or angular contact with an angle."),
-        Option(
-            "back-to-back",
-            "Pair, back to back (O)",
-            "Two rows whose lines of contact meet the shaft far apart: stiff against tilt.",
-        ),
-        Option(
-            "face-to-face",
-            "Pair, face to face (X)",
-            "Two rows whose lines of contact meet the shaft close together: soft against tilt.",
-        ),
-        Option("tandem", "Pair, tandem", "Two rows that share an axial load one way."),
-        Option(
-            "self-aligning",
-            "Self-aligning, two rows",
-            "Two rows on one spherical outer race: the inner ring tilts freely, which is left to "
-            "the shaft's other bearing. Ball, sphere, inner groove and contact angle are given.",
-        ),
-        Option(
-            "rollers",
-            "Cylindrical rollers",
-            "Line contact between cylindrical races, stiff by Palmgren's formula for steel. Radial "
-            "loads only: axial loads and moments are taken out of the scene. Rollers do not tilt.",
-        ),
-    ),
+    tuple(Option(*variant) for kind in KINDS.values() for variant in kind.variants),
     first=True,
-    not_in_lessons=frozenset(
-        {"single", "back-to-back", "face-to-face", "tandem", "self-aligning", "rollers"}
-    ),
+    not_in_lessons=frozenset(KIND_OF_VARIANT),
 )
 
 CHOICE_LIST: tuple[Choice, ...] = (*(PRESET, KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS),)
@@ -344,15 +321,6 @@ def floor_name(floor: object) -> str:
     return next((name for kind, name in kinds.items() if isinstance(floor, kind)), "flat")
 
 
-def kind_of(bearing: Bearing) -> str:
-    """The option of KIND that a bearing is; empty where it is none of them."""
-    if bearing.is_roller:
-        return "rollers"
-    if bearing.is_self_aligning:
-        return "self-aligning"
-    return bearing.arrangement if bearing.rows else "single"
-
-
 def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
     """The options that a scene has, of its `selected` defect where they are one's."""
     defect = defects_of(scene)[selected]
@@ -360,6 +328,6 @@ def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
         **{choice.name: choice.name_of(defect) for choice in OF_DEFECT},
         FLOOR.name: floor_name(defect.floor),
         **{choice.name: choice.name_of(scene) for choice in OF_SCENE},
-        KIND.name: kind_of(scene.bearing),
+        KIND.name: scene.bearing.kind.variant(scene.bearing),
         NUMBERS.name: "drawing" if scene.bearing.is_drawn else "direct",
     }

@@ -109,8 +109,8 @@ def _find(scene: Scene, defect: Defect, field: str) -> Any:
     if field in DEFECT_FIELDS:
         return getattr(defect, field)
     part = _PART_OF[field]
-    if field == "inner_groove_radius" and scene.bearing.is_self_aligning:
-        return scene.bearing.sphere_groove
+    if field == "inner_groove_radius":
+        return scene.bearing.groove_radius("inner")
     return getattr(getattr(scene, part) if part else scene, field)
 
 

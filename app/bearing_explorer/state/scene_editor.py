@@ -333,14 +333,14 @@ class SceneEditor:
             elif quantity.of == "rows":
                 rows[quantity.last_name] = in_si(quantity, value)
         bearing = self.scene.bearing
-        if bearing.is_self_aligning and "ball_diameter" in fields:
-            ratio = fields["ball_diameter"] / bearing.ball_diameter
-            fields.setdefault("inner_groove_radius", bearing.sphere_groove * ratio)
-        if "ball_diameter" in fields and bearing.is_drawn:
+        if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
-            for name in ("inner_groove_radius", "outer_groove_radius"):
-                fields.setdefault(name, getattr(bearing, name) * ratio)
+            given = bearing.kind.inputs(bearing)
+            for race in ("inner", "outer"):
+                radius, name = bearing.groove_radius(race), f"{race}_groove_radius"
+                if name in given and radius is not None:
+                    fields.setdefault(name, radius * ratio)
         if rough:
             choice = self.floors[self.selected]
             floor = dataclasses.replace(choice.rough, **rough)
@@ -550,7 +550,12 @@ class SceneEditor:
                 "faults": self.faults,
                 "words": words_of(self.draft),
             },
-            "bearing": {"name": self.name, "own": self.own_name, "note": self.note},
+            "bearing": {
+                "name": self.name,
+                "own": self.own_name,
+                "note": self.note,
+                "element": self.scene.bearing.kind.element,
+            },
         }
         return state if values is not None else state | self._choices_state()
 
@@ -607,7 +612,7 @@ def _with_rows(bearing: Bearing, numbers: Mapping[str, Any]) -> Bearing:
     if len(bearing.rows) != 2:
         raise ValueError(f"rows of balls are {len(bearing.all_rows)}; allowed: two of them")
     low, high = bearing.rows
-    return dataclasses.replace(bearing, rows=(low, dataclasses.replace(high, **second)))
+    return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
 
 
 def drawn(bearing: Bearing) -> Bearing:
@@ -623,7 +628,7 @@ def drawn(bearing: Bearing) -> Bearing:
         contact_angle=bearing.contact_angle,
         diametral_clearance=2.0 * bearing.radial_clearance,
     )
-    return dataclasses.replace(made, rows=bearing.rows)
+    return made.replace(rows=bearing.rows)
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

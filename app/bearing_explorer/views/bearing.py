@@ -400,7 +400,7 @@ def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str,
 
 def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """The rim of a roller's end, which a ball has not."""
-    kept = slice(None) if scene.bearing.is_roller else slice(0)
+    kept = slice(None) if scene.bearing.kind.picture.element == "roller" else slice(0)
     return {"x": balls["x"][kept], "y": balls["y"][kept], "radius": 0.72 * balls["radius"][kept]}
 
 

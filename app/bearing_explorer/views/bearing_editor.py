@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 import param
@@ -14,7 +14,7 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.choice_list import KIND, NUMBERS, kind_of
+from bearing_explorer.state.choice_list import KIND, NUMBERS
 from bearing_explorer.state.quantities import in_unit, of_rows
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
@@ -81,8 +81,8 @@ class BearingEditor(ControlView):
             words += f"{style.number(1e3 * bearing.roller_length, 4)} mm long."
         else:
             words += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
-            kind = kind_of(bearing)
-            words += "." if kind == "single" else f", {kind.replace('-', ' ')}."
+            kind = bearing.kind.variant(bearing).replace("-", " ")
+            words += f", {kind}." if bearing.rows else "."
         return words[0].upper() + words[1:]
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -124,10 +124,12 @@ def shape_of(bearing: Bearing) -> dict[str, Any]:
         for q in QUANTITY_LIST
         if q.group in BEARING_GROUPS
     }
-    if bearing.is_self_aligning:
-        shape["inner_groove_radius"] = bearing.sphere_groove
+    if "inner_groove_radius" in bearing.kind.inputs(bearing):
+        shape["inner_groove_radius"] = bearing.groove_radius("inner")
     return shape | {
-        "kind": kind_of(bearing),
+        "exponent": bearing.kind.exponent,
+        "exponent_text": bearing.kind.exponent_text,
+        "picture": bearing.kind.picture._asdict(),
         "rows": [
             {
                 "place": row.place,
@@ -142,77 +144,49 @@ def shape_of(bearing: Bearing) -> dict[str, Any]:
 def facts_of(scene: Scene) -> list[dict[str, str]]:
     """Numbers that follow from the dimensions and the speed of the shaft, with their words."""
     bearing, speed = scene.bearing, scene.shaft_speed
-
-    def hertz(name: str) -> str:
-        return _of_each_row(
-            bearing, lambda own: f"{style.number(float(getattr(own, name)(speed)), 4)} Hz"
-        )
-
     facts = [
-        (
-            "Balls pass the outer race",
-            "BPFO",
-            hertz("bpfo"),
-            "How often a point of the outer race is passed.",
-        ),
-        (
-            "Balls pass the inner race",
-            "BPFI",
-            hertz("bpfi"),
-            "How often a point of the inner race meets a ball.",
-        ),
-        ("The cage turns", "FTF", hertz("ftf"), "Turns of the cage a second."),
-        (
-            "A ball spins",
-            "BSF",
-            hertz("bsf"),
-            "Turns of a ball about itself a second.",
-        ),
+        {
+            "label": label,
+            "symbol": name.upper(),
+            "value": _of_each_row(bearing, words),
+            "about": about,
+        }
+        for name, label, about in _FREQUENCIES
+        for words in [partial(_hertz, name=name, speed=speed)]
     ]
-    if bearing.roller_length is not None:
+    for name in bearing.kind.facts(bearing):
+        fact = FACTS[name]
+        value = (fact.of_all or partial(_of_each_row, words=fact.of_row))(bearing)
         facts.append(
-            (
-                "Load-deflection factor",
-                "K",
-                f"{style.number(bearing.load_deflection_factor / 1e6, 5)} MN/m¹⁰⁄⁹",
-                "Stiffness of both line contacts of a roller in series, by Palmgren's formula.",
-            )
+            {"label": fact.label, "symbol": fact.symbol, "value": value, "about": fact.about}
         )
-    else:
-        facts += _of_balls(bearing)
-    if bearing.is_drawn:
-        facts += [
-            (
-                "Groove centre radius",
-                "r<sub>d</sub>",
-                _of_each_row(
-                    bearing, lambda own: style.with_prefix(own.groove_center_radius, "m", 5)
-                ),
-                "The lever with which a tilt moves a contact.",
-            ),
-            (
-                "Raceway radii",
-                "R<sub>o</sub>, R<sub>i</sub>",
-                _of_each_row(bearing, _raceways),
-                "At the bottom of the grooves, where defects are cut.",
-            ),
-        ]
-        facts += [
-            (
-                f"{race.capitalize()} groove over ball",
-                "f<sub>" + race[0] + "</sub>",
-                _of_each_row(bearing, partial(_conformity, race=race)),
-                "Groove radius in ball diameters; makers use 0.505 to 0.54.",
-            )
-            for race in ("outer", "inner")
-        ]
-    keys = ("label", "symbol", "value", "about")
-    return [dict(zip(keys, fact, strict=True)) for fact in facts]
+    return facts
+
+
+_FREQUENCIES = (
+    ("bpfo", "Balls pass the outer race", "How often a point of the outer race is passed."),
+    ("bpfi", "Balls pass the inner race", "How often a point of the inner race meets a ball."),
+    ("ftf", "The cage turns", "Turns of the cage a second."),
+    ("bsf", "A ball spins", "Turns of a ball about itself a second."),
+)
+
+
+def _hertz(bearing: Bearing, name: str, speed: float) -> str:
+    return f"{style.number(float(getattr(bearing, name)(speed)), 4)} Hz"
 
 
 def _of_each_row(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
     """What `words` says of a bearing; of rows that are not alike, of one after the other."""
     return " and ".join(dict.fromkeys(words(own) for own, _ in bearing.unlike_rows))
+
+
+def _length(name: str, digits: int = 3) -> Callable[[Bearing], str]:
+    return lambda bearing: style.with_prefix(getattr(bearing, name), "m", digits)
+
+
+def _factor(bearing: Bearing) -> str:
+    K = style.number(bearing.load_deflection_factor / 1e6, 5)
+    return f"{K} MN/m{bearing.kind.exponent_text}"
 
 
 def _raceways(bearing: Bearing) -> str:
@@ -224,71 +198,98 @@ def _conformity(bearing: Bearing, race: str) -> str:
     return style.number(getattr(bearing, f"{race}_groove_radius") / bearing.ball_diameter, 4)
 
 
-def _of_balls(bearing: Bearing) -> list[tuple[str, str, str, str]]:
-    return [
-        *_of_rows(bearing),
-        *([] if bearing.is_self_aligning else _of_play(bearing)),
-        (
-            "Load-deflection factor",
-            "K",
-            _of_each_row(
-                bearing, lambda own: f"{style.number(own.load_deflection_factor / 1e6, 5)} MN/m¹·⁵"
-            ),
-            "Stiffness of both contacts of a ball in series.",
-        ),
-        (
-            "Groove centre distance",
-            "A<sub>0</sub>",
-            _of_each_row(
-                bearing, lambda own: style.with_prefix(own.groove_center_distance, "m", 4)
-            ),
-            "Both groove radii together less a ball diameter.",
-        ),
-    ]
-
-
-def _of_play(bearing: Bearing) -> list[tuple[str, str, str, str]]:
-    return [
-        (
-            "Free contact angle",
-            "α<sub>f</sub>",
-            _of_each_row(bearing, _free_angle),
-            "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
-        ),
-        (
-            "Diametral play",
-            "s",
-            _of_each_row(bearing, lambda own: style.with_prefix(own.diametral_play, "m")),
-            "From contact to contact across the shaft: what contact angle and clearance stand for.",
-        ),
-    ]
-
-
-def _of_rows(bearing: Bearing) -> list[tuple[str, str, str, str]]:
-    """Where the lines of contact of a pair meet the shaft: that decides what tilts it."""
-    distance = bearing.row_distance
-    if bearing.is_self_aligning and distance is not None:
-        about = "Along the shaft; it follows from the sphere, the inner groove and the angle."
-        return [("Rows apart", "a", style.with_prefix(distance, "m", 4), about)]
-    if distance is None or bearing.arrangement == "tandem" or not bearing.arrangement:
-        return []
-    own = [bearing.of_row(row) for row in range(2)]
-    reach = sum(0.5 * one.pitch_diameter * math.tan(one.contact_angle) for one in own)
-    back = bearing.arrangement == "back-to-back"
-    apart = distance + reach if back else abs(distance - reach)
-    return [
-        (
-            "Pressure centres apart",
-            "a<sub>p</sub>",
-            style.with_prefix(apart, "m", 4),
-            "Where the lines of contact of both rows meet the shaft: the farther apart, the "
-            "stiffer against tilt.",
-        )
-    ]
-
-
 def _free_angle(bearing: Bearing) -> str:
     try:
         return f"{style.number(math.degrees(bearing.free_contact_angle), 4)}°"
     except ValueError:
         return "none: the ring slips through"
+
+
+def _pressure_centers(bearing: Bearing) -> str:
+    """Distance of the points in which the lines of contact of a pair meet the shaft."""
+    distance = bearing.row_distance or 0.0
+    own = [bearing.of_row(row) for row in range(2)]
+    reach = sum(0.5 * one.pitch_diameter * math.tan(one.contact_angle) for one in own)
+    back = bearing.arrangement == "back-to-back"
+    return style.with_prefix(distance + reach if back else abs(distance - reach), "m", 4)
+
+
+class Fact(NamedTuple):
+    """A number that follows from the dimensions: its words, and what writes its value.
+
+    `of_row` writes it of each row where rows are unlike, `of_all` of the whole bearing.
+    """
+
+    label: str
+    symbol: str
+    about: str
+    of_row: Callable[[Bearing], str] = str
+    of_all: Callable[[Bearing], str] | None = None
+
+
+_GROOVE_OVER_BALL = "Groove radius in ball diameters; makers use 0.505 to 0.54."
+
+FACTS = {
+    "pressure_centers_apart": Fact(
+        "Pressure centres apart",
+        "a<sub>p</sub>",
+        "Where the lines of contact of both rows meet the shaft: the farther apart, the stiffer "
+        "against tilt.",
+        of_all=_pressure_centers,
+    ),
+    "sphere_rows_apart": Fact(
+        "Rows apart",
+        "a",
+        "Along the shaft; it follows from the sphere, the inner groove and the angle.",
+        of_all=_length("row_distance", 4),
+    ),
+    "free_contact_angle": Fact(
+        "Free contact angle",
+        "α<sub>f</sub>",
+        "Pushed along the shaft until the balls touch, the bearing has this contact angle.",
+        _free_angle,
+    ),
+    "diametral_play": Fact(
+        "Diametral play",
+        "s",
+        "From contact to contact across the shaft: what contact angle and clearance stand for.",
+        _length("diametral_play"),
+    ),
+    "load_deflection_factor": Fact(
+        "Load-deflection factor", "K", "Stiffness of both contacts of a ball in series.", _factor
+    ),
+    "line_load_deflection_factor": Fact(
+        "Load-deflection factor",
+        "K",
+        "Stiffness of both line contacts of a roller in series, by Palmgren's formula.",
+        _factor,
+    ),
+    "groove_center_distance": Fact(
+        "Groove centre distance",
+        "A<sub>0</sub>",
+        "Both groove radii together less a ball diameter.",
+        _length("groove_center_distance", 4),
+    ),
+    "groove_center_radius": Fact(
+        "Groove centre radius",
+        "r<sub>d</sub>",
+        "The lever with which a tilt moves a contact.",
+        _length("groove_center_radius", 5),
+    ),
+    "raceway_radii": Fact(
+        "Raceway radii",
+        "R<sub>o</sub>, R<sub>i</sub>",
+        "At the bottom of the grooves, where defects are cut.",
+        _raceways,
+    ),
+    **{
+        f"{race}_conformity": Fact(
+            f"{race.capitalize()} groove over ball",
+            f"f<sub>{race[0]}</sub>",
+            _GROOVE_OVER_BALL,
+            partial(_conformity, race=race),
+        )
+        for race in ("outer", "inner")
+    },
+}
+"""All numbers that a kind of bearing may have shown, see `Kind.facts`."""

@@ -71,12 +71,8 @@ class DofDifferences(ControlView):
         text = f"{_listed(found.chosen)} {'is' if len(found.chosen) == 1 else 'are'} free"
         text += ", as the scene needs" if needed else ", which is forced on the scene"
         if found.chosen == found.other:
-            bearing = results.scene.bearing
-            if bearing.is_roller:
-                return f"{text}: cylindrical rollers carry nothing along the others."
-            if bearing.is_self_aligning:
-                return f"{text}: the ring of a self-aligning bearing tilts freely."
-            return f"{text}; there is nothing left out."
+            why = results.scene.bearing.kind.left_out
+            return f"{text}: {why}." if why else f"{text}; there is nothing left out."
         against = "all five free" if found.other == DOF_NAMES else f"{_listed(found.other)} free"
         static = [value for value in found.static.values() if math.isfinite(value)]
         if not static:

@@ -20,7 +20,6 @@ from bearing_explorer.widgets.controls import Rows
 from bearingcore.common.numbers import thousands
 from bearingcore.statics.film import TOUCHING
 from bearingcore.statics.life import LEFT_OUT
-from bearingcore.statics.validity import static_pressure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -278,7 +277,7 @@ def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
     bearing = results.scene.bearing
     facts = []
     for contact in (found.pressures.inner, found.pressures.outer):
-        across = "half the length" if bearing.is_roller else "across"
+        across = "half the length" if bearing.kind.line_contact else "across"
         facts.append(
             (
                 f"{contact.race.capitalize()} race",
@@ -294,7 +293,7 @@ def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
                 "Semi-axes of the contact ellipse; of a roller half its length and half the width.",
             )
         )
-    allowed = style.with_prefix(static_pressure(bearing), "Pa")
+    allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
     words = (
         f"At {style.with_prefix(found.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
         f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: a corner has no "

@@ -222,7 +222,7 @@ def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
     return {
         "ball": number + 1.0,
         "row": row + 1.0 if bearing.rows else np.zeros(balls.size),
-        "roller": np.full(balls.size, float(bearing.is_roller)),
+        "roller": np.full(balls.size, float(bearing.kind.line_contact)),
     }
 
 

@@ -194,7 +194,7 @@ def test_rows_that_are_not_alike(name: str, monkeypatch: pytest.MonkeyPatch) -> 
     pair = presets["7208-back-to-back"]
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, n_balls=11, contact_angle=0.7, turn=0.1))
-    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
+    scene = pair.replace(bearing=pair.bearing.replace(rows=rows))
     results, view = Results(scene, 0.2), VIEWS[name](PackedSource())
     lines = lines_of(view, results)
     assert "Row(" in lines

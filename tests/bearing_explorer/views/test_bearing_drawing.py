@@ -153,7 +153,7 @@ def test_rows_of_unlike_balls_are_drawn_to_one_scale() -> None:
     pair = presets["7208-back-to-back"]
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, n_balls=11, ball_diameter=9e-3, pitch_diameter=50e-3))
-    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
+    scene = pair.replace(bearing=pair.bearing.replace(rows=rows))
     for row, count in enumerate((14, 11)):
         drawn, own = Shapes(scene, 0.5, row), scene.bearing.of_row(row)
         none = dict.fromkeys(("outer", "inner"), np.zeros(count))

@@ -156,7 +156,7 @@ def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_thei
     pair = presets["7208-back-to-back"]
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, contact_angle=0.7))
-    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows))
+    scene = pair.replace(bearing=pair.bearing.replace(rows=rows))
     for asked in (Asked(), Asked(dynamic_load_rating=4e4)):
         found = endurance(scene, asked)
         assert found.life is not None

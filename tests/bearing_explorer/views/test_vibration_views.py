@@ -121,7 +121,7 @@ def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
     assert len(passed(pair)) == 1
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, n_balls=11))
-    scene = pair.replace(bearing=dataclasses.replace(pair.bearing, rows=rows), row=None)
+    scene = pair.replace(bearing=pair.bearing.replace(rows=rows), row=None)
     rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
     assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
     assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from itertools import pairwise
 
@@ -67,7 +66,7 @@ def test_steps_of_the_balls_alone_have_order_2_while_all_stay_in_touch(method: s
     """Pressed from all sides, no contact opens; the ring swings after a push. RK4 is the truth."""
     scene = FAN_RIG.healthy().replace(balls=WITH_MASS, fy=-100.0)
     bearing = scene.bearing
-    tight = dataclasses.replace(bearing, rows=(Row(clearance=-2e-5),))
+    tight = bearing.replace(rows=(Row(clearance=-2e-5),))
     scene = scene.replace(bearing=tight, fx=20.0)
     rate, n = 65536.0, 0.004
 

@@ -19,7 +19,9 @@ from tests.benchmarks.random_balls import faults, random_scene
 from tests.two_contacts import TwoContacts
 
 SINGLE_ROWS = [
-    name for name, scene in presets.items() if not (scene.bearing.rows or scene.bearing.is_roller)
+    name
+    for name, scene in presets.items()
+    if not (scene.bearing.rows or scene.bearing.kind.line_contact)
 ]
 """What `TwoContacts` knows."""
 

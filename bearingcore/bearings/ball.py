@@ -1,0 +1,111 @@
+"""One row of balls: deep groove, or angular contact where the contact angle is not 0."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from bearingcore.bearings import drawing
+from bearingcore.bearings.hertz import RaceContact, race_contact
+from bearingcore.bearings.kind import Kind, Picture, Variant
+from bearingcore.common import checks
+
+if TYPE_CHECKING:
+    from bearingcore.bearings.bearing import Bearing
+
+USUAL_GROOVES = {"inner": 0.52, "outer": 0.53}
+"""Groove radii over the ball diameter that are assumed where none are given."""
+
+_ALWAYS = ("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "radial_clearance")
+
+SECTION = Picture(
+    element="ball",
+    outer="groove",
+    inner="groove",
+    dimensions=("groove_center_radius", "groove_center_distance"),
+    notes=("a ball in its grooves, gaps drawn large",),
+)
+
+
+class Ball(Kind):
+    """A row of balls in grooves, given by a drawing or by the numbers of its contacts."""
+
+    name = "ball"
+    element = "ball"
+    variants: tuple[Variant, ...] = (
+        Variant("single", "One row of balls", "Deep groove, or angular contact with an angle."),
+    )
+    picture = SECTION
+
+    def recognizes(self, bearing: Bearing) -> bool:
+        return bearing.roller_length is None and len(bearing.rows) < 2
+
+    def check(self, bearing: Bearing) -> None:
+        if len(bearing.rows) > 1:
+            raise checks.refuse(
+                "rows", len(bearing.rows), "one row where the kind is 'ball': see Bearing.replace"
+            )
+        self._check_balls(bearing)
+
+    def _check_balls(self, bearing: Bearing) -> None:
+        if bearing.roller_length is not None:
+            raise checks.refuse(
+                "roller_length", bearing.roller_length, "None of balls: see Bearing.cylindrical"
+            )
+
+    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
+        if bearing.kind.has_drawing:
+            return bearing.replace(rows=())
+        ball = bearing.ball_diameter
+        usual = {race: ratio * ball for race, ratio in USUAL_GROOVES.items()}
+        return bearing.from_drawing(
+            bearing.n_balls,
+            ball,
+            bearing.pitch_diameter,
+            bearing.kind.groove_radius(bearing, "inner") or usual["inner"],
+            usual["outer"],
+            contact_angle=bearing.contact_angle,
+            diametral_clearance=2.0 * bearing.radial_clearance,
+        )
+
+    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+        given = drawing.OPTIONAL_FIELDS if bearing.is_drawn else drawing.Derived._fields
+        return (*_ALWAYS, *given)
+
+    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+        drawn = ("groove_center_radius", "raceway_radii", "outer_conformity", "inner_conformity")
+        return (
+            *("free_contact_angle", "diametral_play"),
+            *("load_deflection_factor", "groove_center_distance"),
+            *(drawn if bearing.is_drawn else ()),
+        )
+
+    def derived(self, bearing: Bearing) -> drawing.Derived | None:
+        if not bearing.is_drawn:
+            return None
+        dimensions: dict[str, Any] = {name: getattr(bearing, name) for name in drawing.DIMENSIONS}
+        return drawing.derive(**dimensions)
+
+    def race_contact(self, bearing: Bearing, race: str) -> RaceContact:
+        name = f"{race}_groove_radius"
+        radius = getattr(bearing, name)
+        if radius is None or bearing.youngs_modulus is None or bearing.poisson is None:
+            raise checks.refuse(name, radius, "a number, where contact pressure is asked for")
+        return race_contact(
+            race,
+            bearing.ball_diameter,
+            bearing.pitch_diameter,
+            radius,
+            bearing.contact_angle,
+            bearing.youngs_modulus,
+            bearing.poisson,
+        )
+
+    def knows_contacts(self, bearing: Bearing) -> bool:
+        return bearing.is_drawn
+
+    def groove_radius(self, bearing: Bearing, race: str) -> float | None:
+        radius: float | None = getattr(bearing, f"{race}_groove_radius")
+        return radius
+
+
+BALL = Ball()

@@ -1,0 +1,215 @@
+"""What a kind of bearing says of itself; each kind is a file that fills this in.
+
+A `Bearing` asks its kind, and everything else asks `bearing.kind` for data: a flag, a sentence, a
+tuple of names. Nothing outside this package compares numbers to find out what a bearing is.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from bearingcore.common import checks
+
+if TYPE_CHECKING:
+    from bearingcore.bearings.bearing import Bearing
+    from bearingcore.bearings.drawing import Derived
+    from bearingcore.bearings.hertz import RaceContact
+    from bearingcore.bearings.line_contact import RollerContact
+
+DIRECTIONS = ("x", "y", "z", "rx", "ry")
+"""Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
+
+ISO_76_BALLS, ISO_76_SELF_ALIGNING, ISO_76_ROLLERS = 4.2e9, 4.6e9, 4.0e9
+"""Contact pressures [Pa] that ISO 76 allows at rest."""
+
+
+class Variant(NamedTuple):
+    """A way in which a kind of bearing is offered: its name, its label and what it is."""
+
+    name: str
+    label: str
+    about: str
+
+
+class Picture(NamedTuple):
+    """The cross-section of a kind: shapes of the rolling element and of both races.
+
+    `element` is "ball" or "roller", `outer` "groove", "sphere" or "cylinder", `inner` "groove" or
+    "flat" (no shoulders); `dimensions` the fields of a `Bearing` that are drawn as arrows besides
+    those that all kinds have, `notes` the lines below the enlarged contact.
+    """
+
+    element: str
+    outer: str
+    inner: str
+    dimensions: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+class ContactNumbers(NamedTuple):
+    """What all contacts of a row have in common, as `kernels.Contacts` has it.
+
+    Cosine and sine of the unloaded contact angle, distance of the groove centres [m], radius of
+    the inner ones [m], load-deflection factor [N/m^exponent] and its exponent.
+    """
+
+    cosine: float
+    sine: float
+    distance: float
+    groove_center_radius: float
+    factor: float
+    exponent: float
+
+
+class Kind:
+    """A kind of bearing; the functions of its file are methods of a subclass.
+
+    Attributes
+    ----------
+    name
+        as files have it.
+    element
+        what a rolling element is called: "ball" or "roller".
+    variants
+        how the kind is offered; the first is what `nearest` makes of any other bearing.
+    exponent, exponent_text
+        of load over compression, as a number and raised in print.
+    line_contact
+        True where elements lie on their races along a line: life, film and ratings differ.
+    directions
+        out of DIRECTIONS in which the inner ring can move.
+    needed_directions
+        those which a load in general moves, where nothing but this bearing holds the shaft.
+    carries
+        a sentence on what the others would need; empty where there are none.
+    left_out
+        why fewer directions than five are all there is; empty where all five are.
+    shoulders
+        races that have shoulders which a contact may climb.
+    tilt_unknown
+        a sentence where elements do not follow a tilt; else empty.
+    rating_unknown
+        the words in which a dynamic load rating is refused; empty where one is computed.
+    static_pressure
+        [Pa] that ISO 76 allows in a contact at rest.
+    has_drawing
+        True where a bearing is given either by a drawing or by the numbers of its contacts.
+    picture
+        how its cross-section is drawn.
+    """
+
+    name: str
+    element: str
+    variants: tuple[Variant, ...]
+    picture: Picture
+    exponent: float = 1.5
+    exponent_text: str = "¹·⁵"
+    line_contact: bool = False
+    directions: tuple[str, ...] = DIRECTIONS
+    needed_directions: tuple[str, ...] = DIRECTIONS
+    carries: str = ""
+    left_out: str = ""
+    shoulders: tuple[str, ...] = ("inner", "outer")
+    tilt_unknown: str = ""
+    rating_unknown: str = ""
+    static_pressure: float = ISO_76_BALLS
+    has_drawing: bool = True
+
+    def __reduce__(self) -> tuple[Callable[[str], Kind], tuple[str]]:
+        """A kind that has been sent to another process is the one that is known there."""
+        return kind_named, (self.name,)
+
+    def __repr__(self) -> str:
+        return repr(self.name)
+
+    @property
+    def elements(self) -> str:
+        """What several rolling elements are called."""
+        return f"{self.element}s"
+
+    def recognizes(self, bearing: Bearing) -> bool:
+        """True where numbers without the name of a kind, as in old files, are of this one."""
+        raise NotImplementedError
+
+    def check(self, bearing: Bearing) -> None:
+        """ValueError where a bearing has numbers that this kind cannot have."""
+        raise NotImplementedError
+
+    def variant(self, bearing: Bearing) -> str:
+        """Which of `variants` a bearing is; empty where it is none of them."""
+        return self.variants[0].name
+
+    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
+        """The bearing of this kind that has the dimensions of another one.
+
+        What the other does not say is assumed as it is usual. ValueError where there is none.
+        """
+        raise NotImplementedError
+
+    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+        """Names of the fields that a bearing is given by; all others follow."""
+        raise NotImplementedError
+
+    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+        """Names of the numbers worth showing that follow from the fields."""
+        raise NotImplementedError
+
+    def derived(self, bearing: Bearing) -> Derived | None:
+        """The fields that follow from others, or None where nothing follows."""
+        raise NotImplementedError
+
+    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
+        """A bearing with fields changed, and with what follows from them; see `Bearing.replace`."""
+        if "rows" in changes:
+            changes.setdefault("kind", "")  # a row more or less makes another kind
+        changed = dataclasses.replace(bearing, **changes)
+        before, after = self.derived(bearing), changed.kind.derived(changed)
+        if before is None or after is None:
+            return changed
+        for name in before._fields:
+            old, was, now = getattr(bearing, name), getattr(before, name), getattr(after, name)
+            if name not in changes and now != was:
+                changes[name] = now if old == was else old * (now / was)
+        return dataclasses.replace(bearing, **changes)
+
+    def race_contact(self, bearing: Bearing, race: str) -> RaceContact | RollerContact:
+        """Contact of a rolling element with a race, "outer" or "inner"; see `Bearing`."""
+        raise NotImplementedError
+
+    def knows_contacts(self, bearing: Bearing) -> bool:
+        """True where `race_contact` has an answer."""
+        return True
+
+    def groove_radius(self, bearing: Bearing, race: str) -> float | None:
+        """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
+        return None
+
+    def volume(self, bearing: Bearing) -> float:
+        """Volume [m³] of a rolling element; a ball's, π D_b³/6."""
+        return math.pi / 6.0 * bearing.ball_diameter**3
+
+    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
+        """What the contacts of a bearing, or of one of its rows, have in common."""
+        return ContactNumbers(
+            cosine=math.cos(bearing.contact_angle),
+            sine=math.sin(bearing.contact_angle),
+            distance=bearing.groove_center_distance,
+            groove_center_radius=bearing.groove_center_radius,
+            factor=bearing.load_deflection_factor,
+            exponent=self.exponent,
+        )
+
+    def check_directions(self, dofs: tuple[str, ...]) -> None:
+        """ValueError for directions in which a bearing of this kind cannot move."""
+        if not set(dofs) <= set(self.directions):
+            raise checks.refuse("dofs", dofs, f"{' and '.join(self.directions)}: {self.carries}")
+
+
+def kind_named(name: str) -> Kind:
+    """The kind of a name; ValueError where there is none."""
+    from bearingcore.bearings import KINDS  # it lists the kinds, which are made of this class
+
+    return KINDS[checks.choice("kind", name, tuple(KINDS))]

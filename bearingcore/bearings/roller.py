@@ -1,0 +1,129 @@
+"""Cylindrical rollers: line contacts by Palmgren, radial loads only."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from bearingcore.bearings.drawing import Derived
+from bearingcore.bearings.kind import ISO_76_ROLLERS, Kind, Picture, Variant
+from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.common import checks
+
+if TYPE_CHECKING:
+    from bearingcore.bearings.bearing import Bearing
+
+
+def fields(
+    n_rollers: int,
+    roller_diameter: float,
+    roller_length: float,
+    pitch_diameter: float,
+    radial_clearance: float,
+) -> dict[str, Any]:
+    """All fields of a `Bearing` of cylindrical rollers; see `Bearing.cylindrical`."""
+    length = checks.number("roller_length", roller_length, above=0.0, unit="m")
+    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
+    pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+    return {
+        "kind": ROLLER,
+        "n_balls": n_rollers,
+        "ball_diameter": diameter,
+        "pitch_diameter": pitch,
+        "contact_angle": 0.0,
+        "radial_clearance": radial_clearance,
+        "roller_length": length,
+        **_derived(diameter, length, pitch)._asdict(),
+    }
+
+
+def _derived(diameter: float, length: float, pitch: float) -> Derived:
+    return Derived(
+        groove_center_radius=0.5 * pitch,
+        groove_center_distance=diameter,  # of no account where contacts never swivel
+        load_deflection_factor=palmgren_factor(length),
+        outer_raceway_radius=0.5 * (pitch + diameter),
+        inner_raceway_radius=0.5 * (pitch - diameter),
+    )
+
+
+def _length(bearing: Bearing) -> float:
+    return checks.number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
+
+
+class Roller(Kind):
+    """Cylindrical rollers of steel in one row: they neither tilt nor carry along the shaft."""
+
+    name = "roller"
+    element = "roller"
+    variants = (
+        Variant(
+            "rollers",
+            "Cylindrical rollers",
+            "Line contact between cylindrical races, stiff by Palmgren's formula for steel. Radial "
+            "loads only: axial loads and moments are taken out of the scene. Rollers do not tilt.",
+        ),
+    )
+    picture = Picture(
+        element="roller",
+        outer="cylinder",
+        inner="flat",
+        dimensions=("roller_length",),
+        notes=(
+            "a roller on its races, clearance drawn large",
+            "no tilt, and nothing along the shaft",
+        ),
+    )
+    exponent = 10.0 / 9.0
+    exponent_text = "¹⁰⁄⁹"
+    line_contact = True
+    directions = ("x", "y")
+    needed_directions = ("x", "y")
+    carries = "cylindrical rollers carry radial loads only"
+    left_out = "cylindrical rollers carry nothing along the others"
+    shoulders = ()
+    tilt_unknown = (
+        "Tilt of the rollers: not known, as rollers stay parallel to the shaft in this model. A "
+        "ring that tilts presses their ends on the races."
+    )
+    static_pressure = ISO_76_ROLLERS
+    has_drawing = False
+
+    def recognizes(self, bearing: Bearing) -> bool:
+        return bearing.roller_length is not None
+
+    def check(self, bearing: Bearing) -> None:
+        length = _length(bearing)
+        if bearing.contact_angle != 0.0 or bearing.rows or bearing.is_drawn:
+            raise checks.refuse(
+                "roller_length",
+                length,
+                "None, unless contact_angle is 0 with one row and no groove radii",
+            )
+
+    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
+        return bearing.cylindrical(
+            bearing.n_balls,
+            bearing.ball_diameter,
+            bearing.ball_diameter,
+            bearing.pitch_diameter,
+            bearing.radial_clearance,
+        )
+
+    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+        return ("n_balls", "ball_diameter", "roller_length", "pitch_diameter", "radial_clearance")
+
+    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+        return ("line_load_deflection_factor",)
+
+    def derived(self, bearing: Bearing) -> Derived:
+        return _derived(bearing.ball_diameter, _length(bearing), bearing.pitch_diameter)
+
+    def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
+        return roller_contact(race, bearing.ball_diameter, bearing.pitch_diameter, _length(bearing))
+
+    def volume(self, bearing: Bearing) -> float:
+        return math.pi / 4.0 * bearing.ball_diameter**2 * _length(bearing)
+
+
+ROLLER = Roller()

@@ -8,7 +8,7 @@ import numpy as np
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.defect_words import extent_words
-from bearing_explorer.plots.element_words import element, row_words
+from bearing_explorer.plots.element_words import row_words
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -104,7 +104,7 @@ class DepthProfile(View):
             else ""
         )
         turning = row_words(scene.bearing, defect.row) + turning
-        ball = element(scene.bearing)
+        ball = scene.bearing.kind.element
         length = extent_words(defect, scene.bearing)
         deepest = float(np.max(profile.path))
         if defect.floor is not None:

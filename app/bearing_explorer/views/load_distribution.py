@@ -10,7 +10,7 @@ import numpy as np
 from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.element_words import element, elements
+from bearing_explorer.plots.element_words import elements
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.defect_shape import pieces, spans
 from bearing_explorer.results.load_curve import curves_table, load_curve, row_name
@@ -160,7 +160,7 @@ class LoadDistribution(View):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
             part = (
-                f"{'the' if parts else 'The'} greatest load of a {element(bearing)}{which} is "
+                f"{'the' if parts else 'The'} greatest load of a {bearing.kind.element}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.beside_words and np.isfinite(healthy).any():

@@ -7,7 +7,7 @@ import math
 import pytest
 from bearing_explorer.state.address import place_of, read, write
 from bearing_explorer.state.bearing_kinds import as_kind, hidden_of
-from bearing_explorer.state.choice_list import KIND, kind_of
+from bearing_explorer.state.choice_list import KIND
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Bearing, Scene, equilibrium, presets
@@ -82,7 +82,7 @@ def test_every_kind_can_be_made_of_every_bearing(start: str, kind: str) -> None:
     editor = SceneEditor(start)
     assert editor.choose({"kind": kind}) == {}
     scene = editor.scene
-    assert kind_of(scene.bearing) == kind
+    assert scene.bearing.kind.variant(scene.bearing) == kind
     assert scene.bearing.n_balls == presets[start].bearing.n_balls
     assert scene.bearing.ball_diameter == presets[start].bearing.ball_diameter
     state = editor.state()
@@ -100,7 +100,7 @@ def test_every_kind_can_be_made_of_every_bearing(start: str, kind: str) -> None:
 def test_a_kind_that_it_is_already_changes_nothing() -> None:
     for name in presets:
         bearing = presets[name].bearing
-        assert as_kind(bearing, kind_of(bearing)) is bearing
+        assert as_kind(bearing, bearing.kind.variant(bearing)) is bearing
 
 
 def test_rollers_take_axial_loads_and_rows_of_defects_out_of_the_scene() -> None:

@@ -624,11 +624,14 @@ def _with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
     return bearing.replace(rows=()).replace(**values)
 
 
+def recognized(bearing: Bearing) -> Kind:
+    """The kind that recognizes the numbers of a bearing, as of files that do not name it."""
+    return next(kind for kind in KINDS.values() if kind.recognizes(bearing))
+
+
 def _kind_of(bearing: Bearing) -> Kind:
-    """The kind that a bearing is made with, or the one that recognizes its numbers."""
+    """The kind that a bearing is made with, by itself or by its name."""
     given: object = bearing.kind
     if isinstance(given, Kind):
         return given
-    if given:
-        return kind_named(given)  # type: ignore[arg-type]  # it refuses what is no name
-    return next(kind for kind in KINDS.values() if kind.recognizes(bearing))
+    return kind_named(given) if given else recognized(bearing)  # type: ignore[arg-type]

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
-from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.bearing import Bearing, recognized
 from bearingcore.bearings.kind import DIRECTIONS
 from bearingcore.common import checks, scene_file
 from bearingcore.scene.defect import Defect, path_tables
@@ -158,7 +158,9 @@ class Scene:
         """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
         data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
-        data["bearing"]["kind"] = self.bearing.kind.name
+        kind = data["bearing"].pop("kind")
+        if kind is not recognized(self.bearing):
+            data["bearing"]["kind"] = kind.name
         return data
 
     @classmethod

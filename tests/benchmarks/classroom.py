@@ -115,11 +115,10 @@ class Person:
 
     async def compute(self, seconds: float) -> None:
         """Have the background compute one thing after the other, for as long as told."""
-        await self._client.show("speed-run", "JobPanel")
-        values = self._client.components["JobPanel"]["values"]
+        await self._client.show("speed-run", "Run up")
         end = time.perf_counter() + seconds
         while (left := end - time.perf_counter()) > 0.0:
-            await self._client.say("JobPanel", {"start": values})
+            await self._client.press("Run up")
             self.notes.jobs += 1
             await asyncio.sleep(min(10.0, left))
 

@@ -72,7 +72,7 @@ def titles(page: Page) -> list[str]:
 
 
 def words(page: Page) -> Locator:
-    return page.locator(".view-explore form .words")
+    return page.locator(".view-explore .job .words")
 
 
 def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
@@ -84,7 +84,7 @@ def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:
 
 def choose(page: Page, **fields: str) -> None:
     for name, text in fields.items():
-        page.locator(f"#job-{name}:visible").select_option(text)
+        page.locator(f".field-{name}:visible select").select_option(text)
 
 
 @pytest.mark.proof
@@ -106,8 +106,8 @@ def test_a_plane_is_explored(watch: tuple[Page, Watch], explorer: Server) -> Non
     expect(page.locator(".view-explore")).to_contain_text("kyy, mean: least")
 
     # other axes: the quantity brings its range, and the map is made anew without the button
-    choose(page, y="radial_clearance_um")
-    expect(page.locator("#job-y_to")).to_have_value("50")
+    choose(page, y="Radial clearance (µm)")
+    expect(page.locator(".field-y_to input")).to_have_value("50")
     wait(page, lambda: any("Radial clearance" in title for title in titles(page)))
     wait(page, lambda: drawn([25, 33]))
 
@@ -147,7 +147,7 @@ def test_a_plane_is_explored(watch: tuple[Page, Watch], explorer: Server) -> Non
     assert 0.0 < covered(page) < 1.0, "what is selected stays selected"
 
     # an output that takes a while is followed and cancelled
-    choose(page, grid="1", output="acceleration_rms_y")
+    choose(page, grid="65 × 49", output="acceleration along y, RMS")
     cancel = page.get_by_role("button", name="Cancel")
     expect(cancel).to_be_enabled()
     wait(page, lambda: shape(page) in ([4, 5], [7, 9]))
@@ -168,6 +168,6 @@ def test_a_plane_is_explored(watch: tuple[Page, Watch], explorer: Server) -> Non
     assert saving.value.path().read_text().count("<svg") == 5
 
     # what cannot be is refused in a sentence, and the map stays
-    page.locator("#job-x_from").fill("90")
-    page.locator("#job-x_from").press("Enter")
+    page.locator(".field-x_from input").fill("90")
+    page.locator(".field-x_from input").press("Enter")
     expect(words(page)).to_contain_text("must be greater")

@@ -26,7 +26,7 @@ from tests.browser.helpers import Server, Watch, drag, holding
 
 def fill(page: Page, **fields: str) -> None:
     for name, text in fields.items():
-        page.locator(f"#job-{name}:visible").fill(text)
+        page.locator(f".field-{name}:visible input").fill(text)
 
 
 def grid(page: Page, name: str) -> list[float]:
@@ -37,7 +37,7 @@ def grid(page: Page, name: str) -> list[float]:
 def small_map(page: Page) -> None:
     """A quick map over speeds and extents around the scene of the fan rig."""
     fill(page, x_from="20", x_to="40", y_from="5", y_to="15")
-    page.locator("#job-grid").select_option("13")
+    page.locator(".field-grid:visible select").select_option("13 × 13")
     page.get_by_role("button", name="Compute the map").click()
     expect(words(page, "stability-map")).to_have_text(re.compile(r"13 × 13 points after"))
     settle(page)
@@ -112,16 +112,16 @@ def test_a_changed_scene_makes_the_map_faint(watch: tuple[Page, Watch], explorer
 def test_progress_moves_and_cancel_works(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "orbits")
-    page.locator("#job-grid").select_option("97")
+    page.locator(".field-grid:visible select").select_option("97 × 97")
     cancel = page.get_by_role("button", name="Cancel")
     expect(cancel).to_be_disabled()
     page.get_by_role("button", name="Compute the map").click()
     expect(cancel).to_be_enabled()
     bar = page.get_by_role("progressbar")
-    seen: set[int] = set()
+    seen: set[float] = set()
 
     def moved() -> bool:
-        seen.add(int(bar.get_attribute("aria-valuenow") or 0))
+        seen.add(float(bar.get_attribute("value") or 0))
         return len(seen) >= 3
 
     wait(page, moved)
@@ -139,7 +139,7 @@ def test_sliders_stay_lively_and_tabs_change_while_it_computes(
 ) -> None:
     page, _ = watch
     open_page(page, explorer, "orbits")
-    page.locator("#job-grid").select_option("97")
+    page.locator(".field-grid:visible select").select_option("97 × 97")
     page.get_by_role("button", name="Compute the map").click()
     expect(page.get_by_role("button", name="Cancel")).to_be_enabled()
     show(page, "load")
@@ -157,11 +157,11 @@ def test_sliders_stay_lively_and_tabs_change_while_it_computes(
     wait(page, lambda: len(grid(page, "stability_cells")) == 6)
     # another tab's job takes the place of this one
     show(page, "speed-run")
-    page.locator("#job-count").select_option("25")
+    page.locator(".field-count:visible select").select_option("25")
     page.get_by_role("button", name="Run up").click()
     expect(words(page, "speed-run")).to_have_text(re.compile("25 speeds after"))
     show(page, "orbits")
-    expect(words(page, "stability-map")).to_contain_text("Given up for something else")
+    expect(words(page, "stability-map")).to_contain_text("Cancelled: replaced by")
 
 
 @pytest.mark.proof
@@ -175,15 +175,15 @@ def test_what_is_refused_gets_a_sentence(watch: tuple[Page, Watch], explorer: Se
     page.get_by_role("button", name="Compute the map").click()
     expect(words(page, "stability-map")).to_contain_text("must turn")
     # another quantity brings its own range
-    page.locator("#job-x").select_option("depth_um")
-    expect(page.locator("#job-x_to")).to_have_value("500")
+    page.locator(".field-x:visible select").select_option("Depth (µm)")
+    expect(page.locator(".field-x_to input")).to_have_value("500")
 
 
 @pytest.mark.proof
 def test_a_speed_run_is_drawn_read_and_clicked(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     open_page(page, explorer, "speed-run")
-    page.locator("#job-count").select_option("49")
+    page.locator(".field-count:visible select").select_option("49")
     page.get_by_role("button", name="Run up").click()
     expect(words(page, "speed-run")).to_have_text(re.compile("49 speeds after"))
     settle(page)

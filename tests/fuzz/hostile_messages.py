@@ -175,11 +175,6 @@ def _look(random_: random.Random) -> Any:
     }  # fmt: skip
 
 
-def _start(random_: random.Random) -> Any:
-    names = ("x", "y", "x_from", "x_to", "y_from", "y_to", "grid", "output", "from", "to", "points")
-    return {name: _number_text(random_) for name in random_.sample(names, 4)}
-
-
 _COMMON: dict[str, Callable[[random.Random], Any]] = {
     "set": quantities,
     "typed": quantities,
@@ -220,8 +215,6 @@ _FIELDS: dict[str, dict[str, Callable[[random.Random], Any]]] = {
         "balls_up_to": _number_text,
         "own": lambda r: True,
     },
-    "StepChoice": {"use": _number_text},
-    "JobPanel": {"start": _start, "cancel": lambda r: True},
     "LookPanel": {"look": _look},
     "EvidenceTable": {"look": _look, "zoom": lambda r: [r.choice(("ball", 1)), plain_value(r)]},
     "MeasurementPanel": {

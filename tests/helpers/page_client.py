@@ -147,6 +147,17 @@ class PageClient:
         event = {"type": "event", "name": "data_event", "values": values}
         await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event})
 
+    async def press(self, label: str) -> None:
+        """Press a button of Panel."""
+        values = _map({"model": {"id": self.ids[label]}})
+        event = {"type": "event", "name": "button_click", "values": values}
+        await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event})
+
+    async def choose(self, label: str, value: str) -> None:
+        """Choose an option of a list of Panel, or type text into a field."""
+        model = {"id": self.ids[label]}
+        await self.patch({"kind": "ModelChanged", "model": model, "attr": "value", "new": value})
+
     async def ask(self, component: str = "Controls", **message: Any) -> int:
         """Ask for a change; return its mark."""
         self.mark += 1
@@ -287,6 +298,8 @@ class PageClient:
             attributes = made.get("attributes", {})
             if attributes.get("name"):
                 self._names[made["id"]] = attributes["name"]
+            if label := attributes.get("label") or attributes.get("title"):
+                self.ids[str(label)] = made["id"]  # of a widget
             shown = attributes.get("data")
             if isinstance(shown, dict) and shown.get("type") == "object":
                 name = shown["name"].rstrip("0123456789")

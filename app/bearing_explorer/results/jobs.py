@@ -200,7 +200,7 @@ class Jobs:
             log.error("a job failed", exc_info=error)
             state = JobState("failed", part, "This could not be computed.")
         elif job is not self._job:
-            state = JobState("stopped", part, "Given up for something else that was asked for.")
+            state = JobState("stopped", part, "Cancelled: replaced by a newer request.")
         elif job.work.stopped:
             state = JobState("stopped", part, f"Cancelled. {future.result()}")
         elif job.work.timed_out:

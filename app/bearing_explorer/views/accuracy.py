@@ -29,9 +29,9 @@ from bearing_explorer.results.planning import steps_by_hand
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.base import Ranges, SessionParts, Sources
+from bearing_explorer.views.base import Ranges, Sentence, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.widgets.step_choice import StepChoice
+from bearing_explorer.widgets.form import Fields, FieldSpec, button, choices, row, select
 from bearingcore.common.numbers import scientific
 from bearingcore.experiments import Experiment, Point, StabilityChart
 from bearingcore.experiments.balls import BALL_METHODS, BANDS
@@ -128,9 +128,9 @@ class Accuracy(JobView[Found]):
         self._work = pn.Column(switch, *self._plots, **whole)
         self._stability = pn.Column(self._verdicts(packed), visible=False, **whole)
         self._legend = pn.pane.HTML("", **whole)
-        self._steps = StepChoice(self._steps_asked)
+        steps = self._step_controls()
         return pn.Column(
-            self.job, self._work, self._stability, self._legend, self._steps, **whole
+            self.job, self._work, self._stability, self._legend, steps, **whole
         )  # fmt: skip
 
     def _chart(self, packed: PackedSource, cost: str, error: Range1d) -> figure:
@@ -239,7 +239,7 @@ class Accuracy(JobView[Found]):
 
     # The job
 
-    def fields(self) -> list[dict[str, Any]]:
+    def fields(self) -> list[FieldSpec]:
         options = [[name, trial.label] for name, trial in TRIALS.items()]
         return [{"name": "experiment", "label": "What to measure", "options": options}]
 
@@ -265,12 +265,15 @@ class Accuracy(JobView[Found]):
         usable = [p for p in self.found.result.points if _usable(p)]
         return {f"{p.value:.0f}": p.value for p in sorted(usable, key=lambda p: p.value)}
 
-    def _steps_asked(self, message: Any) -> None:
-        text = message.get("use") if isinstance(message, dict) else None
-        if text == "":
-            self._use(None)
-        elif isinstance(text, str) and text in (offered := self.offered()):
-            self._use(offered[text])
+    def _step_controls(self) -> pn.Row:
+        self._steps = Fields(self._step_chosen)
+        self._steps.add("steps", select("Steps of the scene's motion", [["", "automatic"]]))
+        self._reset = button("Reset", lambda: self._use(None), disabled=True)
+        self._step_words = Sentence(margin=0, sizing_mode="stretch_width")
+        return row(self._steps.widgets["steps"], self._reset, self._step_words)
+
+    def _step_chosen(self, _: str) -> None:
+        self._use(self.offered().get(self._steps.values["steps"]))
 
     def _tapped(self, cost: str, x: Any, y: Any) -> None:
         point = self.nearest(cost, x, y)
@@ -283,7 +286,7 @@ class Accuracy(JobView[Found]):
                 f"{point.method}, {point.setting}, is for comparison only: the scene's motion is "
                 "marched with RK4, so click one of its points."
             )
-            self._steps.words = self._note
+            self._step_words.text = self._note
 
     def nearest(self, cost: str, x: Any, y: Any) -> Point | None:
         """The drawn point that a click at x, y means, if there is one near."""
@@ -378,18 +381,16 @@ class Accuracy(JobView[Found]):
         self._show_steps(settings.step_rate)
 
     def _show_steps(self, step_rate: float | None) -> None:
-        offered = list(self.offered())
         chosen = "" if step_rate is None else f"{step_rate:.0f}"
-        if chosen and chosen not in offered:
-            offered.append(chosen)
+        rates = list(dict.fromkeys([*self.offered(), *([chosen] if chosen else [])]))
+        options = [["", "automatic"], *([text, f"RK4, {text} Hz"] for text in rates)]
+        self._steps.values["steps"] = chosen
+        self._steps.widgets["steps"].param.update(**choices(options), value=chosen)
+        self._reset.disabled = not chosen
         note = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
             "The program chooses the steps of the scene's motion."
         )  # fmt: skip
-        self._steps.param.update(
-            options=[[text, f"RK4, {text} Hz"] for text in offered],
-            chosen=chosen,
-            words=self._note or note,
-        )
+        self._step_words.text = self._note or note
 
 
 def look(slot: int) -> tuple[str, str]:

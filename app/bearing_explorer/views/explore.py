@@ -38,12 +38,13 @@ from bearing_explorer.serve.drawn_by import DrawnBy
 from bearing_explorer.serve.live import counted_once
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.serve.taking_apart import take_figure_apart
-from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import Sweep, focused, value_of
 from bearing_explorer.views.base import Fill, Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView
+from bearing_explorer.widgets.form import FieldSpec
+from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 
 if TYPE_CHECKING:
     from bearing_explorer.plotting.plane import Field
@@ -138,16 +139,14 @@ class ExplorePlane(JobView[Plane]):
 
     # The form
 
-    def fields(self) -> list[dict[str, Any]]:
+    def fields(self) -> list[FieldSpec]:
         outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
         return [
             {"name": "output", "label": "Map of", "options": outputs},
             *plane_fields(headings=True),
             {"name": "grid", "label": "Points", "options": _GRIDS},
-            *(
-                {"name": name, "label": label, "only": {"output": _WITH_BAND}}
-                for name, label in (("band_from", "Band from (kHz)"), ("band_to", "to (kHz)"))
-            ),
+            {"name": "band_from", "label": "Band from (kHz)", "only": {"output": _WITH_BAND}},
+            {"name": "band_to", "label": "to (kHz)", "only": {"output": _WITH_BAND}},
         ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
@@ -177,20 +176,19 @@ class ExplorePlane(JobView[Plane]):
             )
         return Asked(x, y, output, int(given["grid"]))
 
-    def _asked(self, message: Any) -> None:
-        if not isinstance(message, dict) or self._jobs is None:
-            return
-        if message.get("cancel") is True:
-            self._wait_no_more()
-            self._jobs.cancel()
-        if isinstance(given := message.get("start"), dict):
-            try:
-                self._asking = self.asked(self.texts(given), self._editor)
-            except ValueError as error:
-                self.job.show(JobState("failed", 0.0, str(error)))
-            else:
-                self._refining = None
-                self._draw()
+    def start_job(self, given: Mapping[str, str]) -> None:
+        """Ask for the map of the form; the job begins when the sliders rest."""
+        try:
+            self._asking = self.asked(given, self._editor)
+        except ValueError as error:
+            self.job.show(JobState("failed", 0.0, str(error)))
+        else:
+            self._refining = None
+            self._draw()
+
+    def cancel_job(self) -> None:
+        self._wait_no_more()
+        super().cancel_job()
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)

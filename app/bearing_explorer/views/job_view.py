@@ -1,58 +1,134 @@
-"""Views of what takes a while: a form that starts it, its progress, and what it has found."""
+"""Views of a long computation: a form that starts it, its progress, and its result."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Generic, TypeVar
 
-import param
+import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.results.jobs import Jobs, JobState, Work
-from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.base import SessionParts, View
+from bearing_explorer.views.base import Sentence, SessionParts, View
+from bearing_explorer.widgets.form import (
+    SEARCHED,
+    Fields,
+    FieldSpec,
+    SearchedSelect,
+    button,
+    entry,
+    row,
+    select,
+)
 
 Found = TypeVar("Found")
 
-_LONGEST_TEXT = 60  # characters of what a field says
+_PROGRESS = """
+progress { width: 220px; height: 6px; accent-color: var(--accent); vertical-align: middle; }
+progress::-webkit-progress-bar { background: var(--track-soft); border-radius: 3px; }
+progress::-webkit-progress-value { background: var(--accent); border-radius: 3px; }
+"""
 
 
-class JobPanel(LiveComponent):
-    """Fields, a button that starts a job, another that cancels it, a bar and a live sentence.
+class JobForm(pn.Column):
+    """Fields, a button that starts a job, another that cancels it, its progress and a sentence.
 
-    `asked` gets messages of the browser as they come, from strangers too: judge them.
+    Parameters
+    ----------
+    start
+        called with the values of the fields, by their names.
+    cancel
+        called to end the job.
+    words
+        of the button that starts it.
+    fields
+        of the form.
+    at_once
+        whether a changed field starts the job, without the button.
     """
 
-    #: {"start": words of the button, "fields": [{"name", "label", "options": [[value, words]]}]};
-    #: a field without options is one to type into, a third part of an option its heading in the
-    #: list; one with "only": {other field: [values]} is shown with those alone; with "at_once" a
-    #: changed field starts the job as the button does
-    spec = param.Dict(default={})
-    #: {field: what stands in it}
-    values = param.Dict(default={})
-    #: {field: {its value: {other field: what comes to stand in it}}}
-    fills = param.Dict(default={})
-    #: a JobState
-    state = param.Dict(default={"mood": "idle", "part": 0.0, "words": ""})
+    def __init__(
+        self,
+        start: Callable[[Mapping[str, str]], None],
+        cancel: Callable[[], None],
+        words: str,
+        fields: list[FieldSpec],
+        at_once: bool = False,
+    ) -> None:
+        self._words, self._at_once, self._specs = words, at_once, fields
+        #: {field: {its value: {other field: its value then}}}
+        self.fills: Mapping[str, Any] = {}
+        self._fields = fields_of_form = Fields(self._changed)
+        self._start = lambda: start(dict(fields_of_form.values))
+        widgets = [self._widget(spec) for spec in fields]
+        begin = button(words, self._start, css_classes=["main", "start"])
+        self._cancel = button("Cancel", cancel, css_classes=["cancel"], disabled=True)
+        self._bar = pn.pane.HTML("", visible=False, margin=0, stylesheets=[_PROGRESS])
+        self._sentence = Sentence(margin=0, sizing_mode="stretch_width", css_classes=["words"])
+        self._state = JobState("idle", 0.0, "")
+        below = (begin, self._cancel) if at_once else ()
+        super().__init__(
+            row(*widgets, *(() if at_once else (begin, self._cancel))),
+            row(*below, self._bar, self._sentence, margin=(6, 0, 0, 0)),
+            css_classes=["job", "idle"],
+            sizing_mode="stretch_width",
+            margin=(4, 0, 8, 0),
+        )
 
-    _esm = scripts("element.js", "job.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("job.css")]
+    def _widget(self, spec: FieldSpec) -> pn.viewable.Viewable:
+        options = spec.get("options")
+        if options is None:
+            text = entry(spec["label"], css_classes=["number"])
+            text.param.watch(lambda _: self._start(), "enter_pressed")
+            return self._fields.add(spec["name"], text)
+        chosen = self._fields.add(spec["name"], select(spec["label"], options))
+        return SearchedSelect(chosen, options) if len(options) > SEARCHED else chosen
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))
+    @property
+    def values(self) -> Mapping[str, str]:
+        """Values of the fields by name."""
+        return self._fields.values
+
+    def fill(self, values: Mapping[str, str], fills: Mapping[str, Any]) -> None:
+        """Set the fields, and which values a choice brings with it."""
+        self.fills = fills
+        self._fields.put(values)
+        self._show_fields()
+
+    @property
+    def state(self) -> JobState:
+        """The state of the job that is shown."""
+        return self._state
 
     def show(self, state: JobState) -> None:
-        """How the job goes."""
-        self.state = {"mood": state.mood, "part": state.part, "words": state.words}
+        """Show the state of the job."""
+        self._state = state
+        self._bar.param.update(
+            object=f'<progress aria-label="{self._words}" value="{state.part:.3f}"></progress>',
+            visible=state.running,
+        )
+        self._cancel.disabled = not state.running
+        self._sentence.text = state.words
+        self.css_classes = ["job", state.mood]
+
+    def _changed(self, name: str) -> None:
+        self._fields.put(self.fills.get(name, {}).get(self.values[name], {}))
+        self._show_fields()
+        if self._at_once:
+            self._start()
+
+    def _show_fields(self) -> None:
+        for spec in self._specs:
+            if only := spec.get("only"):
+                shown = all(self.values[other] in values for other, values in only.items())
+                self._fields.widgets[spec["name"]].visible = shown
 
 
 class JobView(View, Generic[Found]):
-    """A view that draws what a job has found.
+    """A view of the result of a job.
 
-    A subclass puts `self.job` among what it builds, and provides `form` and `prepare`; what the
-    job shows last stands in `found`. `data`, `sentence` and `table` read it beside the results.
+    A subclass puts `self.job` among what it builds, and provides `form` and `prepare`; `found` is
+    the newest result. `data`, `sentence` and `table` read it besides the results of the scene.
     """
 
     start: ClassVar[str]
@@ -68,13 +144,13 @@ class JobView(View, Generic[Found]):
     _draw: Callable[[], None]
 
     @property
-    def job(self) -> JobPanel:
-        """The panel of the job, made when first asked for."""
+    def job(self) -> JobForm:
+        """The form of the job, made when first needed."""
         if not hasattr(self, "_job"):
-            state = JobState("idle", 0.0, self.bounds)
-            spec = {"start": self.start, "fields": self.fields(), "at_once": self.at_once}
-            self._job = JobPanel(self._asked, spec=spec)
-            self._job.show(state)
+            self._job = JobForm(
+                self.start_job, self.cancel_job, self.start, self.fields(), self.at_once
+            )
+            self._job.show(JobState("idle", 0.0, self.bounds))
         return self._job
 
     def attach(self, parts: SessionParts) -> None:
@@ -84,44 +160,43 @@ class JobView(View, Generic[Found]):
     def employ(self, jobs: Jobs, editor: SceneEditor, draw: Callable[[], None]) -> None:
         """From now on jobs can be started, for the scene of `editor`; `draw` asks for a drawing."""
         self._jobs, self._editor, self._draw = jobs, editor, draw
-        self.job.values, self.job.fills = self.form(editor)
+        self.job.fill(*self.form(editor))
 
     @property
     def is_empty(self) -> bool:
         """Before a job has found anything."""
         return self.found is None
 
-    def fields(self) -> list[dict[str, Any]]:
-        """The fields of the form, see `JobPanel.spec`."""
+    def fields(self) -> list[FieldSpec]:
+        """The fields of the form."""
         raise NotImplementedError
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        """What stands in the fields at first, and what comes with a choice: `values`, `fills`."""
+        """First values of the fields, and the values that a choice brings with it.
+
+        The second is {field: {its value: {other field: its value then}}}.
+        """
         raise NotImplementedError
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
-        """The job that the form asks for; ValueError with a sentence where it cannot be."""
+        """The job for the values of the form; ValueError with a sentence where there is none."""
         raise NotImplementedError
 
-    def texts(self, given: Mapping[Any, Any]) -> dict[str, str]:
-        """What stands in each field, out of a message of the browser."""
-        return {
-            field["name"]: str(given.get(field["name"], ""))[:_LONGEST_TEXT]
-            for field in self.fields()
-        }
-
-    def _asked(self, message: Any) -> None:
-        if not isinstance(message, dict) or self._jobs is None:
+    def start_job(self, given: Mapping[str, str]) -> None:
+        """Start the job for the values of the form."""
+        if self._jobs is None:
             return
-        if message.get("cancel") is True:
+        try:
+            work = self.prepare(given, self._editor)
+        except ValueError as error:
+            self.job.show(JobState("failed", 0.0, str(error)))
+        else:
+            self._jobs.start(work, self._take, self.job.show)
+
+    def cancel_job(self) -> None:
+        """End the job; its newest result stays."""
+        if self._jobs is not None:
             self._jobs.cancel()
-        if isinstance(given := message.get("start"), dict):
-            try:
-                work = self.prepare(self.texts(given), self._editor)
-            except ValueError as error:
-                self.job.show(JobState("failed", 0.0, str(error)))
-            else:
-                self._jobs.start(work, self._take, self.job.show)
 
     def _take(self, found: Found) -> None:
         self.found = found

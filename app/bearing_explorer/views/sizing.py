@@ -37,6 +37,7 @@ from bearing_explorer.views.vibration_spectrum import (
     decibels,
 )
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
+from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
 from bearingcore.common.numbers import with_deviation
@@ -168,7 +169,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     # The job
 
-    def fields(self) -> list[dict[str, Any]]:
+    def fields(self) -> list[FieldSpec]:
         return [
             {"name": "fault", "label": "Damaged is", "options": FAULTS},
             {"name": "support", "label": "Support is", "options": SUPPORTS},

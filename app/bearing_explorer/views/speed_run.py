@@ -42,6 +42,7 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.modes import SHORT_BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
+from bearing_explorer.widgets.form import FieldSpec
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
 
 if TYPE_CHECKING:
@@ -219,7 +220,7 @@ class SpeedRunSpectra(JobView[Found]):
 
     # The job
 
-    def fields(self) -> list[dict[str, Any]]:
+    def fields(self) -> list[FieldSpec]:
         return [
             {"name": "from", "label": "Shaft speed from (Hz)"},
             {"name": "to", "label": "to (Hz)"},

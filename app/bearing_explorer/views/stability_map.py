@@ -24,12 +24,13 @@ from bearing_explorer.plots.heat_map import (
 )
 from bearing_explorer.results.jobs import LONGEST, Work
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, alike_but_for, focused, value_of
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
+from bearing_explorer.widgets.form import FieldSpec
+from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearingcore.dynamics.stability_map import OUTCOMES, StabilityMap, regions, stability_map
 from bearingcore.scene.scene import MASSLESS
 
@@ -155,7 +156,7 @@ class OrbitStability(JobView[Found]):
 
     # The job
 
-    def fields(self) -> list[dict[str, Any]]:
+    def fields(self) -> list[FieldSpec]:
         grids = [[str(n), f"{n} × {n}"] for n in GRIDS]
         return [*plane_fields(), {"name": "grid", "label": "Points", "options": grids}]
 

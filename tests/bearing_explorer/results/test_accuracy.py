@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any
 
 import numpy as np
 import pytest
@@ -98,22 +97,19 @@ def test_a_click_takes_the_steps_of_the_point_under_it() -> None:
     view._tapped("evaluations", 1000, 1e-2)
     assert taken == [65536.0, 32768.0]
     view._tapped("seconds", 2e-2, 1e-1)  # Verlet cannot be taken
-    assert "RK4" in view._steps.words
+    assert "RK4" in view._step_words.text
     for strange in (None, "x", math.nan, -1.0, 0.0, 1e300, True, [1.0]):
         view._tapped("seconds", strange, 1e-2)
     assert taken == [65536.0, 32768.0]
 
 
-def test_only_offered_steps_are_taken_from_the_browser() -> None:
+def test_measured_steps_are_chosen_from_the_list() -> None:
     view = measured()
     taken: list[float | None] = []
     view.take_steps = taken.append
-    strangers: list[Any] = [None, 5, {"use": 65536}, {"use": "1"}, {"use": ["65536"]}, []]
-    for strange in strangers:
-        view._steps_asked(strange)
-    assert taken == []
-    view._steps_asked({"use": "65536"})
-    view._steps_asked({"use": ""})
+    view.say(Results(RIG), "")
+    for text in ("65536", ""):
+        view._steps.widgets["steps"].value = text
     assert taken == [65536.0, None]
 
 
@@ -127,8 +123,8 @@ def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:
     assert not any("by hand" in detail for detail in status_of(ours, 0.0)["details"])
     view = measured()
     view.say(by_hand, "words")
-    assert view._steps.chosen == "131072"
-    assert "131072 Hz" in view._steps.words
+    assert view._steps.values["steps"] == "131072"
+    assert "131072 Hz" in view._step_words.text
 
 
 def test_more_steps_than_the_server_holds_are_refused() -> None:

@@ -47,8 +47,7 @@ async def _opened(url: str, *tabs: str) -> PageClient:
 
 
 def _done(client: PageClient) -> list[str]:
-    states = {name: word for name, word in client.words.items() if isinstance(word, dict)}
-    return [name for name, state in states.items() if state.get("mood") == "done"]
+    return [name for name, said in client.words.items() if " points after " in str(said)]
 
 
 async def _map(client: PageClient, output: str = "") -> None:
@@ -56,8 +55,7 @@ async def _map(client: PageClient, output: str = "") -> None:
     if output:
         for name in _done(client):
             del client.words[name]
-        form = client.components["JobPanel"]["values"]
-        await client.say("JobPanel", {"start": {**form, "output": output}})
+        await client.choose("Map of", output)
     while not _done(client):
         await client.news(10.0)
 

@@ -16,7 +16,7 @@ from bearing_explorer.measurement.diagnoses import Question, answered
 from bearing_explorer.measurement.form import understood
 from bearing_explorer.measurement.session import Sized, read_file
 from bearing_explorer.measurement.signal import Measured, Origin, Simulated
-from bearing_explorer.results.jobs import Jobs, JobState, Work
+from bearing_explorer.results.jobs import Jobs, Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -423,9 +423,9 @@ def test_a_sizing_can_be_given_up_and_refusals_are_sentences():
 def test_nothing_is_sized_before_there_is_a_signal():
     view = view_of(DefectSize)
     view.employ(Jobs(lambda change: change()), SceneEditor("fan-rig"), lambda: None)
-    view._asked({"start": {}})
-    assert view.job.state["mood"] == JobState("failed", 0.0, "").mood
-    assert "no signal yet" in view.job.state["words"]
+    view.start_job({})
+    assert view.job.state.mood == "failed"
+    assert "no signal yet" in view.job.state.words
 
 
 def test_a_single_direction_hides_the_other_s_figures():

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from bearing_explorer.state.quantities import Limits
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep, usual_range
+from bearing_explorer.widgets.form import FieldSpec
 
-SIDES = {"x": "To the right", "y": "Upwards"}
+SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
 
 
-def plane_fields(headings: bool = False) -> list[dict[str, Any]]:
+def plane_fields(headings: bool = False) -> list[FieldSpec]:
     """The fields of the form; with `headings` the quantities stand under those of their groups."""
     quantities = [
         [q.name, f"{q.label} ({q.unit})" if q.unit else q.label, *([q.group] if headings else [])]
         for q in SWEEPABLE.values()
     ]
-    fields: list[dict[str, Any]] = []
+    fields: list[FieldSpec] = []
     for side, words in SIDES.items():
         fields += [
             {"name": side, "label": words, "options": quantities},

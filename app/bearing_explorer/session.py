@@ -578,7 +578,9 @@ class Explorer:
         self._tab_asked(message if lesson is None else {"show": lesson.tab})
         self._asked(message)  # the mark, and what a button changes
         if isinstance(wish := message.get("simulate"), dict):
-            self.measurement.asked({"simulate": wish})
+            self.measurement.simulate(
+                *(str(wish.get(k, "scene")) for k in ("noise", "machine", "pit"))
+            )
 
     def _tab_asked(self, message: Any) -> None:
         name = message.get("show") if isinstance(message, dict) else None

@@ -157,24 +157,6 @@ def _file(random_: random.Random) -> Any:
     return {"name": random_.choice(("a.csv", *TOKENS)), "text": hostile_text(random_)}
 
 
-def _upload(random_: random.Random) -> Any:
-    sizes = (0, 1, 101, 2**20, 2**40, -1, 1.5, True, "1", None)
-    return {"name": random_.choice(("a.wav", "a.mat", *TOKENS)), "size": random_.choice(sizes)}
-
-
-def _form(random_: random.Random) -> Any:
-    names = ("x", "y", "unit", "sample_rate", "shaft_speed", "full_scale", "start", "end")
-    return {name: _number_text(random_) for name in random_.sample(names, 3)}
-
-
-def _look(random_: random.Random) -> Any:
-    return {
-        "direction": "x", "scale": "log", "resolution": "1", "lines": ["bpfo"], "axis": "log",
-        "low": _number_text(random_), "high": _number_text(random_), "zoom": "outer race",
-        "speed": "told", random_.choice(TOKENS): plain_value(random_),
-    }  # fmt: skip
-
-
 _COMMON: dict[str, Callable[[random.Random], Any]] = {
     "set": quantities,
     "typed": quantities,
@@ -215,19 +197,13 @@ _FIELDS: dict[str, dict[str, Callable[[random.Random], Any]]] = {
         "balls_up_to": _number_text,
         "own": lambda r: True,
     },
-    "LookPanel": {"look": _look},
-    "EvidenceTable": {"look": _look, "zoom": lambda r: [r.choice(("ball", 1)), plain_value(r)]},
-    "MeasurementPanel": {
-        "file": _upload,
-        "piece": plain_value,
+    "FileUpload": {
+        "type": lambda r: r.choice(("begin", "piece", *TOKENS)),
+        "name": lambda r: r.choice(("a.wav", "a.mat", *TOKENS)),
+        "size": lambda r: r.choice((0, 1, 101, 2**20, 2**40, -1, 1.5, True, "1", None)),
+        "content": plain_value,
         "of": lambda r: r.choice((0, 1, 2, -1, True, [1], 2**70)),
-        "form": _form,
-        "sure": lambda r: True,
-        "load": lambda r: True,
-        "simulate": lambda r: {"noise": r.choice(("20", "0")), "machine": "same", "pit": "scene"},
     },
-    "Candidates": {"look": lambda r: r.choice((0, 1, -1, 10**9))},
-    "LifeRows": {"life": _form},
 }
 
 
@@ -274,10 +250,10 @@ def wrong_ids(random_: random.Random, ids: Ids) -> Frames:
 
 def pieces(random_: random.Random, ids: Ids) -> list[Frames]:
     """An upload in wrong pieces and orders: several messages, with blocks of bytes."""
-    panel = ids.get("MeasurementPanel", "p1")
+    panel = ids.get("FileUpload", "p1")
     size = random_.choice((1, 64, 5_000, 2**20, 2**20 + 7))
-    begun = patch(told(panel, {"file": {"name": random_.choice(("a.wav", "b.mat", "c.csv")),
-                                        "size": size}}))  # fmt: skip
+    name = random_.choice(("a.wav", "b.mat", "c.csv"))
+    begun = patch(told(panel, {"type": "begin", "name": name, "size": size}))
     made = [begun] if random_.random() < 0.8 else []
     left = size
     for _ in range(random_.choice((1, 2, 4))):
@@ -295,7 +271,7 @@ def pieces(random_: random.Random, ids: Ids) -> list[Frames]:
             )
         )  # fmt: skip
         of = random_.choice((1, 1, 1, 0, 2, True))
-        message = {"type": "map", "entries": [["piece", data], ["of", of]]}
+        message = {"type": "map", "entries": [["type", "piece"], ["content", data], ["of", of]]}
         values = {"type": "map", "entries": [["model", {"id": panel}], ["data", message]]}
         event = {"kind": "MessageSent", "msg_type": "bokeh_event",
                  "msg_data": {"type": "event", "name": "data_event", "values": values}}  # fmt: skip

@@ -177,12 +177,14 @@ def load_of(table: Table) -> float | None:
 
 def columns_of(table: Table) -> list[list[str]]:
     """[value, words] of the columns to choose from; none first, no times."""
-    offered = [
-        [str(index), _short(column.name) + (f" ({column.place})" if column.place else "")]
-        for index, column in enumerate(table.contents.columns)
-        if column.role != "time"
-    ]
-    return [[NONE, "not measured"], *offered]
+    offered = {NONE: "not measured"}
+    for index, column in enumerate(table.contents.columns):
+        if column.role == "time":
+            continue
+        words = _short(column.name) + (f" ({column.place})" if column.place else "")
+        taken = words in offered.values()
+        offered[str(index)] = f"{words}, column {index + 1}" if taken else words
+    return [[value, words] for value, words in offered.items()]
 
 
 def usable(table: Table) -> bool:

@@ -19,6 +19,7 @@ import numpy as np
 from bearing_explorer.measurement.background import noise_level, true_part
 from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
+    LONGEST_TEXT,
     SIZES,
     Asked,
     FormError,
@@ -164,41 +165,30 @@ class Measurement:
         """Draw again with what the views know now."""
         self._draw()
 
-    def asked(self, message: Any) -> None:
-        """A message of the browser, from strangers too."""
-        if not isinstance(message, dict) or self._ended:
-            return
-        if isinstance(file := message.get("file"), dict):
-            self._begin(file)
-        if "piece" in message and message.get("of") == self._uploads:
-            self._take_piece(message["piece"])
-        if isinstance(form := message.get("form"), dict):
-            self._take_form(form, message.get("sure") is True)
-        if message.get("load") is True and self._table is not None:
-            self._take_load(self._table)
-        if isinstance(wish := message.get("simulate"), dict):
-            self._simulate(wish)
-
     # Files
 
-    def _begin(self, file: Mapping[Any, Any]) -> None:
+    def begin_upload(self, name: str, size: int) -> None:
+        """A file is about to come, so long [bytes]."""
+        if self._ended:
+            return
         self._latest += 1
         self._uploads += 1
         try:
-            self._upload = Upload(file.get("name"), file.get("size"))
+            self._upload = Upload(name, size)
         except ValueError as error:
             self._upload = None
             self._refuse(str(error))
         else:
-            self._tell(words=f"{self._upload.name} is on its way.", bad=False, busy=True)
+            self._tell(words=f"{self._upload.name} is being uploaded.", bad=False, busy=True)
             self.want(0, self._uploads)
 
-    def _take_piece(self, piece: Any) -> None:
+    def take_piece(self, content: bytes, of: int) -> None:
+        """A piece of the file of the upload with the number `of`."""
         upload = self._upload
-        if upload is None:
+        if upload is None or of != self._uploads:
             return
         try:
-            upload.take(piece)
+            upload.take(content)
         except ValueError as error:
             self._upload = None
             self._refuse(str(error))
@@ -248,15 +238,15 @@ class Measurement:
         )
         self._draw()
 
-    def _take_form(self, form: Mapping[Any, Any], sure: bool) -> None:
-        """The columns, the unit or the rates are others than before, or a person is sure of them.
+    def take_form(self, form: Mapping[str, str], sure: bool) -> None:
+        """The columns, the unit or the rates have changed, or a person is `sure` of them.
 
-        What the file leaves open is taken once it has been answered or agreed to.
+        Open questions are settled by an answer or by agreement.
         """
         table = self._table
-        if table is None:
+        if table is None or self._ended:
             return
-        texts = {name: str(form.get(name, ""))[:40] for name in self.state.values}
+        texts = {name: form.get(name, "")[:LONGEST_TEXT] for name in self.state.values}
         first = self._first
         asks = [name for name in self.state.open if name not in SIZES]
         left = [name for name in asks if not sure and texts.get(name) == first.get(name)]
@@ -294,9 +284,9 @@ class Measurement:
         self._tell(words=self._summary(_about_size(sizes)), bad=False, busy=False, **news)
         self._draw()
 
-    def _take_load(self, table: Table) -> None:
-        """The load of the file, downwards, into the scene."""
-        load = load_of(table)
+    def take_load(self) -> None:
+        """Put the load of the file, downwards, into the scene."""
+        load = None if self._table is None else load_of(self._table)
         if load is not None:
             self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
 
@@ -307,10 +297,9 @@ class Measurement:
 
     # Simulated ones
 
-    def _simulate(self, wish: Mapping[Any, Any]) -> None:
-        noise, machine = str(wish.get("noise")), str(wish.get("machine"))
-        pit_name = str(wish.get("pit", "scene"))
-        if noise not in NOISES or machine not in MACHINES or pit_name not in PITS:
+    def simulate(self, noise: str, machine: str, pit_name: str = "scene") -> None:
+        """Simulate a measurement; the choices are keys of NOISES, MACHINES and PITS."""
+        if self._ended or noise not in NOISES or machine not in MACHINES or pit_name not in PITS:
             return
         self._upload = None
         self._latest += 1

@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
+from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.diagnoses import SPEEDS, Question
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.measured_view import LookPanel, MeasuredView
+from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
-from bearing_explorer.widgets.part_panel import EvidenceTable, PartPanel
+from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.part_panel import PartPanel, evidence_html
 from bearingcore import Bearing, Diagnosis
 from bearingcore.common.numbers import probability
 from bearingcore.diagnosis.part.combs import HARMONICS
@@ -23,9 +25,9 @@ from bearingcore.diagnosis.part.parts import PARTS
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 
-BUSY = "The signal is being looked at."
+BUSY = "The signal is being analysed."
 
-FIELDS: list[dict[str, Any]] = [
+FIELDS: list[LookField] = [
     {
         "kind": "one",
         "name": "speed",
@@ -36,7 +38,14 @@ FIELDS: list[dict[str, Any]] = [
         "kind": "one",
         "name": "zoom",
         "label": "Zoom to",
-        "options": [["", "all lines"], *([part, part] for part in PARTS)],
+        "options": [
+            ["", "all lines"],
+            *(
+                [f"{part} {k}", f"{part}, {k}×" if k > 1 else part]
+                for part in PARTS
+                for k in range(1, HARMONICS + 1)
+            ),
+        ],
     },
 ]
 """Choices above the figure."""
@@ -46,12 +55,11 @@ class PartDiagnosis(MeasuredView):
     """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
 
     name = "diagnosis"
-    title = "2  What part"
+    title = "2  Which part is damaged?"
     about = (
-        "How often something makes the machine ring. The spectrum of the envelope shows it; each "
-        "pass over a damaged spot does. Strong: the lines of the part that stands out, found "
-        "within the slip. Faint: where geometry has those of the others. Point at a number below "
-        "to zoom to its line."
+        "Envelope spectrum of the signal. Each pass over a damaged spot makes the machine ring; "
+        "the envelope shows how often. Strong: the lines of the part that stands out, found "
+        "within the slip. Faint: the lines of the other parts by their geometry."
     )
     needs = frozenset()
     without_size = True
@@ -60,8 +68,10 @@ class PartDiagnosis(MeasuredView):
         self.speed, self.zoom = "given", Zoom()
         self.part = PartPanel()
         self.lines = PartLines(packed)
-        self.evidence = EvidenceTable(self._asked)
-        self.panel_of_look = LookPanel(self._asked, spec={"name": self.name, "fields": FIELDS})
+        self.evidence = pn.pane.HTML(
+            "", stylesheets=[asset_text("evidence.css")], sizing_mode="stretch_width", margin=0
+        )
+        self.panel_of_look = LookPanel(self.look_changed, FIELDS)
         self._show_look()
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._seen = pn.Column(self.lines.plot, self.evidence, visible=False, **wide)
@@ -87,32 +97,19 @@ class PartDiagnosis(MeasuredView):
         answer = self.answer(bearing)
         return answer if isinstance(answer, Diagnosis) else None
 
-    def _asked(self, message: Any) -> None:
-        if not isinstance(message, dict):
-            return
-        look, line = message.get("look"), message.get("zoom")
-        if isinstance(look, dict):
-            speed, part = look.get("speed"), look.get("zoom")
-            if isinstance(speed, str) and speed in SPEEDS:
-                self.speed = speed
-            if isinstance(part, str) and part in ("", *PARTS):
-                self.zoom = Zoom(part)
-        elif isinstance(line, list) and len(line) == 2:
-            part, harmonic = line
-            whole = isinstance(harmonic, int) and not isinstance(harmonic, bool)
-            if not (isinstance(part, str) and part in PARTS and whole):
-                return
-            chosen = Zoom(part, min(max(harmonic, 1), HARMONICS))
-            self.zoom = Zoom() if chosen == self.zoom else chosen
+    def look_changed(self, name: str, value: str) -> None:
+        """Take how well the shaft speed is known, or the line to zoom to."""
+        if name == "speed":
+            self.speed = value
         else:
-            return
+            part, _, harmonic = value.rpartition(" ")
+            self.zoom = Zoom(part, int(harmonic)) if part else Zoom()
         if self.measurement is not None:
             self.measurement.redraw()
 
     def _show_look(self) -> None:
-        self.panel_of_look.values = {"speed": self.speed, "zoom": self.zoom.part}
-        zoom = self.zoom
-        self.evidence.looked = f"{zoom.part} {zoom.harmonic}" if zoom.part else ""
+        zoom = f"{self.zoom.part} {self.zoom.harmonic}" if self.zoom.part else ""
+        self.panel_of_look.show({"speed": self.speed, "zoom": zoom})
 
     # The picture
 
@@ -142,10 +139,10 @@ class PartDiagnosis(MeasuredView):
         self.measurement.diagnoses.want(question)
         found = answer if isinstance(answer, Diagnosis) else None
         self._seen.visible = found is not None and found.spectrum is not None
-        self.part.state = panel_state(question, answer)
+        self.part.show(panel_state(question, answer))
         if found is not None:
             self.lines.show_orders(found.shaft_speed is not None)
-            self.evidence.rows = part_words.evidence_rows(found)
+            self.evidence.object = evidence_html(part_words.evidence_rows(found))
 
     def sentence(self, results: Results) -> str:
         question = self.question(results.scene.bearing)
@@ -174,10 +171,10 @@ def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str,
         "inner": bearing.inner_raceway_radius,
     }
     if answer is None:
-        return {"mood": "busy", "headline": "Listening …", "plain": BUSY, "bearing": drawn}
+        return {"mood": "busy", "headline": "Analysing …", "plain": BUSY, "bearing": drawn}
     if isinstance(answer, str):
         return {
-            "mood": "unknown", "headline": "It cannot be told", "plain": answer, "bearing": drawn,
+            "mood": "unknown", "headline": "No clear result", "plain": answer, "bearing": drawn,
         }  # fmt: skip
     named = answer.names_a_part
     likely = f"Probability {probability(answer.probability)}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -19,7 +18,7 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, of_rows
-from bearing_explorer.views.measured_view import MEASURED, LookPanel, MeasuredView
+from bearing_explorer.views.measured_view import MEASURED, MeasuredView
 from bearing_explorer.views.vibration_spectrum import (
     DEPTH_OF_VIEW,
     FREQUENCY,
@@ -28,6 +27,7 @@ from bearing_explorer.views.vibration_spectrum import (
     SHOWN,
     decibels,
 )
+from bearing_explorer.widgets.look import LookField, LookPanel
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -41,19 +41,19 @@ MOST_LINES = 3000
 """Of a spectrum that are drawn."""
 
 
-ALONG: dict[str, Any] = {
+ALONG: LookField = {
     "kind": "one",
     "name": "direction",
     "label": "Along",
     "options": [["x", "x"], ["y", "y"]],
 }
-SCALE: dict[str, Any] = {
+SCALE: LookField = {
     "kind": "one",
     "name": "scale",
     "label": "Scale",
     "options": [["dB", "dB"], ["linear", "linear"]],
 }
-LINES: dict[str, Any] = {
+LINES: LookField = {
     "kind": "some",
     "name": "lines",
     "label": "Lines",
@@ -90,7 +90,7 @@ class FrequencyView(MeasuredView):
     """What spectra share: figures in decibels and linear, lines, and the choices above them."""
 
     prefix: ClassVar[str]
-    fields: ClassVar[list[dict[str, Any]]]
+    fields: ClassVar[list[LookField]]
     first_look: ClassVar[Look]
     needs = frozenset({"spectra"})
 
@@ -134,7 +134,7 @@ class FrequencyView(MeasuredView):
                 line_alpha=0.9,
             )  # fmt: skip
             plot.visible = scale == self.look.scale
-        self.panel_of_look = LookPanel(self._asked, spec={"name": p, "fields": self.fields})
+        self.panel_of_look = LookPanel(self.look_changed, self.fields)
         self._show_look()
         self.hidden = pn.Column(
             self.panel_of_look,
@@ -158,53 +158,43 @@ class FrequencyView(MeasuredView):
 
     # The look
 
-    def _asked(self, message: Any) -> None:
-        wish = message.get("look") if isinstance(message, dict) else None
-        if not isinstance(wish, dict):
-            return
+    def look_changed(self, name: str, value: Any) -> None:
+        """Draw as it was chosen; a number that is refused changes nothing."""
         try:
-            self.look = self._looked(wish)
+            self.look = self._looked(name, value)
         except ValueError as error:
-            self.panel_of_look.refused = str(error)
+            self.panel_of_look.refuse(str(error))
             return
-        self.panel_of_look.refused = ""
+        self.panel_of_look.refuse("")
         if self.measurement is not None:
             self.measurement.redraw()
 
-    def _looked(self, wish: Mapping[Any, Any]) -> Look:
-        look = self.look
-        if (direction := wish.get("direction")) in SHOWN:
-            look = replace(look, direction=direction)
-        if (scale := wish.get("scale")) in SCALES:
-            look = replace(look, scale=scale)
-        if (resolution := wish.get("resolution")) in RESOLUTIONS:
-            look = replace(look, resolution=resolution)
-        if isinstance(lines := wish.get("lines"), list):
+    def _looked(self, name: str, value: Any) -> Look:
+        if name in ("direction", "scale", "resolution"):
+            return replace(self.look, **{name: value})
+        if name == "lines":
             known = [family.name for family in FAMILIES]
-            look = replace(look, lines=tuple(name for name in known if name in lines))
-        for index, name in enumerate(("low", "high")):
-            if isinstance(text := wish.get(name), str):
-                band = list(look.band)
-                bare = text.strip()
-                words = f"The {'lower' if index == 0 else 'upper'} end of the band"
-                band[index] = number_of(bare[:20], words, "Hz", 1e-3, 1e7) if bare else None
-                look = replace(look, band=(band[0], band[1]))
-        return look
+            return replace(self.look, lines=tuple(line for line in known if line in value))
+        words = f"The {'lower' if name == 'low' else 'upper'} end of the band"
+        bare = value.strip()
+        end = number_of(bare[:20], words, "Hz", 1e-3, 1e7) if bare else None
+        low, high = self.look.band
+        return replace(self.look, band=(end, high) if name == "low" else (low, end))
 
     def _show_look(self) -> None:
         look, measured = self.look, self.measured
         directions = measured.directions if measured is not None else SHOWN
-        self.panel_of_look.values = {
-            "direction": look.direction if look.direction in directions else directions[0],
-            "scale": look.scale,
-            "resolution": look.resolution,
-            "lines": list(look.lines),
-            "low": "" if look.band[0] is None else f"{look.band[0]:g}",
-            "high": "" if look.band[1] is None else f"{look.band[1]:g}",
-        }
-        self.panel_of_look.disabled = {
-            "direction": [dof for dof in SHOWN if dof not in directions],
-        }
+        self.panel_of_look.show(
+            {
+                "direction": look.direction if look.direction in directions else directions[0],
+                "scale": look.scale,
+                "resolution": look.resolution,
+                "lines": list(look.lines),
+                "low": "" if look.band[0] is None else f"{look.band[0]:g}",
+                "high": "" if look.band[1] is None else f"{look.band[1]:g}",
+            },
+            disabled={"direction": [dof for dof in SHOWN if dof not in directions]},
+        )
 
     def direction(self, measured: Measured) -> str:
         """The direction that is shown: the one chosen, where it was measured."""

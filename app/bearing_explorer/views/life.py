@@ -1,22 +1,21 @@
-"""Life of the bearing, pressure on its races and the oil film, with what they are asked with."""
+"""Life of the bearing, pressure on its races and the oil film, with the numbers they need."""
 
 from __future__ import annotations
 
 import dataclasses
+import html
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import param
+import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Asked, Endurance
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, SessionParts, Sources
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.widgets.controls import Rows
+from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.widgets.form import Fields, entry, row
 from bearingcore.common.numbers import thousands
 from bearingcore.statics.film import TOUCHING
 from bearingcore.statics.life import LEFT_OUT
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True)
 class Field:
-    """A number that is asked for: the field of `Asked`, words, unit, and what it may be."""
+    """A number of the form: the field of `Asked`, label, unit, and its range."""
 
     name: str
     label: str
@@ -84,22 +83,8 @@ MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
 """Fields of which the program takes a number of its own where none is given."""
 
 
-class LifeRows(Rows):
-    """The fields and the answers in the browser."""
-
-    #: {"groups": [{title, words, facts: [{label, value, about}]}], "values": {field: text}}
-    shown = param.Dict(default={})
-
-    _esm = scripts("element.js", "asking.js", "rows.js", "life.js")
-    _stylesheets: ClassVar[list[str]] = [
-        asset_text("button.css"),
-        asset_text("controls.css"),
-        asset_text("life.css"),
-    ]
-
-
-class LifeOfBearing(ControlView):
-    """What fatigue, pressure and oil say of a scene."""
+class LifeOfBearing(View):
+    """Fatigue life, contact pressure and oil film of a scene."""
 
     name = "life"
     title = "Life, pressure and oil film"
@@ -108,36 +93,44 @@ class LifeOfBearing(ControlView):
         "of all balls; the greatest pressure by Hertz; the film where a ball or roller carries "
         "most, by Hamrock and Dowson."
     )
+    in_report = False
     needs = frozenset[str]()
     _say: Callable[[Asked], None] | None = None
 
     def build(self, packed: PackedSource) -> Any:
         self.asked = Asked()
-        fields = [
-            {"name": f.name, "label": f.label, "unit": f.unit, "about": f.about} for f in FIELDS
-        ]
-        self.rows = LifeRows(self.forward, spec={"fields": fields})
-        return self.rows
+        self._fields = Fields(self.take)
+        hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
+        self._refusal = pn.pane.HTML("", visible=False, stylesheets=[asset_text("life.css")])
+        parts: list[Any] = []
+        for field in FIELDS:
+            given = entry(
+                f"{field.label} ({field.unit})",
+                placeholder=hints.get(field.name, ""),
+                css_classes=["number"],
+                align="start",
+            )
+            parts += [self._fields.add(field.name, given), _html(f"<p>{field.about}</p>")]
+        self._fields.put(self._values())
+        self._answers = _html("", styles={"flex": "2 1 340px"})
+        form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
+        return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
         self._say = parts.say_endurance
 
-    def forward(self, message: Any) -> None:
-        """Take a number that was typed; what is refused stays as it was, with a sentence."""
-        given = message.get("life") if isinstance(message, dict) else None
-        if not isinstance(given, Mapping):
+    def take(self, name: str) -> None:
+        """Take a number that was typed; a refused one changes nothing and gets a sentence."""
+        field = next(field for field in FIELDS if field.name == name)
+        try:
+            value: Any = read(field, self._fields.values[name])
+        except ValueError as error:
+            words = f'<p class="refused" role="alert">{html.escape(str(error))}</p>'
+            self._refusal.param.update(object=words, visible=True)
             return
-        refused = {}
-        for field in FIELDS:
-            if field.name not in given:
-                continue
-            try:
-                value: Any = read(field, given[field.name])
-                self.asked = dataclasses.replace(self.asked, **{field.name: value})
-            except ValueError as error:
-                refused[field.name] = str(error)
-        self.rows.send({"life": {"refused": refused}})
+        self._refusal.visible = False
+        self.asked = dataclasses.replace(self.asked, **{name: value})
         if self._say is not None:
             self._say(self.asked)
 
@@ -148,14 +141,16 @@ class LifeOfBearing(ControlView):
     def sentence(self, results: Results) -> str:
         found = results.endurance
         if len(groups_of(results)) == 1:
-            return "Nothing of this can be computed for this bearing yet."
+            return "Enter the groove radii (Bearing tab) to compute life, pressure and film."
         return found.no_life if found.life is None else found.life.sentence
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if results is None:
             return
-        self.rows.shown = {"groups": groups_of(results), "values": self._values()}
+        self._answers.object = answers_html(groups_of(results))
+        if not self._refusal.visible:
+            self._fields.put(self._values())
 
     def _values(self) -> dict[str, str]:
         texts = {}
@@ -192,8 +187,26 @@ def read(field: Field, given: object) -> float | None:
     return value * field.unit_si
 
 
+def _html(words: str, **params: Any) -> pn.pane.HTML:
+    return pn.pane.HTML(words, stylesheets=[asset_text("life.css")], margin=0, **params)
+
+
+def answers_html(groups: list[dict[str, Any]]) -> str:
+    """The groups as HTML: labels hold subscripts, everything else is text."""
+    parts = []
+    for group in groups:
+        facts = "".join(
+            f'<div><dt title="{html.escape(fact["about"])}">{fact["label"]}</dt>'
+            f"<dd>{html.escape(fact['value'])}</dd></div>"
+            for fact in group["facts"]
+        )
+        words = html.escape(group["words"])
+        parts.append(f"<section><h3>{group['title']}</h3><dl>{facts}</dl><p>{words}</p></section>")
+    return "".join(parts)
+
+
 def groups_of(results: Results) -> list[dict[str, Any]]:
-    """What is shown: titles, words, and facts with their numbers; what is not known said once."""
+    """The answers: titles, words, and facts with numbers; what is not known is said once."""
     found = results.endurance
     groups = [_life(results, found), _pressures(results, found), _film(results, found)]
     words = groups[0]["words"]
@@ -296,8 +309,8 @@ def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
     allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
     words = (
         f"At {style.with_prefix(found.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
-        f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: a corner has no "
-        "ellipse."
+        f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: "
+        "Hertz theory does not hold at an edge."
     )
     return _group(title, words, facts)
 

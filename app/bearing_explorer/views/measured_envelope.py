@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
+from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -28,7 +29,7 @@ class MeasuredEnvelope(FrequencyView):
         "out most."
     )
     first_look = Look(scale="linear", lines=("bpfo", "bpfi", "bsf", "ftf"))
-    fields: ClassVar[list[dict[str, Any]]] = [
+    fields: ClassVar[list[LookField]] = [
         ALONG,
         SCALE,
         {"kind": "number", "name": "low", "label": "Band from", "hint": "auto"},

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from bokeh.plotting import figure
@@ -24,6 +24,7 @@ from bearing_explorer.views.frequency_view import (
 from bearing_explorer.views.measured_view import write_over
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
+from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -42,7 +43,7 @@ class MeasuredSpectrum(FrequencyView):
         "machine."
     )
     first_look = Look()
-    fields: ClassVar[list[dict[str, Any]]] = [
+    fields: ClassVar[list[LookField]] = [
         ALONG,
         SCALE,
         {

@@ -1,16 +1,12 @@
-"""Views of a measured signal, and the controls that say how its figures look."""
+"""Views of a measured signal."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import param
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
-from panel.custom import JSComponent
 
-from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.export.measured_lines import measured_lines
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
@@ -50,8 +46,8 @@ def write_over(
 
 
 NOTHING = "There is no signal yet: choose a file or simulate one above."
-WITHOUT_SIZE = "This waits for the unit of the signal, which is asked above."
-WITHOUT_SENSITIVITY = "This waits for the sensitivity of the sensor, which is asked above."
+WITHOUT_SIZE = "Choose the unit above to see this."
+WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 
 
 class MeasuredView(View):
@@ -115,28 +111,3 @@ class MeasuredView(View):
     def drawn(self) -> bool:
         """Whether its figures are on screen."""
         return self.measured is not None
-
-
-class LookPanel(JSComponent):
-    """Choices of how a figure looks: one of several, some of several, numbers.
-
-    `asked` gets {"look": {name: value}} of the browser, from strangers too: judge it.
-    """
-
-    #: {"name": of the figure, "fields": [{"kind": "one" | "some" | "number", "name", "label",
-    #: "options": [[value, words, colour]], "hint"}]}
-    spec = param.Dict(default={})
-    #: {field: value, a list where some of several can be chosen}
-    values = param.Dict(default={})
-    #: {field: values that cannot be chosen now}
-    disabled = param.Dict(default={})
-    #: {field: what an empty number stands for}
-    hints = param.Dict(default={})
-    refused = param.String()
-
-    _esm = scripts("element.js", "look.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("look.css")]
-
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))

@@ -1,34 +1,26 @@
-"""The measured signal itself: brought as a file or simulated, and what it looks like in time."""
+"""The measured signal over time, from a file or simulated."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-import param
 from bokeh.models import LinearAxis
 from bokeh.plotting import figure
 from numpy.typing import NDArray
-from panel.custom import JSComponent
 
-from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.export.measured_lines import column_name
-from bearing_explorer.measurement.form import SIZES, USUAL_SENSITIVITY
-from bearing_explorer.measurement.session import Measurement, MeasurementState
-from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
+from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.excerpt import least_and_greatest
-from bearing_explorer.serve.bokeh_private import send_message
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
-from bearingcore.files.units import UNITS
+from bearing_explorer.widgets.measurement_form import MeasurementForm
 
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
@@ -43,48 +35,8 @@ DRAWN_PARTS = 700
 PASSES = 4.0
 """Ball passes of the close view."""
 
-_MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _EVENT_COLUMNS = ("time", "exit", "row", "named")
 _EDGE_WORDS = "return row.named ? (row.exit ? 'leaves' : 'enters') : ''"
-
-
-class MeasurementPanel(JSComponent):
-    """A file to choose, a measurement to simulate, and what the file is asked about.
-
-    `asked` gets messages of the browser as they come, from strangers too: judge them.
-    """
-
-    spec = param.Dict(default={})
-    #: a MeasurementState
-    state = param.Dict(default={})
-
-    _esm = scripts("element.js", "measurement.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("field.css"), asset_text("measurement.css")]
-
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))
-
-    def show(self, state: MeasurementState) -> None:
-        """What there is to say."""
-        self.state = {
-            "words": state.words,
-            "bad": state.bad,
-            "busy": state.busy,
-            "columns": state.columns,
-            "values": state.values,
-            "refused": state.refused,
-            "reasons": state.reasons,
-            "open": state.open,
-            "proposed": state.proposed,
-            "said": state.said,
-            "load": state.load,
-            "scaled": state.scaled,
-        }
-
-    def want(self, begin: int, of: int) -> None:
-        """Ask for the piece of the file that begins at this byte; `of` comes back with it."""
-        send_message(self, {"want": begin, "of": of})
 
 
 class MeasuredSignal(MeasuredView):
@@ -93,15 +45,14 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "What a sensor on the bearing's housing heard. Its acceleration stands beside what the "
-        "scene would give. Set the scene to your machine: bearing, load, support."
+        "The vibration a sensor on the housing measures. It is compared with that of the scene: "
+        "set the scene to your machine, with its bearing, load and support."
     )
     needs = frozenset()
     without_size = True
 
     def build(self, packed: PackedSource) -> Any:
-        self.form = MeasurementPanel(self._asked, spec=spec())
-        self.form.show(MeasurementState())
+        self.form = MeasurementForm()
         self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
         self._sized = [plot.yaxis[0] for plot in plots]
@@ -138,12 +89,7 @@ class MeasuredSignal(MeasuredView):
 
     def measure(self, measurement: Measurement) -> None:
         super().measure(measurement)
-        measurement.show, measurement.want = self.form.show, self.form.want
-        self.form.show(measurement.state)
-
-    def _asked(self, message: Any) -> None:
-        if self.measurement is not None:
-            self.measurement.asked(message)
+        self.form.attach(measurement)
 
     # The picture
 
@@ -241,28 +187,6 @@ def _axis_without_unit(plot: figure) -> LinearAxis:
     style.write_units(axis, AS_IN_FILE, plot.y_range)
     plot.add_layout(axis, "left")
     return axis
-
-
-def spec() -> dict[str, Any]:
-    """What the browser needs to know once."""
-    noises = [[name, "none" if math.isinf(db) else f"{db:.0f} dB"] for name, db in NOISES.items()]
-    return {
-        "most": MOST_BYTES,
-        "piece": PIECE,
-        "formats": (
-            "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
-            f"{MOST_BYTES // 2**20} MB. Or drop it here."
-        ),
-        "noises": [["20", "20 dB"], *[noise for noise in noises if noise[0] != "20"]],
-        "machines": [[name, _MACHINE_WORDS[name]] for name in MACHINES],
-        "pits": [
-            [name, "the scene's" if length is None else f"pit of {name} mm, balls with mass"]
-            for name, length in PITS.items()
-        ],
-        "units": [[unit, unit] for unit in UNITS],
-        "sizes": list(SIZES),
-        "usual_sensitivity": USUAL_SENSITIVITY,
-    }
 
 
 def close_view(measured: Measured, scene: Any) -> tuple[int, int]:

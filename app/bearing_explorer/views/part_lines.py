@@ -25,9 +25,9 @@ from bearingcore import Diagnosis
 from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
 from bearingcore.diagnosis.part.parts import PARTS
 
-FREQUENCY = style.AxisQuantity("Frequency of knocks", "f", "Hz")
+FREQUENCY = style.AxisQuantity("Impact frequency", "f", "Hz")
 ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")
-LEVEL = style.AxisQuantity("Over the surroundings", "", "dB")
+LEVEL = style.AxisQuantity("Level above local noise", "", "dB")
 FRAME, HEIGHT = 236.0, 330  # [px]
 MOST_LINES = 3000
 """Of a spectrum that are drawn."""

@@ -1,4 +1,4 @@
-"""What a diagnosis says on the page: in a headline, in a sentence to pass on, in rows."""
+"""A diagnosis in words: a headline, sentences, a summary to copy, and rows of a table."""
 
 from __future__ import annotations
 
@@ -15,14 +15,10 @@ from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
 LIKELY = 0.9
 """Probability from which a part is called damaged without a "probably"."""
 
-_OFTEN = {
-    "outer race": "as often as balls pass a point of the outer race",
-    "inner race": "as often as balls pass a point of the inner race",
-    "ball": "as often as a spot on a ball meets the two races",
-}
-_SWELLS = {
-    "shaft": ", louder and fainter with each turn of the shaft",
-    "cage": ", louder and fainter with each turn of the cage",
+_FREQUENCY = {
+    "outer race": "the outer-race frequency (BPFO)",
+    "inner race": "the inner-race frequency (BPFI)",
+    "ball": "twice the ball-spin frequency (2 BSF)",
 }
 
 
@@ -44,22 +40,22 @@ def headline(found: Diagnosis) -> str:
         words = the(found.fault)
         probably = "" if found.probability >= LIKELY else "probably "
         return f"{words[0].upper()}{words[1:]} is {probably}damaged"
-    return "No damage seen" if found.fault == NONE_SEEN else "It cannot be told"
+    return "No damage seen" if found.fault == NONE_SEEN else "No clear result"
 
 
 def plain(found: Diagnosis) -> str:
-    """What was heard, in words that need no signal processing."""
+    """The finding in a sentence."""
     if found.names_a_part:
         one = found.of(found.fault)
-        swells = "" if one.part == "outer race" else _SWELLS[one.sideband_source]
+        modulated = f", modulated once per {one.sideband_source} turn"
         return (
-            f"Something knocks {style.number(one.frequency, 4)} times a second, "
-            f"{_OFTEN[one.part]}{swells}."
+            f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
+            f"{'' if one.part == 'outer race' else modulated}."
         )
     if found.fault == NONE_SEEN:
         return (
             "Nothing in this signal repeats as a damaged outer race, inner race or ball would "
-            "make it. Damage whose knocks make the vibration swing by "
+            "make it. Damage whose impacts make the vibration swing by "
             f"{swing(found.detectable_depth)} would have shown."
         )
     words = found.status.removeprefix("Cannot tell: ").partition(" Shaft speed ")[0]
@@ -84,7 +80,7 @@ def turns(found: Diagnosis) -> str:
 
 
 def pass_on(found: Diagnosis, question: Question) -> str:
-    """What a technician can hand on."""
+    """A summary for a technician."""
     speed = turns(found)
     at = f" at {speed}" if speed else ""
     head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
@@ -92,7 +88,7 @@ def pass_on(found: Diagnosis, question: Question) -> str:
         one = found.of(found.fault)
         return (
             f"{head}{headline(found).lower()} (probability {probability(found.probability)}); "
-            f"knocks at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
+            f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
             "the bearing inspected, and measure again to see whether it grows."
         )
     if found.fault == NONE_SEEN:
@@ -101,11 +97,11 @@ def pass_on(found: Diagnosis, question: Question) -> str:
             f"{probability(found.probability)}). Measure again at the usual time. This says "
             "nothing about lubrication, balance or other bearings."
         )
-    return f"{head}it cannot be told from this signal whether a part is damaged."
+    return f"{head}no clear result from this signal."
 
 
 def facts(found: Diagnosis, question: Question) -> list[list[str]]:
-    """On what the answer rests: [what, what it was taken to be]."""
+    """The assumptions of the answer: [name, value]."""
     bearing = question.bearing
     angle = style.in_degrees(bearing.contact_angle)
     speed = turns(found)
@@ -122,7 +118,7 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
         rows.append(["Unit", "not known; the part does not depend on it"])
     if found.spectrum is not None:
         low, high = found.spectrum.band
-        rows.append(["Heard in", f"{band(low, high)}, along {found.spectrum.direction}"])
+        rows.append(["Demodulation band", f"{band(low, high)}, along {found.spectrum.direction}"])
     return rows
 
 
@@ -132,7 +128,7 @@ def band(low: float, high: float) -> str:
 
 
 def truth(question: Question) -> str:
-    """What a simulated signal is a signal of, and whether it is too quiet to be true."""
+    """The true state behind a simulated signal, and whether it is unrealistically quiet."""
     part = question.measured.true_part
     if not part:
         return ""
@@ -148,7 +144,7 @@ def truth(question: Question) -> str:
 
 
 def chance(false_alarm: float) -> str:
-    """How often noise alone would do as well."""
+    """The probability of a false alarm, in words."""
     if false_alarm < 1e-4:
         return "below 0.01 %"
     if false_alarm > 0.995:
@@ -169,7 +165,7 @@ def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:
 
 def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
     near = one.sidebands[: len(one.sidebands) // 2]
-    own = "none are made" if one.part == "outer race" else decibels(float(near.mean()))
+    own = "none expected" if one.part == "outer race" else decibels(float(near.mean()))
     return {
         "part": one.part,
         "name": NAMES[one.part],

@@ -80,8 +80,8 @@ class DefectSize(JobView[Sized], MeasuredView):
     about = (
         "How long a defect of the outer race is. Every extent is simulated. The time from a "
         "ball's entry to a ball's exit gives the extent up to whole ball spacings. So every "
-        "extent is asked how well it explains the mean ball pass and the spectrum. Point at a "
-        "candidate to see it, coloured, over what was measured, thin."
+        "extent is rated by how well it explains the mean ball pass and the spectrum. Coloured: "
+        "the candidate that is shown. Thin: measured."
     )
     needs = frozenset()
     start = "Find the size"
@@ -93,7 +93,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     def build(self, packed: PackedSource) -> Any:
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
         self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
-        self.candidates = CandidateList(self._looked_at)
+        self.candidates = CandidateList(self.look_at, self._take_extent)
         self._looked: int | None = None
         self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
         self._levels = {dof: StickyRange(-80.0, -20.0, least_span=30.0) for dof in SHOWN}
@@ -209,14 +209,15 @@ class DefectSize(JobView[Sized], MeasuredView):
     def drawn(self) -> bool:
         return self.sized is not None
 
-    def _looked_at(self, message: Any) -> None:
-        sized = self.sized
-        index = message.get("look") if isinstance(message, dict) else None
-        if sized is None or not isinstance(index, int) or isinstance(index, bool):
-            return
-        if 0 <= index < len(sized.sizing.candidates):
+    def look_at(self, index: int) -> None:
+        """Show the curves of a candidate."""
+        if self.sized is not None and index < len(self.sized.sizing.candidates):
             self._looked = index
             self._draw()
+
+    def _take_extent(self, extent_deg: float) -> None:
+        if self.measurement is not None:
+            self.measurement.change_scene({"typed": {"extent_deg": f"{extent_deg}"}})
 
     def candidate(self, sizing: Sizing) -> Candidate:
         """The candidate that is looked at; the most probable one at first."""
@@ -298,11 +299,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         if sized is None or not answered:
             return
         self.status.line = status(sized)
-        self.candidates.rows = rows(sized)
-        looked = self.candidate(sized.sizing)
-        self.candidates.looked = next(
-            index for index, other in enumerate(sized.sizing.candidates) if other is looked
-        )
+        looked = sized.sizing.candidates.index(self.candidate(sized.sizing))
+        self.candidates.show(rows(sized), looked)
         for dof, row in self._rows.items():
             row.visible = dof in sized.measured.directions
 
@@ -336,8 +334,8 @@ class DefectSize(JobView[Sized], MeasuredView):
             return words
         if found.fault == INNER:
             return (
-                f"{words} The inner race is damaged: its defect turns through the load, no ball "
-                "pass is like the next, and its size cannot be had this way."
+                f"{words} The inner race is damaged: its defect turns with the shaft, so its size "
+                "cannot be estimated this way."
             )
         return (
             f"{words} Step 2 does not say that the outer race is damaged. If that is known from "

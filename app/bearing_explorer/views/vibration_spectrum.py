@@ -16,9 +16,9 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
-from bearing_explorer.views.measured_view import LookPanel
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
+from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.plan import SETTLED
 from bearingcore.scene.scene import WITH_MASS
@@ -34,11 +34,11 @@ LABEL_WIDTH = 0.17  # of the width of the figure
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 
-AXIS: dict[str, Any] = {
+AXIS: LookField = {
     "kind": "one",
     "name": "axis",
     "label": "Frequency",
-    "options": [["linear", "where rotor and housing ring"], ["logarithmic", "all, logarithmic"]],
+    "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],
 }
 """The switch above the figures."""
 
@@ -116,21 +116,17 @@ class VibrationSpectra(View):
         )
         self._narrow = [toggle, *plots]
         self._wide = WideSpectra(packed, "spectrum_wide", {})
-        self._axis = LookPanel(
-            self._asked, spec={"name": "spectrum", "fields": [AXIS]}, values={"axis": "linear"}
-        )
+        self._axis = LookPanel(self.look_changed, [AXIS])
         self._show_axis()
         return pn.Column(
             self._axis, toggle, *plots, *self._wide.plots, sizing_mode="stretch_width", margin=0
         )
 
-    def _asked(self, message: Any) -> None:
-        look = message.get("look") if isinstance(message, dict) else None
-        axis = look.get("axis") if isinstance(look, dict) else None
-        if axis in ("linear", "logarithmic"):
-            self.wide = axis == "logarithmic"
-            if self._draw is not None:
-                self._draw()
+    def look_changed(self, _: str, value: str) -> None:
+        """Draw over the frequency axis that was chosen."""
+        self.wide = value == "logarithmic"
+        if self._draw is not None:
+            self._draw()
 
     def _show_axis(self) -> None:
         """The figures of the axis that was chosen."""
@@ -138,7 +134,7 @@ class VibrationSpectra(View):
             part.visible = not self.wide
         for plot in self._wide.plots:
             plot.visible = self.wide
-        self._axis.values = {"axis": "logarithmic" if self.wide else "linear"}
+        self._axis.show({"axis": "logarithmic" if self.wide else "linear"})
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

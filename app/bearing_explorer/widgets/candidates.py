@@ -1,33 +1,77 @@
-"""Candidates for the extent of a defect, as a list of bars that can be looked at and taken."""
+"""Candidates for the extent of a defect: a table with bars, one to show, one to take."""
 
 from __future__ import annotations
 
+import html
 import math
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import Any
 
-import param
-from panel.custom import JSComponent
+import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.plots import style
+from bearing_explorer.widgets.form import Fields, button, choices, row, select
 from bearingcore import Candidate, Scene
 from bearingcore.common.numbers import probability
 
 
-class CandidateList(JSComponent):
-    """Candidates as bars of probability. `asked` gets {"look": index}: judge it."""
+class CandidateList(pn.Column):
+    """Candidates as a table with bars of probability, one of them shown, and a button to take it.
 
-    rows = param.List(default=[])
-    looked = param.Integer(default=0)
+    Parameters
+    ----------
+    look
+        called with the number of the candidate to show.
+    take
+        called with the extent [deg] of the candidate that goes into the scene.
+    """
 
-    _esm = scripts("element.js", "sizing.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("sizing.css")]
+    def __init__(self, look: Callable[[int], None], take: Callable[[float], None]) -> None:
+        self._rows: list[dict[str, Any]] = []
+        self._looked = 0
+        self._table = pn.pane.HTML(
+            "", stylesheets=[asset_text("sizing.css")], sizing_mode="stretch_width", margin=0
+        )
+        self._fields = Fields(lambda name: look(int(self._fields.values[name])))
+        chosen = self._fields.add(
+            "candidate", select("Curves shown", [["0", ""]], css_classes=["beside"])
+        )
+        self._take = button(
+            "", lambda: take(self._rows[self._looked]["extent_deg"]), css_classes=["take"]
+        )
+        super().__init__(
+            self._table, row(chosen, self._take), sizing_mode="stretch_width", margin=(2, 0, 8, 0)
+        )
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))
+    def show(self, rows: list[dict[str, Any]], looked: int) -> None:
+        """Show candidates, as `rows` makes them, and which of them the figures show."""
+        self._rows, self._looked = rows, looked
+        self._table.object = table_html(rows, looked)
+        options = [[str(index), row["extent"]] for index, row in enumerate(rows)]
+        self._fields.values["candidate"] = str(looked)
+        self._fields.widgets["candidate"].param.update(**choices(options), value=str(looked))
+        self._take.label = f"Take {rows[looked]['extent']} into the scene"
+
+
+def table_html(rows: list[dict[str, Any]], looked: int) -> str:
+    """The candidates as an HTML table."""
+    lines = []
+    for index, one in enumerate(rows):
+        truth = f'<span class="truth">true {one["truth"]}</span>' if one["truth"] else ""
+        width = max(100.0 * one["probability"], 0.4)
+        lines.append(
+            f'<tr class="{"looked" if index == looked else ""}"><th scope="row">{one["extent"]}'
+            f"<small>{one['length']}</small></th><td>{one['made_of']}</td>"
+            f'<td class="bar"><i style="width: {width:.1f}%"></i></td>'
+            f'<td class="percent">{one["percent"]}{truth}</td>'
+            f"<td>{one['explains']}<small>{html.escape(one['fitted'])}</small></td></tr>"
+        )
+    return (
+        '<table><caption class="unseen">Candidates for the extent of the defect</caption>'
+        f"<tbody>{''.join(lines)}</tbody></table>"
+    )
 
 
 def rows(sized: Sized) -> list[dict[str, Any]]:

@@ -1,41 +1,160 @@
-"""What a diagnosis looks like: the bearing with the part marked and words, and the evidence."""
+"""A diagnosis on the page: the bearing with the damaged part marked, the answer, the evidence."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, ClassVar
+import html
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-import param
-from panel.custom import JSComponent
+import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.assets import asset_text
+from bearing_explorer.widgets.form import button
 
-
-class PartPanel(JSComponent):
-    """The bearing with the damaged part marked, the answer in words, and on what it rests."""
-
-    #: {"mood": "busy" | "fault" | "healthy" | "unknown", "part", "color", "headline",
-    #: "probability", "plain", "pass_on", "facts": [[name, value]], "bearing": {...}}
-    state = param.Dict(default={})
-
-    _esm = scripts("element.js", "figure_export.js", "part.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("part.css")]
-
-    def __init__(self, **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
+_PICTURES = {
+    "busy": "Bearing; the signal is being analysed",
+    "healthy": "Bearing, no part marked: no damage seen",
+    "unknown": "Bearing with a question mark: no clear result",
+}
+_COPY = """
+navigator.clipboard?.writeText(summary.text)
+button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
+"""
+_MOST_BALLS = 60
 
 
-class EvidenceTable(JSComponent):
-    """What speaks for each part. `asked` gets {"zoom": [part, harmonic]}: judge it."""
+class PartPanel(pn.Column):
+    """The bearing with the damaged part marked, the answer in words, and its assumptions."""
 
-    #: of `part_words.evidence_rows`
-    rows = param.List(default=[])
-    #: the line that is zoomed to: "inner race 2"
-    looked = param.String()
+    def __init__(self) -> None:
+        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
+        self._summary = pn.pane.Str("", visible=False)
+        self._copy = button("Copy the summary", lambda: None, visible=False, align="start")
+        self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
+        super().__init__(self._answer, self._copy, self._summary, **wide)
+        self.state: Mapping[str, Any] = {}
 
-    _esm = scripts("element.js", "evidence.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("evidence.css")]
+    def show(self, state: Mapping[str, Any]) -> None:
+        """Show an answer, as `views.diagnosis.panel_state` makes it."""
+        if state == self.state:
+            return
+        self.state = state
+        self._answer.object = part_html(state)
+        summary = state.get("pass_on", "")
+        self._summary.object = summary
+        self._copy.param.update(visible=bool(summary), label="Copy the summary")
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))
+
+def part_html(state: Mapping[str, Any]) -> str:
+    """The answer as HTML: picture, headline, words, summary, assumptions."""
+    said = {name: html.escape(str(state.get(name, ""))) for name in (
+        "headline", "probability", "plain", "pass_on", "color", "mood")}  # fmt: skip
+    facts = "".join(
+        f"<div><dt>{html.escape(name)}</dt><dd>{html.escape(value)}</dd></div>"
+        for name, value in state.get("facts", ())
+    )
+    summary = (
+        f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
+        if said["pass_on"]
+        else ""
+    )
+    assumptions = f'<div class="rests"><h4>Assumptions</h4><dl>{facts}</dl></div>' if facts else ""
+    return (
+        f'<section class="part" aria-label="Which part is damaged" data-mood="{said["mood"]}" '
+        f'style="--part: {said["color"] or "var(--accent)"}">'
+        f'<div class="place">{picture(state)}</div><div class="answer"><h3>{said["headline"]}</h3>'
+        f'<p class="probability">{said["probability"]}</p><p>{said["plain"]}</p>{summary}</div>'
+        f"{assumptions}</section>"
+    )
+
+
+def picture(state: Mapping[str, Any]) -> str:
+    """The bearing along the shaft as SVG, to scale, with the damaged part marked."""
+    bearing, mood = state["bearing"], state["mood"]
+    part = state.get("part", "") if mood == "fault" else ""
+    ball, outer, inner = bearing["ball"], bearing["outer"], bearing["inner"]
+    rim, bore = outer + 0.45 * ball, max(inner - 0.45 * ball, 0.3 * inner)
+    scale = 96.0 / rim
+
+    def ring(radius: float, hole: float, name: str) -> str:
+        circles = " ".join(
+            f"M{-r:.2f} 0A{r:.2f} {r:.2f} 0 1 1 {r:.2f} 0A{r:.2f} {r:.2f} 0 1 1 {-r:.2f} 0Z"
+            for r in (scale * radius, scale * hole)
+        )
+        marked = " marked" if part == name else ""
+        return f'<path class="steel{marked}" fill-rule="evenodd" d="{circles}"/>'
+
+    balls = "".join(
+        f'<circle class="ball{" marked" if part == "ball" and not i else ""}" '
+        f'r="{0.5 * scale * ball:.2f}" cx="{0.5 * scale * bearing["pitch"] * math.cos(turn):.2f}" '
+        f'cy="{0.5 * scale * bearing["pitch"] * math.sin(turn):.2f}"/>'
+        for i in range(min(bearing["n_balls"], _MOST_BALLS))
+        for turn in [2.0 * math.pi * i / bearing["n_balls"] + 0.5 * math.pi]
+    )
+    # the impact is drawn at the bottom, as if the load were there
+    places = {"outer race": outer, "inner race": inner, "ball": 0.5 * (bearing["pitch"] + ball)}
+    mark = _impact(scale * places[part], max(0.22 * scale * ball, 4.5)) if part else ""
+    if mood == "unknown":
+        mark = '<text class="question" text-anchor="middle" dominant-baseline="central">?</text>'
+    words = f"Bearing, {part} marked" if part else _PICTURES.get(mood, "Bearing")
+    return (
+        f'<svg viewBox="-104 -104 208 208" role="img" aria-label="{words}" data-part="{part}">'
+        f"{ring(rim, outer, 'outer race')}{ring(inner, bore, 'inner race')}{balls}{mark}</svg>"
+    )
+
+
+def _impact(y: float, size: float) -> str:
+    """A spot with rays around it."""
+    rays = ""
+    for i in range(8):
+        c, s = (turn(math.pi * (i + 0.5) / 4.0) for turn in (math.cos, math.sin))
+        rays += f"M{size * c:.2f} {y + size * s:.2f}"
+        rays += f"L{2.1 * size * c:.2f} {y + 2.1 * size * s:.2f}"
+    return (
+        f'<path class="rays" d="{rays}"/>'
+        f'<circle class="spot" cx="0" cy="{y:.2f}" r="{0.55 * size:.2f}"/>'
+    )
+
+
+def evidence_html(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The evidence for each part as a table; rows are those of `part_words.evidence_rows`."""
+    if not rows:
+        return ""
+    harmonics = range(1, len(rows[0]["harmonics"]) + 1)
+    heads = [
+        ("Part", ""), ("Order", "nominal"), ("Line", "slip"),
+        *((f"{k}×", "dB" if k == 1 else "") for k in harmonics),
+        ("Together", "dB"), ("Sidebands", "dB"), ("Demodulation band", ""), ("By chance", ""),
+    ]  # fmt: skip
+    head = "".join(_cell(words, below, 'th scope="col"') for words, below in heads)
+    body = "".join(_row(row) for row in rows)
+    return (
+        '<div class="rows" tabindex="0" role="region" aria-label="Evidence for each part"><table>'
+        f"<caption>Evidence for each part</caption><thead><tr>{head}</tr></thead>"
+        f"<tbody>{body}</tbody></table></div>"
+    )
+
+
+def _row(row: Mapping[str, Any]) -> str:
+    swatch = f'<i class="swatch" style="background: {row["color"]}"></i>'
+    cells = [
+        f'<th scope="row">{swatch}{row["part"]}<small>{row["name"]}</small></th>',
+        _cell(row["order"], f"of {row['nominal']}"),
+        _cell(row["frequency"], row["slip"]),
+        *(
+            _cell(one["level"], tag='td class="clear"' if one["clear"] else "td")
+            for one in row["harmonics"]
+        ),
+        _cell(row["together"], f"noise {row['noise']}"),
+        _cell(row["sidebands"], row["spacing"]),
+        _cell(row["band"], f"along {row['direction']}"),
+        _cell(row["chance"]),
+    ]
+    return f'<tr class="{"leads" if row["leads"] else ""}">{"".join(cells)}</tr>'
+
+
+def _cell(words: str, below: str = "", tag: str = "td") -> str:
+    small = f"<small>{html.escape(below)}</small>" if below else ""
+    return f"<{tag}>{html.escape(words)}{small}</{tag.split()[0]}>"

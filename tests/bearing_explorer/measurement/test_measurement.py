@@ -21,6 +21,7 @@ from bearing_explorer.measurement.session import (
 )
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE, Upload, shown_name
+from bearing_explorer.messages import UploadBegins, UploadPiece, read
 from bearing_explorer.state.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
@@ -60,10 +61,10 @@ async def bring(measurement: Measurement, name: str, content: bytes) -> None:
     """As the browser does: the pieces that are asked for, one after the other."""
     wanted: list[tuple[int, int]] = []
     measurement.want = lambda begin, of: wanted.append((begin, of))
-    measurement.asked({"file": {"name": name, "size": len(content)}})
+    measurement.begin_upload(name, len(content))
     while wanted:
         begin, of = wanted.pop()
-        measurement.asked({"piece": content[begin : begin + PIECE], "of": of})
+        measurement.take_piece(content[begin : begin + PIECE], of)
     await settled(measurement)
 
 
@@ -111,7 +112,7 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     assert "type in the measured one" in made.state.words
 
     async def told() -> None:
-        made.asked({"form": {**made.state.values, "unit": "m/s²", "shaft_speed": "720 rpm"}})
+        made.take_form({**made.state.values, "unit": "m/s²", "shaft_speed": "720 rpm"}, False)
         await settled(made)
 
     run(told())
@@ -224,7 +225,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
     assert [value for value, _ in made.state.columns] == ["", "0", "1"]
 
     async def told() -> None:
-        made.asked({"form": {**made.state.values, "sample_rate": "12 800"}})
+        made.take_form({**made.state.values, "sample_rate": "12 800"}, False)
         await settled(made)
 
     run(told())
@@ -260,7 +261,7 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
     assert before is not None
 
     async def asked() -> None:
-        made.asked({"form": {**made.state.values, field: text}})
+        made.take_form({**made.state.values, field: text}, False)
         await settled(made)
 
     run(asked())
@@ -303,7 +304,7 @@ def answer(made: Measurement, **values: str) -> None:
 
     async def asked() -> None:
         sure = bool(values.pop("sure", ""))
-        made.asked({"form": {**made.state.values, **values}, "sure": sure})
+        made.take_form({**made.state.values, **values}, sure)
         await settled(made)
 
     run(asked())
@@ -350,7 +351,7 @@ def test_a_struct_says_all_and_its_load_can_be_taken_into_the_scene():
     assert made.state.load == pytest.approx(150 * 4.4482216)
     taken: list[dict] = []
     made.change_scene = taken.append
-    made.asked({"load": True})
+    made.take_load()
     assert taken == [{"typed": {"fy_n": "-667.233"}}]
 
 
@@ -465,20 +466,20 @@ def test_a_huge_file_is_refused_before_it_is_sent():
     made = measuring()
     wanted: list[int] = []
     made.want = lambda begin, of: wanted.append(begin)
-    made.asked({"file": {"name": "h.csv", "size": MOST_BYTES + 1}})
+    made.begin_upload("h.csv", MOST_BYTES + 1)
     assert "at most 24 MB" in made.state.words
     assert not wanted
 
 
-@pytest.mark.parametrize("piece", ["text", None, b"", bytes(PIECE + 1), bytes(101), {"a": 1}])
+@pytest.mark.parametrize("piece", [b"", bytes(PIECE + 1), bytes(101)])
 def test_pieces_that_cannot_be_of_the_file_end_it(piece):
     made = measuring(signal())
-    made.asked({"file": {"name": "a.csv", "size": 100}})
-    made.asked({"piece": piece, "of": 1})
+    made.begin_upload("a.csv", 100)
+    made.take_piece(piece, 1)
     assert made.state.bad
     assert "did not arrive whole" in made.state.words
     said = made.state.words
-    made.asked({"piece": bytes(10), "of": 1})  # nobody asked for it
+    made.take_piece(bytes(10), 1)  # nobody asked for it
     assert made.state.words == said
 
 
@@ -487,37 +488,39 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
     [
         None,
         7,
-        "file",
         [],
         {},
-        {"file": 3},
-        {"load": True},
-        {"load": 7, "form": None},
-        {"sure": True},
-        {"form": {"x": [1]}},
-        {"form": 3},
-        {"simulate": {}},
-        {"simulate": {"noise": [], "machine": {}}},
-        {"simulate": {"noise": "20", "machine": "another"}},
-        {"piece": b"abc"},
-        {"piece": b"abc", "of": 0},
-        {"piece": b"abc", "of": [1]},
+        {"type": "begin"},
+        {"type": "begin", "name": "a", "size": "9"},
+        {"type": "begin", "name": "a", "size": True},
+        {"type": "piece", "content": "text", "of": 1},
+        {"type": "piece", "content": b"abc", "of": [1]},
+        {"type": "other"},
     ],
 )
-def test_nonsense_from_the_browser_changes_nothing(message):
+def test_what_is_no_message_of_an_upload_is_dropped(message):
+    assert read(UploadBegins | UploadPiece, message) is None
+
+
+def test_messages_of_an_upload_are_read():
+    begins = {"type": "begin", "name": "a.csv", "size": 3}
+    assert read(UploadBegins | UploadPiece, begins) == UploadBegins("a.csv", 3)
+    piece = {"type": "piece", "content": b"abc", "of": 1}
+    assert read(UploadBegins | UploadPiece, piece) == UploadPiece(b"abc", 1)
+
+
+def test_a_simulation_that_is_not_offered_changes_nothing():
     made = measuring(before := signal())
-    made.asked(message)
+    made.simulate("20", "another")
+    made.take_load()
+    made.take_form({}, True)
     assert made.measured is before
     assert not made._tasks
 
 
-@pytest.mark.parametrize(
-    "file",
-    [{}, {"name": None, "size": "9"}, {"name": "a", "size": True}, {"name": "a", "size": -3}],
-)
-def test_a_file_without_a_size_is_refused_in_a_sentence(file):
+def test_a_file_without_a_size_is_refused_in_a_sentence():
     made = measuring(signal())
-    made.asked({"file": file})
+    made.begin_upload("a", -3)
     assert "has no size" in made.state.words
     assert made.measured is None
     assert not made._tasks
@@ -536,11 +539,11 @@ def test_what_was_asked_last_wins():
     async def two() -> Measurement:
         made = measuring()
         first, second = csv_of(NOISE, "time,x,y"), csv_of(NOISE[:1000], "time,x,y")
-        made.asked({"file": {"name": "first.csv", "size": len(first)}})
-        made.asked({"piece": first, "of": 1})  # is being read ...
-        made.asked({"file": {"name": "second.csv", "size": len(second)}})
-        made.asked({"piece": first, "of": 1})  # late
-        made.asked({"piece": second, "of": 2})
+        made.begin_upload("first.csv", len(first))
+        made.take_piece(first, 1)  # is being read ...
+        made.begin_upload("second.csv", len(second))
+        made.take_piece(first, 1)  # late
+        made.take_piece(second, 2)
         await settled(made)
         return made
 
@@ -555,10 +558,10 @@ def test_a_form_changed_meanwhile_does_not_stop_a_file_on_its_way():
         made = measuring()
         await bring(made, "first.csv", csv_of(NOISE, "time,x,y"))
         second = csv_of(NOISE[:1000], "time,x,y")
-        made.asked({"file": {"name": "second.csv", "size": len(second)}})
-        made.asked({"form": {**made.state.values, "unit": "g"}})
+        made.begin_upload("second.csv", len(second))
+        made.take_form({**made.state.values, "unit": "g"}, False)
         await settled(made)
-        made.asked({"piece": second, "of": 2})
+        made.take_piece(second, 2)
         await settled(made)
         return made
 
@@ -571,8 +574,8 @@ def test_after_the_session_nothing_is_taken():
     async def late() -> Measurement:
         made = measuring()
         content = csv_of(NOISE, "time,x,y")
-        made.asked({"file": {"name": "late.csv", "size": len(content)}})
-        made.asked({"piece": content, "of": 1})
+        made.begin_upload("late.csv", len(content))
+        made.take_piece(content, 1)
         made.stop()
         await settled(made)
         return made
@@ -618,7 +621,7 @@ def test_the_button_simulates_the_scene_beside():
     async def pressed() -> Measurement:
         made = measuring()
         made._editor.set({"extent_deg": 30.0})
-        made.asked({"simulate": {"noise": "40", "machine": "same"}})
+        made.simulate("40", "same")
         assert made.state.busy
         await settled(made)
         return made

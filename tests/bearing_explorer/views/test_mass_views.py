@@ -140,9 +140,7 @@ def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> No
     view = VibrationSpectra(PackedSource())
     results = Results(FAN_RIG.replace(balls="with mass"), moving=True)
     assert view.data(results)[0]["spectrum_wide_lines"]["frequency"].size == 0
-    view._asked({"look": {"axis": "anything"}})
-    assert not view.wide
-    view._asked({"look": {"axis": "logarithmic"}})
+    view.look_changed("axis", "logarithmic")
     sources, _ = view.data(results)
     assert sources["spectrum_wide_lines"]["frequency"][-1] > 32e3
     assert sources["spectrum_wide_resonance"]["low"].size == 1

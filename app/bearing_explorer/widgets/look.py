@@ -1,0 +1,90 @@
+"""Choices above a figure: one of several, some of several, or a number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, TypedDict
+
+import panel as pn
+
+from bearing_explorer.assets import asset_text
+from bearing_explorer.widgets.form import Fields, choices, entry, row, select
+
+
+class LookField(TypedDict, total=False):
+    """A choice. An option is [value, words], of "some" [value, words, colour]."""
+
+    kind: Literal["one", "some", "number"]
+    name: str
+    label: str
+    options: Sequence[Sequence[str]]
+    hint: str
+
+
+class LookPanel(pn.Column):
+    """Choices of how a figure looks; `changed(name, value)` is called for each that changes.
+
+    The value is a string, or a list of strings where some of several can be chosen.
+    """
+
+    def __init__(self, changed: Callable[[str, Any], None], fields: Sequence[LookField]) -> None:
+        self._fields = Fields(lambda name: changed(name, self._fields.values[name]))
+        self._specs = fields
+        self._disabled: dict[str, Sequence[str]] = {}
+        self._refusal = pn.pane.Str("", visible=False, margin=0, styles={"color": "var(--bad)"})
+        parts = [self._widget(spec) for spec in fields]
+        super().__init__(
+            row(*parts), self._refusal, css_classes=["look"], sizing_mode="stretch_width",
+            margin=(2, 0, 6, 0),
+        )  # fmt: skip
+
+    def _widget(self, spec: LookField) -> pn.viewable.Viewable:
+        name, label = spec["name"], spec["label"]
+        beside = {"css_classes": ["beside"]}
+        if spec["kind"] == "one":
+            return self._fields.add(name, select(label, spec["options"], **beside))
+        if spec["kind"] == "number":
+            hint = spec.get("hint", "")
+            number = entry(label, placeholder=hint, css_classes=["beside", "number"])
+            return self._fields.add(name, number)
+        colors = "".join(
+            f"label:nth-of-type({n}) {{ --swatch: {option[2]}; }}\n"
+            for n, option in enumerate(spec["options"], 1)
+        )
+        boxes = pn.widgets.CheckBoxGroup(
+            options={words: value for value, words, *_ in spec["options"]},
+            inline=True,
+            width=None,
+            margin=0,
+            stylesheets=[asset_text("form.css"), colors],
+        )
+        self._fields.add(name, boxes)
+        return pn.Row(pn.pane.Str(label, margin=0), boxes, css_classes=["checks"], margin=0)
+
+    def show(
+        self,
+        values: Mapping[str, Any],
+        disabled: Mapping[str, Sequence[str]] | None = None,
+    ) -> None:
+        """Show choices.
+
+        Parameters
+        ----------
+        values
+            of the fields, by name.
+        disabled
+            options that cannot be chosen now, by field.
+        """
+        for spec in self._specs:
+            name, gone = spec["name"], (disabled or {}).get(spec["name"], ())
+            if self._disabled.get(name, ()) == gone:
+                continue
+            self._disabled[name] = gone
+            kept = [option for option in spec["options"] if option[0] not in gone]
+            self._fields.values[name] = values[name]
+            self._fields.widgets[name].param.update(**choices(kept), value=values[name])
+        self._fields.put({name: v for name, v in values.items() if name in self._fields.values})
+
+    def refuse(self, sentence: str) -> None:
+        """Say why a number is refused; an empty sentence takes that back."""
+        self._refusal.param.update(object=sentence, visible=bool(sentence))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypedDict
 
@@ -31,7 +32,7 @@ class LookPanel(pn.Column):
         self._fields = Fields(lambda name: changed(name, self._fields.values[name]))
         self._specs = fields
         self._disabled: dict[str, Sequence[str]] = {}
-        self._refusal = pn.pane.Str("", visible=False, margin=0, styles={"color": "var(--bad)"})
+        self._refusal = _text("", visible=False, css_classes=["refused"])
         parts = [self._widget(spec) for spec in fields]
         super().__init__(
             row(*parts), self._refusal, css_classes=["look"], sizing_mode="stretch_width",
@@ -59,7 +60,7 @@ class LookPanel(pn.Column):
             stylesheets=[asset_text("form.css"), colors],
         )
         self._fields.add(name, boxes)
-        return pn.Row(pn.pane.Str(label, margin=0), boxes, css_classes=["checks"], margin=0)
+        return row(_text(label), boxes, css_classes=["checks"], sizing_mode=None)
 
     def show(
         self,
@@ -87,4 +88,8 @@ class LookPanel(pn.Column):
 
     def refuse(self, sentence: str) -> None:
         """Say why a number is refused; an empty sentence takes that back."""
-        self._refusal.param.update(object=sentence, visible=bool(sentence))
+        self._refusal.param.update(object=html.escape(sentence), visible=bool(sentence))
+
+
+def _text(words: str, **params: Any) -> pn.pane.HTML:
+    return pn.pane.HTML(words, margin=0, stylesheets=[asset_text("form.css")], **params)

@@ -123,7 +123,7 @@ def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
 
 
 def words(page: Page, view: str) -> Locator:
-    return page.locator(f".view-{view} .job .words")
+    return page.locator(f".view-{view} .job .words p")
 
 
 def status(page: Page) -> Locator:

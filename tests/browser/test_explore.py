@@ -72,7 +72,7 @@ def titles(page: Page) -> list[str]:
 
 
 def words(page: Page) -> Locator:
-    return page.locator(".view-explore .job .words")
+    return page.locator(".view-explore .job .words p")
 
 
 def wait(page: Page, done: Callable[[], bool], seconds: float = 120.0) -> None:

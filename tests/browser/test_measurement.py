@@ -107,7 +107,7 @@ def test_a_file_is_read_drawn_and_sized_and_a_broken_one_told(
     # the size: the scene says 12.9°, the signal knows better
     assert value(page, "extent_deg") == pytest.approx(12.9)
     page.get_by_role("button", name="Find the size").click()
-    expect(page.locator(".view-sizing .job .words")).to_contain_text("was tried")
+    expect(page.locator(".view-sizing .job .words p")).to_contain_text("was tried")
     candidates = page.locator(".view-sizing tbody tr")
     expect(candidates.first).to_be_visible()
     assert candidates.count() >= 4
@@ -200,7 +200,7 @@ def test_the_part_is_named_marked_and_zoomed_to(
     # the size of an inner-race defect is not looked for, and no figure is left empty
     expect(page.locator(".view-sizing")).to_contain_text("its size cannot be estimated this way")
     page.get_by_role("button", name="Find the size").click()
-    expect(page.locator(".view-sizing .job .words")).to_contain_text("Not possible")
+    expect(page.locator(".view-sizing .job .words p")).to_contain_text("Not possible")
     assert page.locator(".view-sizing canvas:visible").count() == 0
 
     # a healthy one is told so

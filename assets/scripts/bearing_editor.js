@@ -1,5 +1,7 @@
-// The bearing: every dimension, and a picture that shows what each one is. rows.js and
-// bearing_picture.js are put in front of this file.
+// The bearing: every dimension, and a picture that shows what each one is. rows.js is put in front
+// of this file; the picture is SVG made by the server, with a group for each dimension.
+
+const DRAWN_WITH = { youngs_modulus_gpa: "load_deflection_factor", poisson: "load_deflection_factor" }
 
 export function render({ model }) {
   const spec = model.spec
@@ -8,17 +10,22 @@ export function render({ model }) {
   const touched = (name) => {
     if (name === last) return
     last = name
-    drawing.mark(name)
+    mark()
     const { label, symbol, about: sentence } = panel.rows[name]
     about.innerHTML = `<strong>${label} <i class="symbol">${symbol}</i></strong> `
     about.append(sentence)
   }
   const panel = make_rows(model, { touched })
-  const drawing = bearing_picture((name) => {
-    const row = panel.rows[name]
+  const picture = element("div")
+  picture.addEventListener("click", (event) => {
+    const name = event.target.closest(".dimension")?.dataset.name, row = panel.rows[name]
     if (row && !row.root.hidden) row.number.focus()
     else if (row) touched(name)
   })
+  const mark = () => {
+    for (const group of picture.querySelectorAll(".dimension"))
+      group.classList.toggle("marked", group.dataset.name === (DRAWN_WITH[last] ?? last))
+  }
 
   const fields = element("form", { class: "fields", "aria-label": "Dimensions of the bearing" })
   fields.addEventListener("submit", (event) => event.preventDefault())
@@ -44,7 +51,7 @@ export function render({ model }) {
   }
   const facts = element("dl", { class: "facts", "aria-label": "What follows from the dimensions" })
   const note = element("p", { class: "origin" })
-  const side = element("div", { class: "side" }, drawing.picture, about, facts, note)
+  const side = element("div", { class: "side" }, picture, about, facts, note)
 
   const take = (state) => {
     panel.take(state)
@@ -67,15 +74,12 @@ export function render({ model }) {
     for (const box of fields.querySelectorAll("fieldset"))
       box.hidden = [...box.querySelectorAll(".control")].every((row) => row.hidden)
   }
-  let numbers = ""
   const show = () => {
-    const { shape: now, facts: list } = model.shown
-    if (!now) return
-    if (JSON.stringify(now) !== numbers) {
-      numbers = JSON.stringify(now)
-      drawing.draw(now)
-    }
-    facts.replaceChildren(...list.map(({ label, symbol, value, about: sentence }) => {
+    picture.innerHTML = model.picture
+    mark()
+  }
+  const show_facts = () => {
+    facts.replaceChildren(...model.facts.map(({ label, symbol, value, about: sentence }) => {
       const name = element("dt", { title: sentence }, label, " ")
       name.append(element("i", { class: "symbol", html: symbol }))
       return element("div", {}, name, element("dd", {}, value))
@@ -84,7 +88,9 @@ export function render({ model }) {
   take(model.state)
   panel.listen(take)
   show()
+  show_facts()
   touched("ball_diameter_mm")
-  model.on("shown", show)
+  model.on("picture", show)
+  model.on("facts", show_facts)
   return element("div", { class: "editor" }, fields, side)
 }

@@ -54,8 +54,9 @@ ASSUMED = (
 
 
 class Preset(NamedTuple):
-    """A scene that is made when it is first asked for, and the note on its numbers."""
+    """What a scene is called, what makes it when it is needed, and the note on its numbers."""
 
+    label: str
     make: Callable[[], Scene]
     note: str
 
@@ -114,6 +115,7 @@ def _row_7208(angle_deg: float) -> Bearing:
 
 def _7208(angle_deg: int, rating_kn: int, thrust_kn: float) -> Preset:
     return Preset(
+        f"7208, angular contact, {angle_deg}°",
         lambda: _scene(
             _row_7208(angle_deg),
             Load(fy=-1500.0, fz=1e3 * thrust_kn),
@@ -136,6 +138,7 @@ def _pair_7208(
     arrangement: str, label: str, meaning: str, held: str, preload: float, thrust: float
 ) -> Preset:
     return Preset(
+        f"7208 pair, {label.removeprefix('in ')}",
         lambda: _scene(
             _row_7208(25.0).paired(WIDTH_7208, arrangement, preload),
             Load(fy=-3000.0, fz=thrust),
@@ -154,6 +157,7 @@ _PRELOADED = ("pushed together by an axial preload of 8 µm", 8e-6, 800.0)
 
 _PRESETS: Mapping[str, Preset] = {
     "liew-lim": Preset(
+        "Angular contact bearing (Liew–Lim)",
         lambda: _scene(
             Bearing(
                 n_balls=12,
@@ -179,6 +183,7 @@ _PRESETS: Mapping[str, Preset] = {
         "has no published rotor, so that of the fan rig is used.",
     ),
     "fan-rig": Preset(
+        "Fan rig, deep groove bearing",
         lambda: _scene(
             Bearing(
                 n_balls=14,
@@ -204,6 +209,7 @@ _PRESETS: Mapping[str, Preset] = {
         "support along z and against tilt.",
     ),
     "6205": Preset(
+        "6205, deep groove bearing",
         lambda: _scene(_row(9, 7.94e-3, 39.04e-3), Load(fy=-1000.0), 1797.0, *(1.3, 279e-6)),
         "The deep-groove bearing at the drive end of the Case Western Reserve University rig, "
         "the best-known public fault data (there 6205-2RS JEM SKF). Published with the data: 9 "
@@ -214,6 +220,7 @@ _PRESETS: Mapping[str, Preset] = {
         f"{ASSUMED}",
     ),
     "6206": Preset(
+        "6206, deep groove bearing",
         lambda: _scene(_row(9, 9.525e-3, 46e-3), Load(fy=-1500.0), 1470.0, *(6.0, 100e-6)),
         "A deep-groove bearing of 30 mm bore and 62 mm outside diameter. Commonly given for "
         "it, though catalogues do not print the inside: 9 balls of 3/8 inch (9.525 mm) on the "
@@ -225,6 +232,7 @@ _PRESETS: Mapping[str, Preset] = {
     "7208-25deg": _7208(25, 36, 1.5),
     "7208-40deg": _7208(40, 32, 2.5),
     "seven-ball": Preset(
+        "Seven balls, commercial code",
         lambda: _scene(
             _row(7, 11.5e-3, 43.5e-3, groove_center_radius=0.5 * 43.5e-3),
             Load(fy=-1000.0),
@@ -238,6 +246,7 @@ _PRESETS: Mapping[str, Preset] = {
         "the defect, the speed, and the rotor and support of the fan rig.",
     ),
     "6203": Preset(
+        "6203, deep groove bearing",
         lambda: _scene(_row(8, 6.75e-3, 28.55e-3), Load(fy=-700.0), 1500.0, *(3.0, 100e-6)),
         "A deep-groove bearing of 17 mm bore and 40 mm outside diameter, as in the data of "
         "Paderborn University (Lessmeier and others, 2016). Printed there: 8 balls of 6.75 mm "
@@ -245,6 +254,7 @@ _PRESETS: Mapping[str, Preset] = {
         f"0.7 kN, the defect, {ASSUMED}",
     ),
     "209": Preset(
+        "209, deep groove bearing (Harris)",
         lambda: _scene(
             Bearing.from_drawing(9, 12.7e-3, 65e-3, 6.6e-3, 6.6e-3, diametral_clearance=15e-6),
             Load(fy=-2500.0),
@@ -277,6 +287,7 @@ _PRESETS: Mapping[str, Preset] = {
         *(0.0, 3000.0),
     ),
     "3208": Preset(
+        "3208, double row, angular contact",
         lambda: _scene(
             _row(14, 13.0 / 32.0 * INCH, 60e-3, 30.0).paired(14e-3, "back-to-back", 4e-6),
             Load(fy=-2500.0, fz=500.0),
@@ -290,6 +301,7 @@ _PRESETS: Mapping[str, Preset] = {
         f"4 µm, the loads, the defect, in the first row, {ASSUMED}",
     ),
     "1208": Preset(
+        "1208, self-aligning",
         lambda: _scene(
             Bearing.self_aligning(
                 n_balls=16,
@@ -312,6 +324,7 @@ _PRESETS: Mapping[str, Preset] = {
         "ring tilts freely, so the shaft is taken to be kept from tilting by another bearing.",
     ),
     "nu208": Preset(
+        "NU 208, cylindrical rollers",
         lambda: _scene(
             Bearing.cylindrical(
                 n_rollers=14,
@@ -371,6 +384,11 @@ class _Scenes(Mapping[str, Scene]):
 
 presets: Mapping[str, Scene] = _Scenes()
 """Scenes by name."""
+
+preset_labels: Mapping[str, str] = MappingProxyType(
+    {name: preset.label for name, preset in _PRESETS.items()}
+)
+"""What each preset is called on the page."""
 
 preset_notes: Mapping[str, str] = MappingProxyType(
     {name: preset.note for name, preset in _PRESETS.items()}

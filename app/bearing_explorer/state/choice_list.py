@@ -13,6 +13,7 @@ from typing import Any
 from bearing_explorer.state.quantities import defects_of
 from bearingcore import MeasuredFloor, RoughFloor, Scene, preset_notes, presets
 from bearingcore.bearings import KINDS
+from bearingcore.scene.presets import preset_labels
 
 NOTHING = object()
 """What an option is in the core that is None there."""
@@ -105,31 +106,12 @@ class Choice:
         return self.said.format(self.name_of(owner)) if self.said else ""
 
 
-_PRESET_LABELS = {
-    "liew-lim": "Angular contact bearing (Liew–Lim)",
-    "fan-rig": "Fan rig, deep groove bearing",
-    "6205": "6205, deep groove bearing",
-    "6206": "6206, deep groove bearing",
-    "7208-15deg": "7208, angular contact, 15°",
-    "7208-25deg": "7208, angular contact, 25°",
-    "7208-40deg": "7208, angular contact, 40°",
-    "seven-ball": "Seven balls, commercial code",
-    "6203": "6203, deep groove bearing",
-    "209": "209, deep groove bearing (Harris)",
-    "7208-back-to-back": "7208 pair, back to back (O)",
-    "7208-face-to-face": "7208 pair, face to face (X)",
-    "7208-tandem": "7208 pair, tandem",
-    "3208": "3208, double row, angular contact",
-    "1208": "1208, self-aligning",
-    "nu208": "NU 208, cylindrical rollers",
-}
-
 PRESET = Choice(
     "preset",
     "Bearing",
     "",
     tuple(
-        Option(name, _PRESET_LABELS.get(name, name), note)
+        Option(name, preset_labels[name], note)
         for name, note in preset_notes.items()
         if name in presets
     ),

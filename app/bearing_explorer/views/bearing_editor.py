@@ -18,6 +18,7 @@ from bearing_explorer.state.choice_list import KIND, NUMBERS
 from bearing_explorer.state.quantities import in_unit, of_rows
 from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
 from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
 
@@ -29,10 +30,12 @@ if TYPE_CHECKING:
 class BearingRows(Rows):
     """The fields and the picture in the browser."""
 
-    #: {"shape": {field: number in SI}, "facts": [{label, symbol, value, about}]}
-    shown = param.Dict(default={})
+    #: the cross-section as SVG
+    picture = param.String()
+    #: [{label, symbol, value, about}]
+    facts = param.List(default=[])
 
-    _esm = scripts("element.js", "asking.js", "rows.js", "bearing_picture.js", "bearing_editor.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "bearing_editor.js")
     _stylesheets: ClassVar[list[str]] = [
         asset_text("button.css"),
         asset_text("controls.css"),
@@ -89,10 +92,7 @@ class BearingEditor(ControlView):
         super().say(results, sentence)
         if results is not None:
             self.rows.put(
-                shown={
-                    "shape": shape_of(results.scene.bearing),
-                    "facts": facts_of(results.scene),
-                }
+                picture=bearing_picture(results.scene.bearing), facts=facts_of(results.scene)
             )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
@@ -108,37 +108,6 @@ class BearingEditor(ControlView):
             ),
             "unit": np.array([q.unit for q in rows] + [""] * len(facts)),
         }
-
-
-_OF_EACH_ROW = (
-    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle"),
-    *("outer_raceway_radius", "inner_raceway_radius"),
-)
-"""What the picture needs of each row."""
-
-
-def shape_of(bearing: Bearing) -> dict[str, Any]:
-    """What the picture is drawn from: the fields of the bearing, in SI, and which kind it is."""
-    shape = {
-        q.last_name: of_rows(bearing, q.last_name)
-        for q in QUANTITY_LIST
-        if q.group in BEARING_GROUPS
-    }
-    if "inner_groove_radius" in bearing.kind.inputs(bearing):
-        shape["inner_groove_radius"] = bearing.groove_radius("inner")
-    return shape | {
-        "exponent": bearing.kind.exponent,
-        "exponent_text": bearing.kind.exponent_text,
-        "picture": bearing.kind.picture._asdict(),
-        "rows": [
-            {
-                "place": row.place,
-                "facing": row.facing,
-                **{name: getattr(bearing.of_row(k), name) for name in _OF_EACH_ROW},
-            }
-            for k, row in enumerate(bearing.all_rows)
-        ],
-    }
 
 
 def facts_of(scene: Scene) -> list[dict[str, str]]:

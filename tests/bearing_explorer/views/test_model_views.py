@@ -1,6 +1,7 @@
 """The editors' numbers, the comparison of directions, and the warnings."""
 
 import math
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -8,7 +9,8 @@ from bearing_explorer.results.dof_comparison import other_dofs, spectrum_differe
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.bearing_editor import BearingEditor, facts_of, shape_of
+from bearing_explorer.views.bearing_editor import BearingEditor, facts_of
+from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.dof_comparison import DofDifferences, share
 from bearing_explorer.views.dof_comparison import facts_of as differences_of
 from bearing_explorer.views.model_editor import ModelEditor
@@ -40,15 +42,25 @@ def test_clearance_and_contact_angle_stand_for_one_another() -> None:
 
 
 def test_the_picture_is_drawn_from_the_bearing() -> None:
-    shape = shape_of(presets["6205"].bearing)
-    assert shape["n_balls"] == 9
-    assert shape["inner_groove_radius"] == presets["6205"].bearing.inner_groove_radius
-    assert shape_of(presets["fan-rig"].bearing)["inner_groove_radius"] is None
     view = BearingEditor(PackedSource())
     view.say(Results(presets["6205"]), "")
-    assert view.rows.shown["shape"] == shape
+    drawn = view.rows.picture
+    assert drawn == bearing_picture(presets["6205"].bearing)
     view.say(None, "Not shown.")
-    assert view.rows.shown["shape"] == shape, "the last good picture stays"
+    assert view.rows.picture == drawn, "the last good picture stays"
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_the_picture_shows_what_a_kind_of_bearing_is_given_by(name: str) -> None:
+    """Well-formed, all balls in front, and arrows for no more than there are controls."""
+    bearing = presets[name].bearing
+    drawn = ElementTree.fromstring(bearing_picture(bearing))
+    groups = {group.get("data-name"): group for group in drawn.findall("g")}
+    assert len(groups["n_balls"].findall("circle")) == bearing.n_balls
+    assert ("inner_groove_radius_mm" in groups) == bearing.is_drawn
+    assert ("roller_length_mm" in groups) == (bearing.kind.element == "roller")
+    assert ("row_distance_mm" in groups) == (len(bearing.rows) == 2)
+    assert "nan" not in bearing_picture(bearing)
 
 
 def test_the_automatic_damping_is_shown_and_a_given_one_said() -> None:

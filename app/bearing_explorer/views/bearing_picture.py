@@ -52,8 +52,8 @@ def _shape(tag: str, content: str = "", **attributes: object) -> str:
 
 
 def _path(cls: str, *commands: str | float) -> str:
-    """A path out of letters and numbers."""
-    d = " ".join(f"{one:.2f}" if isinstance(one, float | int) else one for one in commands)
+    """A path out of letters, lengths and flags (whole numbers)."""
+    d = " ".join(f"{one:.2f}" if isinstance(one, float) else str(one) for one in commands)
     return _shape("path", d=d, cls=cls)
 
 
@@ -378,8 +378,7 @@ def _angle(angle: float, ball: float) -> str:
     ]
     if angle > 0.0:
         end = x + arc * sine, y - arc * cosine
-        d = f"M{x:.2f} {y - arc:.2f}A{arc:.2f} {arc:.2f} 0 0 1 {end[0]:.2f} {end[1]:.2f}"
-        parts.append(_shape("path", d=d, cls="line", fill="none"))
+        parts.append(_path("line", "M", x, y - arc, "A", arc, arc, 0, 0, 1, *end))
     half = 0.5 * angle
     at = x + arc * math.sin(half) + 4.0, y - arc * math.cos(half) - 5.0
     return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))

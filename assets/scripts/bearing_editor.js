@@ -6,14 +6,19 @@ const DRAWN_WITH = { youngs_modulus_gpa: "load_deflection_factor", poisson: "loa
 export function render({ model }) {
   const spec = model.spec
   const about = element("p", { class: "about", "aria-hidden": "true" })
-  let last = ""
+  let last = "", one = "ball"
+  // What is said of balls, with the rolling elements of this kind.
+  const named = (text) => text.replace(/\bball/g, one).replace(/\bBall/g, one[0].toUpperCase() + one.slice(1))
   const touched = (name) => {
     if (name === last) return
     last = name
     mark()
-    const { label, symbol, about: sentence } = panel.rows[name]
-    about.innerHTML = `<strong>${label} <i class="symbol">${symbol}</i></strong> `
-    about.append(sentence)
+    describe()
+  }
+  const describe = () => {
+    const { label, symbol, about: sentence } = panel.rows[last]
+    about.innerHTML = `<strong>${named(label)} <i class="symbol">${symbol}</i></strong> `
+    about.append(named(sentence))
   }
   const panel = make_rows(model, { touched })
   const picture = element("div")
@@ -53,19 +58,22 @@ export function render({ model }) {
   const note = element("p", { class: "origin" })
   const side = element("div", { class: "side" }, picture, about, facts, note)
 
+  const rename = (now) => {
+    one = now
+    for (const { root, label } of Object.values(panel.rows))
+      root.querySelector("label").textContent = named(label)
+    for (const group of fields.querySelectorAll("fieldset"))
+      group.firstChild.textContent = named(group.dataset.group)
+    if (last) describe()
+  }
   const take = (state) => {
     panel.take(state)
     if (state.bearing) {
-      const { name, own, note: origin } = state.bearing
+      const { name, own, note: origin, element: now } = state.bearing
+      if (now !== one) rename(now)
       note.textContent = origin
       called.placeholder = name
       if (called.getRootNode().activeElement !== called) called.value = own
-    }
-    if (state.bearing) {
-      const { element: one } = state.bearing
-      for (const { root, label } of Object.values(panel.rows))
-        root.querySelector("label").textContent = label.replace(/\bballs\b/, `${one}s`)
-          .replace(/^Ball\b/, one[0].toUpperCase() + one.slice(1))
     }
     if (state.draft) {
       waits.hidden = !state.draft.words

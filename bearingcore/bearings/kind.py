@@ -205,7 +205,8 @@ class Kind:
     def check_directions(self, dofs: tuple[str, ...]) -> None:
         """ValueError for directions in which a bearing of this kind cannot move."""
         if not set(dofs) <= set(self.directions):
-            raise checks.refuse("dofs", dofs, f"{' and '.join(self.directions)}: {self.carries}")
+            allowed = f"{' and '.join(self.directions)}, as {self.carries}"
+            raise checks.refuse("dofs", " ".join(dofs), allowed)
 
 
 def kind_named(name: str) -> Kind:

@@ -104,7 +104,8 @@ class _Models:
         self.band = BAND * highest_natural_frequency(scene)
         own = self._reference(scene)
         try:
-            full = own if len(scene.active_dofs) == 5 else self._reference(_with(scene, DOF_NAMES))
+            every = scene.bearing.kind.directions
+            full = own if scene.active_dofs == every else self._reference(_with(scene, every))
         except ValueError as refused:
             full = own
             self._no_full = str(refused)

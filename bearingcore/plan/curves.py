@@ -15,7 +15,7 @@ from bearingcore.plan.plans import (
     Plan,
     fewer_directions,
 )
-from bearingcore.scene.scene import DOF_NAMES, Scene
+from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 
 Array = NDArray[np.float64]
@@ -26,7 +26,7 @@ def plan_curves(scene: Scene, view: str, budget: float, began: float) -> Plan:
     planned = time.perf_counter()
     state = equilibrium(scene, nodes.angles)
     seconds = time.perf_counter() - planned
-    full = scene.replace(dofs=DOF_NAMES)
+    full = scene.replace(dofs=scene.bearing.kind.directions)
     equal = np.linspace(nodes.angles[0], nodes.angles[-1], FULL_ANGLES)
     start = time.perf_counter()
     everything = equilibrium(full, equal)

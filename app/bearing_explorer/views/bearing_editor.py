@@ -113,12 +113,13 @@ class BearingEditor(ControlView):
 def facts_of(scene: Scene) -> list[dict[str, str]]:
     """Numbers that follow from the dimensions and the speed of the shaft, with their words."""
     bearing, speed = scene.bearing, scene.shaft_speed
+    element, elements = bearing.kind.element, bearing.kind.elements
     facts = [
         {
-            "label": label,
+            "label": label.format(element, elements.capitalize()),
             "symbol": name.upper(),
             "value": _of_each_row(bearing, words),
-            "about": about,
+            "about": about.format(element),
         }
         for name, label, about in _FREQUENCIES
         for words in [partial(_hertz, name=name, speed=speed)]
@@ -133,10 +134,10 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
 
 
 _FREQUENCIES = (
-    ("bpfo", "Balls pass the outer race", "How often a point of the outer race is passed."),
-    ("bpfi", "Balls pass the inner race", "How often a point of the inner race meets a ball."),
+    ("bpfo", "{1} pass the outer race", "How often a point of the outer race is passed."),
+    ("bpfi", "{1} pass the inner race", "How often a point of the inner race meets a {0}."),
     ("ftf", "The cage turns", "Turns of the cage a second."),
-    ("bsf", "A ball spins", "Turns of a ball about itself a second."),
+    ("bsf", "A {0} spins", "Turns of a {0} about itself a second."),
 )
 
 

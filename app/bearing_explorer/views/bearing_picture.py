@@ -220,7 +220,7 @@ def _section(bearing: Bearing) -> Iterable[str]:
     if "roller_length" in look.dimensions:
         level = centre + 0.45 * at.ball
         yield _dimension("roller_length", _arrow(x - at.long, level, x + at.long, level),
-                         _label(x, level - 4.0, "l"))  # fmt: skip
+                         _label(x, level + 13.0, "l"))  # fmt: skip
     if len(at.rows) > 1:
         yield _distance(at)
     if unlike:
@@ -237,7 +237,7 @@ def _section(bearing: Bearing) -> Iterable[str]:
     if at.is_roller:
         x += 0.6 * at.long
         yield _dimension("ball_diameter", _arrow(x, centre - at.ball, x, centre + at.ball),
-                         _label(x - 5.0, centre + 3.0, "D", "b", anchor="end"))  # fmt: skip
+                         _label(x - 5.0, centre - 8.0, "D", "b", anchor="end"))  # fmt: skip
     else:
         yield _dimension("ball_diameter", _arrow(x - at.ball, centre, x + at.ball, centre),
                          _label(x, centre - 5.0, "D", "b"))  # fmt: skip
@@ -302,7 +302,7 @@ def _line_contact(bearing: Bearing) -> Iterable[str]:
     if gap:
         yield _clearance(x + long + 20.0, low, gap)
     for number, note in enumerate(bearing.kind.picture.notes):
-        yield _label(x + 30.0, 270.0 + 18.0 * number, note)
+        yield _label(x, 270.0 + 18.0 * number, note)
 
 
 class _Circle(NamedTuple):

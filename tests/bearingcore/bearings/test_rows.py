@@ -207,7 +207,7 @@ def test_rollers_carry_radial_loads_only_and_say_so() -> None:
     assert simulate(scene, 0.02).completed
     with pytest.raises(ValueError, match="cylindrical rollers carry radial loads only"):
         scene.replace(fz=10.0)
-    with pytest.raises(ValueError, match="x and y: cylindrical rollers carry radial loads only"):
+    with pytest.raises(ValueError, match="x and y, as cylindrical rollers carry radial loads only"):
         scene.replace(dofs=("x", "y", "z"))
     assert Scene.from_toml(scene.to_toml()) == scene
 

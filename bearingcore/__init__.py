@@ -13,8 +13,7 @@ from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
-from bearingcore.files.read import read_table
-from bearingcore.files.table import Table
+from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
 from bearingcore.scene.load import Load

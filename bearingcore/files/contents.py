@@ -38,12 +38,6 @@ NOTHING_SAYS = "nothing says"
 """So begins the reason of a unit that is not even a guess."""
 
 
-MOST_NUMBERS = 16_000_000
-"""Numbers in a file, all columns together."""
-
-MOST_COLUMNS = 64
-
-
 @dataclass(frozen=True)
 class FileColumns:
     """Columns of numbers out of a file.
@@ -74,7 +68,7 @@ class FileColumns:
     Raises
     ------
     ValueError
-        for too many columns or numbers, or too few rows.
+        for too few rows.
     """
 
     names: tuple[str, ...]
@@ -89,15 +83,7 @@ class FileColumns:
     full_scale_known: bool = True
 
     def __post_init__(self) -> None:
-        rows, columns = self.columns.shape
-        if columns > MOST_COLUMNS:
-            raise checks.refuse(
-                f"number of columns in {self.name}", columns, f"at most {MOST_COLUMNS}"
-            )
-        if self.columns.size > MOST_NUMBERS:
-            raise checks.refuse(
-                f"count of numbers in {self.name}", self.columns.size, f"at most {MOST_NUMBERS}"
-            )
+        rows = len(self.columns)
         if rows < FEWEST_SAMPLES:
             raise checks.refuse(
                 f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"

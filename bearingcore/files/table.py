@@ -1,4 +1,9 @@
-"""Columns of numbers out of a file, and the recording that is made of some of them."""
+"""Columns of numbers out of a file, and the recording that is made of some of them.
+
+A file is read in two steps, as it seldom says all that is needed. `read_table` finds its columns
+of numbers, and `Table.contents` what the file says about them; `Table.recording` makes a
+`Recording` of the columns that are the housing's acceleration, once what is missing is given.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +18,13 @@ from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
 from bearingcore.files.channels import TIME
+from bearingcore.files.child import read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
 from bearingcore.files.units import UNITS, differentiated, kind_of, level_doubt
 from bearingcore.signals.recording import FEWEST_SAMPLES, Recording
+
+MOST_BYTES = 64 * 2**20
+"""Of a file."""
 
 RATE_DOUBT = 0.005
 """By how much a typed rate may differ from the one that the times say, unsaid."""
@@ -193,3 +202,32 @@ class Table(FileColumns):
         if isinstance(column, int) and 0 <= column < len(self.names):
             return column
         raise checks.refuse("column", column, "one of " + ", ".join(self.names))
+
+
+def read_table(name: str, content: bytes) -> Table:
+    """The columns of numbers in a file: text (CSV), WAV, MATLAB or HDF5.
+
+    What it is shows in its first bytes. It is read in a process of its own with limits of time and
+    memory: see `bearingcore.files.child`.
+
+    Parameters
+    ----------
+    name
+        of the file; it may hold a hint ("12k", "1797rpm").
+    content
+        the whole file.
+
+    Raises
+    ------
+    ValueError
+        saying in one sentence what is wrong with a damaged, empty, huge or mis-shaped file.
+    """
+    size = len(content)
+    if size > MOST_BYTES:
+        raise checks.refuse(
+            f"size of {name}", f"{size / 2**20:.0f} MB", f"at most {MOST_BYTES // 2**20} MB"
+        )
+    about, columns = read_file(name, content)
+    for words in ("names", "remarks", "stamps"):
+        about[words] = tuple(about.get(words, ()))
+    return Table(columns=columns, name=name, **about)

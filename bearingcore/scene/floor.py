@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.kept import kept
-from bearingcore.common.number_table import read_numbers
+from bearingcore.files.child import read_file
 
 SAMPLES_A_LENGTH = 10
 """Samples of a rough floor in a correlation length."""
@@ -203,15 +203,14 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
     lines = "2 or more lines of two numbers, angle [degrees] and depth [µm]"
     if not text.strip() or "\x00" in text:
         raise checks.refuse("floor", "no text" if text.strip() else "empty", lines)
-    table = read_numbers(
-        "the floor", text.encode("utf-8", "replace"), most_numbers=2 * MOST_ROWS, most_columns=64
+    about, columns = read_file(
+        "the floor", text.encode("utf-8", "replace"), text_only=True, most_numbers=2 * MOST_ROWS
     )
-    columns = table.columns
     if columns.shape[1] != 2:
         raise checks.refuse(
             "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"
         )
-    angle, depth = table.headings or ("", "")
+    angle, depth = about["names"] if about["headed"] else ("", "")
     return measured_floor(
         columns[:, 0] * _unit_in(angle, _ANGLES, math.radians(1.0)),
         columns[:, 1] * _unit_in(depth, _LENGTHS, 1e-6),

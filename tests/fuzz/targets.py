@@ -27,7 +27,7 @@ from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Scene, catalogue, catalogue_text, presets, read_catalogue, read_floor
-from bearingcore.files.read import read_table
+from bearingcore.files.table import read_table
 from bearingcore.sweep.file import grid_from_toml
 from tests.fuzz.inputs import bytes_like, plain_value, text_like
 

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.io import savemat, wavfile
 
-from bearingcore.files import read
-from bearingcore.files.read import read_table
+from bearingcore.files import child, table as tables
+from bearingcore.files.table import read_table
 
 RATE = 12_800.0
 N = 3000

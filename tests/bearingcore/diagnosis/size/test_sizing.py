@@ -14,7 +14,7 @@ from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
 from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band
 from bearingcore.diagnosis.size.variants import Tolerances, variant
-from bearingcore.files.read import read_table
+from bearingcore.files.table import read_table
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing_proof import SCORED, size_all

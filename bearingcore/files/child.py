@@ -1,0 +1,150 @@
+"""Files from outside are read in a process of their own, with limits of time and memory.
+
+Libraries read every format; on damaged or crafted files they may crash, unpack without end or need
+hours. Such a process ends, and a sentence says so. It gives plain arrays and words back: a line of
+JSON and one matrix, nothing that could run here.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from threading import Thread, Timer
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+
+PROCESSOR_SECONDS = 10
+"""[s] of computing that reading a file may take."""
+
+WALL_SECONDS = 20.0
+"""[s] that reading a file may take by the clock."""
+
+MEMORY = 500 * 10**6
+"""[bytes] that the process may take beside its libraries."""
+
+LONGEST_ANSWER = 2**22
+"""[bytes] of the line of words that is read back."""
+
+MOST_NUMBERS = 16_000_000
+"""Numbers in a file, all columns together."""
+
+MOST_COLUMNS = 64
+
+TOO_SLOW = f"one that can be read within {PROCESSOR_SECONDS} s"
+DAMAGED = "one without a damaged or unknown part"
+
+_PROGRAM = Path(__file__).with_name("child_program.py")
+_ENVIRONMENT = {
+    "HDF5_PLUGIN_PATH": "::",  # none is loaded
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+}
+
+
+def read_file(
+    name: str,
+    content: bytes,
+    *,
+    text_only: bool = False,
+    most_numbers: int = MOST_NUMBERS,
+    most_columns: int = MOST_COLUMNS,
+) -> tuple[dict[str, Any], NDArray[np.float64]]:
+    """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
+
+    Parameters
+    ----------
+    name
+        of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
+    content
+        the whole file.
+    text_only
+        take the content for text, whatever it begins with.
+    most_numbers, most_columns
+        that are taken.
+
+    Returns
+    -------
+    about
+        the other fields of `contents.FileColumns` by name.
+    columns : (n, c)
+        the numbers; gaps are NaN.
+
+    Raises
+    ------
+    ValueError
+        saying what is wrong with a damaged, empty or mis-shaped file, or one that takes too much
+        time or memory.
+    """
+    limits = [PROCESSOR_SECONDS, MEMORY, most_numbers, most_columns, text_only]
+    try:
+        child = subprocess.Popen(
+            [sys.executable, "-I", str(_PROGRAM)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, **_ENVIRONMENT},
+        )
+    except OSError:
+        raise checks.refuse("file", name, "one; the system starts no process to read it") from None
+    assert child.stdin is not None
+    assert child.stdout is not None
+    head = json.dumps([name, *limits]).encode() + b"\n"
+    sender = Thread(target=_send, args=(child.stdin, head, content), daemon=True)
+    timer = Timer(WALL_SECONDS, child.kill)
+    sender.start()
+    timer.start()
+    try:
+        answer = _received(child.stdout, most_numbers)
+        late = not timer.is_alive()
+    finally:
+        timer.cancel()
+        child.kill()
+        ended = child.wait()
+        child.stdout.close()
+        sender.join()
+    if answer is None:
+        slow = late or -ended in (getattr(signal, "SIGXCPU", 0), getattr(signal, "SIGALRM", 0))
+        raise checks.refuse("file", name, TOO_SLOW if slow else DAMAGED)
+    about, columns = answer
+    if "refused" in about:
+        raise checks.refuse(*about["refused"])
+    return about, columns
+
+
+def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
+    with suppress(OSError):  # a process that has ended reads no more
+        pipe.write(head)
+        pipe.write(content)
+    with suppress(OSError):
+        pipe.close()
+
+
+def _received(
+    pipe: IO[bytes], most_numbers: int
+) -> tuple[Mapping[str, Any], NDArray[np.float64]] | None:
+    """What the process writes, no more than is taken; None where it ended before its time."""
+    line = pipe.readline(LONGEST_ANSWER)
+    if not line.endswith(b"\n"):
+        return None
+    about = json.loads(line)
+    rows, width = about.pop("shape", (0, 0))
+    if rows * width > most_numbers:
+        return None
+    columns = np.empty((rows, width), order="F")
+    rest = memoryview(columns.T).cast("B") if columns.size else memoryview(b"")
+    while rest:
+        count = pipe.readinto(rest)  # type: ignore[attr-defined]
+        if not count:
+            return None
+        rest = rest[count:]
+    return about, columns

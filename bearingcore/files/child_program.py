@@ -1,0 +1,67 @@
+"""The process that reads one file: see `child`. Run as a script, apart from the package's front."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from contextlib import suppress
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+
+def limit(seconds: int, memory: int) -> None:
+    """Bound computing [s] and memory [bytes] of this process; it writes no files."""
+    try:
+        import resource
+    except ImportError:
+        return  # not on Windows: there the parent bounds the time
+    bounds = {
+        resource.RLIMIT_AS: 2 * memory,  # libraries take about as much of it again
+        resource.RLIMIT_DATA: memory,
+        resource.RLIMIT_CPU: seconds,
+        resource.RLIMIT_CORE: 0,
+        resource.RLIMIT_FSIZE: 0,
+    }
+    for kind, most in bounds.items():
+        with suppress(ValueError, OSError):  # bounded more tightly already, or not on this system
+            resource.setrlimit(kind, (most, most))
+
+
+def without_front() -> None:
+    """Let modules of the package be imported without its front, which would load all solvers."""
+    package = ModuleType("bearingcore")
+    package.__path__ = [str(Path(__file__).parents[1])]
+    sys.modules["bearingcore"] = package
+
+
+def main() -> None:
+    """Read the file on the standard input and write what it holds to the standard output."""
+    name, seconds, memory, most_numbers, most_columns, text_only = json.loads(
+        sys.stdin.buffer.readline()
+    )
+    limit(seconds, memory)
+    without_front()
+    from bearingcore.files.formats import Refused, read
+
+    parts: tuple[Any, ...] = ()
+    try:
+        content = sys.stdin.buffer.read()
+        about, columns = read(name, content, most_numbers, most_columns, text_only=text_only)
+        about["shape"] = columns.shape
+        parts = tuple(columns.T)
+    except Refused as refused:
+        about = {"refused": refused.args}
+    except MemoryError:
+        about = {"refused": ("file", name, f"one that can be read in {memory // 10**6} MB")}
+    out = sys.stdout.buffer
+    out.write(json.dumps(about).encode() + b"\n")
+    for part in parts:
+        out.write(part.tobytes())
+    out.flush()
+    os._exit(0)  # nothing of a damaged library's state is taken apart
+
+
+if __name__ == "__main__":
+    main()

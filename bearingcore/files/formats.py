@@ -1,0 +1,241 @@
+"""What text, WAV, MATLAB and HDF5 files hold. Runs in the process of `child` alone.
+
+Each reader gives the fields of `contents.FileColumns`: words and single numbers, and a matrix.
+Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
+"""
+
+from __future__ import annotations
+
+import io
+import warnings
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.files.text import Refused, read_text
+from bearingcore.signals.recording import FEWEST_SAMPLES
+
+DEEPEST = 8
+"""Structs, cells and groups inside one another."""
+
+MOST_SCALARS = 200
+"""Single numbers and words of a file that are kept."""
+
+LONGEST_TEXT = 1000
+"""[characters] of words that are kept."""
+
+Answer = tuple[dict[str, Any], NDArray[np.float64]]
+
+
+def read(
+    name: str, content: bytes, most_numbers: int, most_columns: int, *, text_only: bool = False
+) -> Answer:
+    """What a file holds; Refused where it is damaged, empty or mis-shaped. See `child.read_file`."""
+    if content and text_only:
+        return _text(name, content, most_numbers, most_columns)
+    if not content:
+        raise Refused("file", name, "one that is not empty")
+    if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
+        return _wav(name, content, most_numbers, most_columns)
+    found = Variables()
+    if b"\x89HDF\r\n\x1a\n" in (content[:8], content[512:520]):  # MATLAB 7.3 puts text before it
+        kind = "HDF5 file"
+        walk: Any = _walk_hdf5
+    elif (
+        content[:6] == b"MATLAB"
+        or content[126:128] in (b"IM", b"MI")
+        or name.lower().endswith(".mat")
+    ):
+        kind = "MATLAB file"
+        walk = _walk_matlab
+    else:
+        return _text(name, content, most_numbers, most_columns)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            walk(content, found)
+    except (Refused, MemoryError):
+        raise
+    except Exception:  # a damaged file raises almost anything in there
+        raise Refused("file", name, f"a whole {kind}; this has a damaged or unknown part") from None
+    return found.table(name, kind, most_numbers, most_columns)
+
+
+def _text(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
+    columns, headings, remarks, stamps = read_text(name, content, most_numbers, most_columns)
+    names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
+    about = {"names": names, "remarks": remarks, "headed": headings is not None, "stamps": stamps}
+    return about, columns
+
+
+def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
+    """Whole numbers come out as parts of full scale, −1 to 1."""
+    from scipy.io import wavfile
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # chunks with remarks that it does not know
+            rate, data = wavfile.read(io.BytesIO(content))
+    except MemoryError:
+        raise
+    except Exception as error:  # a damaged file raises almost anything in there
+        raise Refused("file", name, f"a whole WAV file ({error})") from None
+    data = np.atleast_2d(np.asarray(data).T).T
+    _check_size(name, data.shape, most_numbers, most_columns)
+    if rate <= 0 or data.size == 0:
+        raise Refused("file", name, "a WAV file with samples and a sample rate")
+    columns = data.astype(float)
+    if data.dtype.kind == "u":
+        columns = columns / 128.0 - 1.0
+    elif data.dtype.kind == "i":
+        columns /= float(np.iinfo(data.dtype).max) + 1.0
+    names = [f"channel {i + 1}" for i in range(columns.shape[1])]
+    about = {"names": names, "sample_rate": float(rate), "headed": False, "full_scale_known": False}
+    return about, columns
+
+
+@dataclass
+class Variables:
+    """What a file names: matrices in the kind of number they are stored in, and words."""
+
+    numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)
+
+    def add(self, path: str, value: NDArray[Any]) -> None:
+        """Keep a real matrix or a word; anything else is passed over."""
+        if value.dtype.kind in "iuf" and value.ndim <= 2:
+            self.numbers[path] = np.atleast_2d(value)
+        elif value.dtype.kind in "OSU" and value.size and len(self.texts) < MOST_SCALARS:
+            first = value.ravel()[0]
+            text = first.decode("utf-8", "replace") if isinstance(first, bytes) else str(first)
+            self.texts[path] = text[:LONGEST_TEXT].strip()
+
+    def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
+        """Vectors and matrices about as long as the longest as columns, the rest beside them."""
+        scalars: dict[str, float] = {}
+        parts: dict[str, NDArray[Any]] = {}
+        for variable, matrix in self.numbers.items():
+            if matrix.size > 1:
+                parts[variable] = matrix.T if matrix.shape[0] < matrix.shape[1] else matrix
+            elif matrix.size and len(scalars) < MOST_SCALARS:
+                with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
+                    scalars[variable] = float(matrix[0, 0])
+        if not parts:
+            raise Refused("file", name, f"a {kind} with a vector or matrix of real numbers")
+        rows = max(len(part) for part in parts.values())
+        # what is much shorter was measured otherwise, or is no signal
+        least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
+        for variable, part in parts.items():
+            if len(part) < least and len(self.texts) < MOST_SCALARS:
+                self.texts[variable] = f"{len(part)} × {part.shape[1]} numbers, not used"
+        parts = {variable: part for variable, part in parts.items() if len(part) >= least}
+        width = sum(part.shape[1] for part in parts.values())
+        _check_size(name, (rows, width), most_numbers, most_columns)
+        columns = np.full((rows, width), np.nan, order="F")
+        names: list[str] = []
+        with np.errstate(invalid="ignore"):
+            for variable, part in parts.items():
+                columns[: len(part), len(names) : len(names) + part.shape[1]] = part
+                several = part.shape[1] > 1
+                names += [f"{variable}(:,{i + 1})" if several else variable
+                          for i in range(part.shape[1])]  # fmt: skip
+        return {"names": names, "scalars": scalars, "texts": self.texts}, columns
+
+
+def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
+    rows, width = shape
+    if width > most_columns:
+        raise Refused(f"number of columns in {name}", width, f"at most {most_columns}")
+    if rows * width > most_numbers:
+        raise Refused(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
+
+
+def _check_depth(depth: int) -> None:
+    if depth > DEEPEST:
+        raise Refused("structs inside one another", "deeper", f"at most {DEEPEST}")
+
+
+# -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
+
+
+def _walk_matlab(content: bytes, found: Variables) -> None:
+    from scipy.io import loadmat
+
+    for name, value in loadmat(io.BytesIO(content)).items():
+        if not name.startswith("__"):
+            _matlab(value, name, found, 0)
+
+
+def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
+    """A matrix, and what is in a struct or cell."""
+    from scipy.io.matlab import MatlabFunction, MatlabOpaque
+
+    _check_depth(depth)
+    if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
+        return
+    if value.dtype.names:
+        for index, element in enumerate(value.ravel(order="F")):
+            of = f"{path}({index + 1})" if value.size > 1 else path
+            for name in value.dtype.names:
+                _matlab(element[name], f"{of}.{name}", found, depth + 1)
+    elif value.dtype == object:
+        for index, inside in enumerate(value.ravel(order="F")):
+            _matlab(inside, f"{path}{{{index + 1}}}", found, depth + 1)
+    else:
+        found.add(path, value)
+
+
+# -- HDF5, MATLAB's version 7.3 among them ---------------------------------------------------------
+
+
+def _walk_hdf5(content: bytes, found: Variables) -> None:
+    import h5py
+
+    with h5py.File(io.BytesIO(content), "r") as file:
+        _hdf5(file, "", found, 0)
+
+
+def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
+    """A group, which is how a struct is kept, or a data set, with the words and numbers at it.
+
+    Only what lies in the file itself: links to other files, data kept elsewhere and views of other
+    data sets would name files of this machine.
+    """
+    import h5py
+
+    _check_depth(depth)
+    if isinstance(item, h5py.Group):
+        for name in item:
+            # MATLAB keeps in #refs# what cells point at
+            own = isinstance(item.get(name, getlink=True), h5py.HardLink)
+            if own and not (depth == 0 and name.startswith("#")):
+                _hdf5(item[name], f"{path}.{name}" if path else name, found, depth + 1)
+    elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
+        return
+    elif h5py.check_ref_dtype(item.dtype) is not None:
+        references = item[()].ravel()
+        for index, reference in enumerate(references):
+            if reference:
+                inside = f"{path}{{{index + 1}}}" if len(references) > 1 else path
+                _hdf5(item.file[reference], inside, found, depth + 1)
+        return
+    elif item.shape is not None and "MATLAB_empty" not in item.attrs:
+        found.add(path, _as_in_matlab(item))
+    for name, value in item.attrs.items():
+        if np.size(value) == 1 and not name.startswith(_OF_THE_FORMAT):
+            found.add(f"{path}.{name}" if path else name, np.asarray(value))
+
+
+_OF_THE_FORMAT = ("MATLAB_", "H5PATH", "CLASS", "DIMENSION")
+"""Attributes that say how a thing is stored."""
+
+
+def _as_in_matlab(data: Any) -> NDArray[Any]:
+    """The values of a data set; MATLAB keeps words as numbers of letters, and truth as numbers."""
+    kind = data.attrs.get("MATLAB_class", b"")
+    values = np.asarray(data[()])
+    if kind == b"char" and values.dtype.kind in "iu":
+        return np.array("".join(map(chr, values.T.ravel()[:LONGEST_TEXT].tolist())))
+    return values.astype(bool) if kind == b"logical" else values

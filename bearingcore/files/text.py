@@ -1,0 +1,389 @@
+"""Tables of numbers written as text, in the many habits of those who write them.
+
+Columns stand between commas, semicolons, tabs or blanks; numbers have points or commas; there are
+headings, remarks, gaps, quotation marks, dates and times of day. Which of these a text has is seen
+in its first lines; pandas reads the rest. Runs in the process of `child` alone.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from datetime import date
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+MOST_HEADINGS = 100
+"""Lines with words before the first line of numbers."""
+
+LONGEST_REMARK = 200
+"""[characters] of a line above the numbers that are kept."""
+
+SAMPLE = 30
+"""Lines of numbers by which the way of writing is judged."""
+
+
+class Refused(Exception):  # noqa: N818 - the arguments of `checks.refuse`, which the parent raises
+    """A file that is not taken: (field, value, what is allowed)."""
+
+
+def read_text(
+    name: str, content: bytes, most_numbers: int, most_columns: int
+) -> tuple[NDArray[np.float64], list[str] | None, list[str], list[int]]:
+    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
+
+    Returns
+    -------
+    columns : (n, c)
+        the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
+    headings
+        of the columns, where there are as many as columns.
+    remarks
+        the lines above the numbers, headings among them.
+    stamps
+        columns that were dates or times of day.
+
+    Raises
+    ------
+    Refused
+        saying what is wrong, and in which line.
+    """
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        content = content.decode("utf-16", "replace").encode()
+    if b"\x00" in content[:4096]:
+        raise Refused("file", name, "text with numbers (CSV), WAV or MATLAB")
+    content = content.removeprefix(b"\xef\xbb\xbf")
+    if b"\n" not in content:
+        content = content.replace(b"\r", b"\n")
+    style, width, begin, remarks = _beginning(name, content)
+    if width > most_columns:
+        raise Refused(f"number of columns in {name}", width, f"at most {most_columns}")
+    headings = _headings(remarks, style, width)
+    columns = _numbers(content[begin:], style, width, most_numbers // width + 1)
+    if columns is None:
+        line, text, allowed = _culprit(content, begin, style, width)
+        raise Refused(f"line {line} of {name}", text[:40], allowed)
+    if columns.size > most_numbers:
+        raise Refused(
+            f"count of numbers in {name}", f"over {most_numbers}", f"at most {most_numbers}"
+        )
+    return columns, headings, remarks, list(style.stamps)
+
+
+# -- how numbers are written -----------------------------------------------------------------------
+
+_DATE = r"(?:\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4})[T _;,\t]+"
+_SECOND = rf"((?:{_DATE})?\d\d?:\d\d:\d\d)"
+_ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d)?"
+_POINT_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}(\.\d+)?{_ZONE}")
+_COMMA_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}([.,]\d+)?{_ZONE}")
+
+
+class _Clock:
+    """Writes dates and times of day as seconds since the first one."""
+
+    def __init__(self) -> None:
+        self._first: int | None = None
+        self._last = 0
+        self._midnights = 0
+
+    def __call__(self, stamp: re.Match[str]) -> str:
+        second, _, part = stamp.groups()
+        try:
+            whole = self._whole(second)
+        except ValueError:
+            return stamp[0]  # a day that is in no calendar is no number either
+        if part and whole < 0:
+            return repr(whole + float(f"0.{part[1:]}"))
+        return f"{whole}.{part[1:]}" if part else str(whole)
+
+    def _whole(self, text: str) -> int:
+        """Whole seconds since the first stamp."""
+        hour, minute, second = (int(number) for number in text[-8:].lstrip("T _;,\t").split(":"))
+        whole = hour * 3600 + minute * 60 + second
+        if len(text) > 8:
+            whole += 86_400 * _day(re.split(r"[T _;,\t]", text, maxsplit=1)[0])
+        else:
+            self._midnights += whole < self._last - 43_200
+            self._last = whole
+            whole += 86_400 * self._midnights
+        if self._first is None:
+            self._first = whole
+        return whole - self._first
+
+
+def _day(text: str) -> int:
+    """Number of a day; ValueError for one that is in no calendar."""
+    one, two, three = (int(number) for number in re.split(r"[-/.]", text))
+    if one > 31:
+        return date(one, two, three).toordinal()
+    american = "/" in text and two <= 31 and one <= 12
+    month, day = (one, two) if american else (two, one)
+    return date(three, month, day).toordinal()
+
+
+@dataclass(frozen=True)
+class _Style:
+    """How lines of numbers are written; None as delimiter: blanks."""
+
+    delimiter: str | None
+    decimal_comma: bool
+    stamps: tuple[int, ...] = ()
+    clock: Callable[[re.Match[str]], str] | None = field(default=None, compare=False)
+
+    @property
+    def stamp(self) -> re.Pattern[str]:
+        """What a date or time of day looks like."""
+        return _POINT_STAMP if self.delimiter == "," else _COMMA_STAMP
+
+    def plain(self, text: str) -> str:
+        """Text with points in its numbers, without quotation marks, times as seconds."""
+        text = text.replace('"', "")
+        if self.clock is not None:
+            text = self.stamp.sub(self.clock, text)
+        return text.replace(",", ".") if self.decimal_comma else text
+
+
+_STYLES = (
+    _Style(";", True),
+    _Style("\t", True),
+    _Style(",", False),
+    _Style(None, False),
+    _Style(None, True),
+)
+
+
+def _cells(line: str, delimiter: str | None) -> list[str]:
+    return [cell.strip() for cell in line.split(delimiter)]
+
+
+def _row(line: str, delimiter: str | None) -> list[float] | None:
+    """The numbers of a plain line, or None where there is anything else, or nothing."""
+    try:
+        numbers = [float(cell) if cell else math.nan for cell in _cells(line, delimiter)]
+    except ValueError:
+        return None
+    if "_" in line or all(math.isnan(number) for number in numbers):
+        return None  # Python takes 1_000 for a number
+    return numbers
+
+
+def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
+    """How the first line is written, and its columns; None where it holds anything but numbers.
+
+    The lines that follow, and the headings `above`, decide where more than one way would do.
+    """
+    found: list[tuple[int, _Style, int]] = []
+    for style in _STYLES:
+        if style.delimiter is not None and style.delimiter not in lines[0]:
+            continue
+        made = _fitted(style, lines)
+        if made is not None:
+            fits, full, width = made
+            headed = width > 1 and len(_cells(above, style.delimiter)) == width
+            found.append((fits + headed * len(lines), full, width))
+    if not found:
+        return None
+    _, best, width = max(found, key=lambda made: made[0])
+    return best, width
+
+
+def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | None:
+    """How many of the lines a style reads, the style in full, and the columns of the first."""
+    clocked = style.stamp.search(lines[0]) is not None
+    trial = _Style(style.delimiter, style.decimal_comma, clock=_Clock() if clocked else None)
+    plain = trial.plain("\n".join(lines)).split("\n")
+    if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
+        return None
+    first = _row(plain[0], style.delimiter)
+    if first is None:
+        return None
+    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
+    width = len(first) - (closed and len(first) > 1)
+    rows = [_row(line, style.delimiter) for line in plain]
+    fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
+    if style.delimiter == "," and _looks_decimal(plain):
+        fits = 0
+    marked = style.stamp.sub("?", lines[0]).replace('"', "")
+    cells = _cells(marked, style.delimiter)[:width]
+    stamps = tuple(index for index, cell in enumerate(cells) if cell == "?")
+    clock = _Clock() if clocked else None
+    return fits, _Style(style.delimiter, style.decimal_comma, stamps, clock), width
+
+
+_TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
+
+
+def _looks_decimal(lines: Sequence[str]) -> bool:
+    """Whether "0,051" is one number with a comma rather than two: no one writes 051 or −0."""
+    pairs = [_TWO_WHOLE.fullmatch(line) for line in lines]
+    parts = [pair.groups() for pair in pairs if pair is not None]
+    return len(parts) == len(lines) and any(
+        whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in parts
+    )
+
+
+# -- what stands above the numbers -----------------------------------------------------------------
+
+
+def _decoded(line: bytes) -> str:
+    """A line; an old encoding of one byte a character where it is not UTF-8."""
+    try:
+        return line.decode().rstrip("\r\n")
+    except UnicodeDecodeError:
+        return line.decode("latin-1").rstrip("\r\n")
+
+
+def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
+    """How numbers are written, columns, the first byte of numbers, and the lines above them."""
+    remarks: list[str] = []
+    words, begin, place = 0, "", 0
+    for line in io.BytesIO(content):
+        bare = _decoded(line).strip()
+        if bare[:1] in ("#", "%"):
+            if len(remarks) < MOST_HEADINGS:
+                remarks.append(bare.lstrip("#% ")[:LONGEST_REMARK])
+        elif bare:
+            begin = begin or bare
+            rest = io.BytesIO(content)
+            rest.seek(place)
+            sample = list(islice(_lines_of_numbers(rest), SAMPLE))
+            found = _style(sample, remarks[-1] if remarks else "")
+            if found is not None:
+                return *_one_column(*found, sample, remarks), place, remarks
+            words += 1
+            remarks.append(bare[:LONGEST_REMARK])
+            if words > MOST_HEADINGS:
+                break
+        place += len(line)
+    if not begin:
+        raise Refused("file", name, "one that holds lines of numbers")
+    raise Refused(f"start of {name}", begin[:40], "a table of numbers, headings above it")
+
+
+def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
+    """Lines that are neither empty nor remarks."""
+    for line in lines:
+        text = _decoded(line)
+        if text.strip() and text[0] not in "#%":
+            yield text
+
+
+def _one_column(
+    style: _Style, width: int, lines: Sequence[str], remarks: Sequence[str]
+) -> tuple[_Style, int]:
+    """One column of numbers with commas, where a heading of one word stands above pairs."""
+    if style.delimiter == "," and width == 2 and remarks and not re.search(r"[,;\t]", remarks[-1]):
+        whole = all(_TWO_WHOLE.fullmatch(line.replace('"', "")) for line in lines)
+        if whole and len({_cells(line, ",")[0] for line in lines}) < len(lines):
+            return _Style(None, True), 1
+    return style, width
+
+
+def _headings(remarks: Sequence[str], style: _Style, width: int) -> list[str] | None:
+    """The names of the columns, out of the last line above them that fits; its unit beside each.
+
+    A line of units alone may stand between the names and the numbers.
+    """
+    lines = remarks[-3:]
+    names = _names(lines[-1], style, width) if lines else None
+    if names is None:
+        return None
+    if len(lines) > 1 and all(_UNIT.fullmatch(cell) for cell in names):
+        above = _names(lines[-2], style, width)
+        if above is not None:
+            names = [
+                f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
+                for name, unit in zip(above, names, strict=True)
+            ]
+    if not all(names) or len(set(names)) < width or all(_row(cell, None) for cell in names):
+        return None
+    return names
+
+
+_UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
+
+
+def _names(line: str, style: _Style, width: int) -> list[str] | None:
+    """The cells of a heading, whatever stands between them, if there are as many as columns."""
+    if width == 1:
+        return [line.strip(' "\t,;')]
+    for cells in (
+        line.split(style.delimiter),
+        *(line.split(delimiter) for delimiter in (";", "\t", ",")),
+        re.split(r"\s{2,}", line),
+        re.split(r"\s+(?![\[(])", line),
+    ):
+        names = [cell.strip().strip('"').strip() for cell in cells]
+        if len(names) == width + 1 and not names[-1]:
+            names.pop()
+        if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
+            names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+        if len(names) == width:
+            return names
+    return None
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+
+def _numbers(
+    body: bytes, style: _Style, width: int, most_rows: int
+) -> NDArray[np.float64] | None:
+    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
+    import pandas as pd
+
+    plain = style.plain(body.decode("latin-1"))
+    if "%" in plain or "\n " in plain:
+        plain = re.sub(r"(?m)^(?: +\r?|%.*)$\n?", "", plain)
+    text = io.BytesIO(plain.encode("latin-1"))
+    del plain
+    try:
+        frame = pd.read_csv(
+            text,
+            sep=style.delimiter or r"\s+",
+            header=None,
+            names=range(width + 1),
+            index_col=False,
+            comment="#",
+            skipinitialspace=True,
+            dtype=float,
+            float_precision="round_trip",
+            encoding="latin-1",
+            nrows=most_rows,
+        )
+    except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
+        return None
+    columns = frame.to_numpy()
+    unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
+    if unsure and _wrong_line(body, style, width) is not None:
+        return None  # pandas fills short lines
+    return columns[:, :width]
+
+
+def _wrong_line(body: bytes, style: _Style, width: int) -> tuple[int, str, str] | None:
+    """The first line that is not `width` numbers and gaps: its number from 0, it, what it lacks."""
+    for index, line in enumerate(io.BytesIO(body)):
+        text = _decoded(line)
+        if not text.strip() or text[0] in "#%":
+            continue
+        cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
+        if len(cells) == width + 1 and not cells[-1]:
+            cells.pop()
+        if len(cells) != width:
+            return index, text.strip(), f"{width} columns as in the first"
+        if _row("\n".join(cells), "\n") is None and any(cells):
+            return index, text.strip(), "numbers"
+    return None
+
+
+def _culprit(content: bytes, begin: int, style: _Style, width: int) -> tuple[int, str, str]:
+    """Number from 1 and text of the line that cannot be read, and what is allowed there."""
+    above = content.count(b"\n", 0, begin) + 1
+    index, text, allowed = _wrong_line(content[begin:], style, width) or (0, "", "numbers")
+    return above + index, text, allowed

@@ -12,7 +12,6 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from threading import Thread, Timer
@@ -81,9 +80,8 @@ def read_file(
 
     Raises
     ------
-    ValueError
-        saying what is wrong with a damaged, empty or mis-shaped file, or one that takes too much
-        time or memory.
+    FieldError
+        for a damaged, empty or mis-shaped file, or one that takes too much time or memory.
     """
     limits = [PROCESSOR_SECONDS, MEMORY, most_numbers, most_columns, text_only]
     try:
@@ -113,7 +111,7 @@ def read_file(
         child.stdout.close()
         sender.join()
     if answer is None:
-        slow = late or -ended in (getattr(signal, "SIGXCPU", 0), getattr(signal, "SIGALRM", 0))
+        slow = late or ended == -getattr(signal, "SIGXCPU", 0)
         raise checks.refuse("file", name, TOO_SLOW if slow else DAMAGED)
     about, columns = answer
     if "refused" in about:
@@ -131,17 +129,20 @@ def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
 
 def _received(
     pipe: IO[bytes], most_numbers: int
-) -> tuple[Mapping[str, Any], NDArray[np.float64]] | None:
+) -> tuple[dict[str, Any], NDArray[np.float64]] | None:
     """What the process writes, no more than is taken; None where it ended before its time."""
     line = pipe.readline(LONGEST_ANSWER)
     if not line.endswith(b"\n"):
         return None
-    about = json.loads(line)
+    try:
+        about = json.loads(line)
+    except (ValueError, RecursionError):
+        return None
     rows, width = about.pop("shape", (0, 0))
     if rows * width > most_numbers:
         return None
     columns = np.empty((rows, width), order="F")
-    rest = memoryview(columns.T).cast("B") if columns.size else memoryview(b"")
+    rest = columns.ravel(order="K").view(np.uint8).data
     while rest:
         count = pipe.readinto(rest)  # type: ignore[attr-defined]
         if not count:

@@ -18,15 +18,15 @@ def limit(seconds: int, memory: int) -> None:
     except ImportError:
         return  # not on Windows: there the parent bounds the time
     bounds = {
-        resource.RLIMIT_AS: 2 * memory,  # libraries take about as much of it again
-        resource.RLIMIT_DATA: memory,
-        resource.RLIMIT_CPU: seconds,
-        resource.RLIMIT_CORE: 0,
-        resource.RLIMIT_FSIZE: 0,
+        resource.RLIMIT_AS: (2 * memory, 2 * memory),  # libraries take about as much of it again
+        resource.RLIMIT_DATA: (memory, memory),
+        resource.RLIMIT_CPU: (seconds, seconds + 2),  # first the signal that says why
+        resource.RLIMIT_CORE: (0, 0),
+        resource.RLIMIT_FSIZE: (0, 0),
     }
-    for kind, most in bounds.items():
+    for kind, soft_and_hard in bounds.items():
         with suppress(ValueError, OSError):  # bounded more tightly already, or not on this system
-            resource.setrlimit(kind, (most, most))
+            resource.setrlimit(kind, soft_and_hard)
 
 
 def without_front() -> None:
@@ -43,7 +43,8 @@ def main() -> None:
     )
     limit(seconds, memory)
     without_front()
-    from bearingcore.files.formats import Refused, read
+    from bearingcore.errors import FieldError
+    from bearingcore.files.formats import read
 
     parts: tuple[Any, ...] = ()
     try:
@@ -51,8 +52,8 @@ def main() -> None:
         about, columns = read(name, content, most_numbers, most_columns, text_only=text_only)
         about["shape"] = columns.shape
         parts = tuple(columns.T)
-    except Refused as refused:
-        about = {"refused": refused.args}
+    except FieldError as error:
+        about = {"refused": (error.field, error.value, error.allowed)}
     except MemoryError:
         about = {"refused": ("file", name, f"one that can be read in {memory // 10**6} MB")}
     out = sys.stdout.buffer

@@ -1,4 +1,4 @@
-"""What text, WAV, MATLAB and HDF5 files hold. Runs in the process of `child` alone.
+"""Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `child` alone.
 
 Each reader gives the fields of `contents.FileColumns`: words and single numbers, and a matrix.
 Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
@@ -9,12 +9,14 @@ from __future__ import annotations
 import io
 import warnings
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.files.text import Refused, read_text
+from bearingcore.common import checks
+from bearingcore.errors import FieldError
+from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 DEEPEST = 8
@@ -32,11 +34,17 @@ Answer = tuple[dict[str, Any], NDArray[np.float64]]
 def read(
     name: str, content: bytes, most_numbers: int, most_columns: int, *, text_only: bool = False
 ) -> Answer:
-    """What a file holds; Refused where it is damaged, empty or mis-shaped. See `child.read_file`."""
+    """The contents of a file, by its first bytes; see `child.read_file`.
+
+    Raises
+    ------
+    FieldError
+        for a damaged, empty or mis-shaped file.
+    """
     if content and text_only:
         return _text(name, content, most_numbers, most_columns)
     if not content:
-        raise Refused("file", name, "one that is not empty")
+        raise checks.refuse("file", name, "one that is not empty")
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
@@ -56,10 +64,12 @@ def read(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             walk(content, found)
-    except (Refused, MemoryError):
+    except (FieldError, MemoryError):
         raise
     except Exception:  # a damaged file raises almost anything in there
-        raise Refused("file", name, f"a whole {kind}; this has a damaged or unknown part") from None
+        raise checks.refuse(
+            "file", name, f"a whole {kind}; this has a damaged or unknown part"
+        ) from None
     return found.table(name, kind, most_numbers, most_columns)
 
 
@@ -81,11 +91,11 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
     except MemoryError:
         raise
     except Exception as error:  # a damaged file raises almost anything in there
-        raise Refused("file", name, f"a whole WAV file ({error})") from None
+        raise checks.refuse("file", name, f"a whole WAV file ({error})") from None
     data = np.atleast_2d(np.asarray(data).T).T
     _check_size(name, data.shape, most_numbers, most_columns)
     if rate <= 0 or data.size == 0:
-        raise Refused("file", name, "a WAV file with samples and a sample rate")
+        raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
     columns = data.astype(float)
     if data.dtype.kind == "u":
         columns = columns / 128.0 - 1.0
@@ -123,7 +133,7 @@ class Variables:
                 with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
                     scalars[variable] = float(matrix[0, 0])
         if not parts:
-            raise Refused("file", name, f"a {kind} with a vector or matrix of real numbers")
+            raise checks.refuse("file", name, f"a {kind} with a vector or matrix of real numbers")
         rows = max(len(part) for part in parts.values())
         # what is much shorter was measured otherwise, or is no signal
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
@@ -147,14 +157,14 @@ class Variables:
 def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
     rows, width = shape
     if width > most_columns:
-        raise Refused(f"number of columns in {name}", width, f"at most {most_columns}")
+        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
     if rows * width > most_numbers:
-        raise Refused(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
+        raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
 
 
 def _check_depth(depth: int) -> None:
     if depth > DEEPEST:
-        raise Refused("structs inside one another", "deeper", f"at most {DEEPEST}")
+        raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
 
 
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
@@ -163,7 +173,7 @@ def _check_depth(depth: int) -> None:
 def _walk_matlab(content: bytes, found: Variables) -> None:
     from scipy.io import loadmat
 
-    for name, value in loadmat(io.BytesIO(content)).items():
+    for name, value in loadmat(cast(Any, io.BytesIO(content))).items():
         if not name.startswith("__"):
             _matlab(value, name, found, 0)
 

@@ -18,6 +18,8 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common import checks
+
 MOST_HEADINGS = 100
 """Lines with words before the first line of numbers."""
 
@@ -26,10 +28,6 @@ LONGEST_REMARK = 200
 
 SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
-
-
-class Refused(Exception):  # noqa: N818 - the arguments of `checks.refuse`, which the parent raises
-    """A file that is not taken: (field, value, what is allowed)."""
 
 
 def read_text(
@@ -50,26 +48,26 @@ def read_text(
 
     Raises
     ------
-    Refused
+    FieldError
         saying what is wrong, and in which line.
     """
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         content = content.decode("utf-16", "replace").encode()
     if b"\x00" in content[:4096]:
-        raise Refused("file", name, "text with numbers (CSV), WAV or MATLAB")
+        raise checks.refuse("file", name, "text with numbers (CSV), WAV or MATLAB")
     content = content.removeprefix(b"\xef\xbb\xbf")
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
     if width > most_columns:
-        raise Refused(f"number of columns in {name}", width, f"at most {most_columns}")
+        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
     headings = _headings(remarks, style, width)
     columns = _numbers(content[begin:], style, width, most_numbers // width + 1)
     if columns is None:
         line, text, allowed = _culprit(content, begin, style, width)
-        raise Refused(f"line {line} of {name}", text[:40], allowed)
+        raise checks.refuse(f"line {line} of {name}", text[:40], allowed)
     if columns.size > most_numbers:
-        raise Refused(
+        raise checks.refuse(
             f"count of numbers in {name}", f"over {most_numbers}", f"at most {most_numbers}"
         )
     return columns, headings, remarks, list(style.stamps)
@@ -262,8 +260,8 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
                 break
         place += len(line)
     if not begin:
-        raise Refused("file", name, "one that holds lines of numbers")
-    raise Refused(f"start of {name}", begin[:40], "a table of numbers, headings above it")
+        raise checks.refuse("file", name, "one that holds lines of numbers")
+    raise checks.refuse(f"start of {name}", begin[:40], "a table of numbers, headings above it")
 
 
 def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
@@ -332,9 +330,7 @@ def _names(line: str, style: _Style, width: int) -> list[str] | None:
 # -- numbers ---------------------------------------------------------------------------------------
 
 
-def _numbers(
-    body: bytes, style: _Style, width: int, most_rows: int
-) -> NDArray[np.float64] | None:
+def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[np.float64] | None:
     """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
     import pandas as pd
 

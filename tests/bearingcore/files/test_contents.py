@@ -10,10 +10,22 @@ import pytest
 from scipy.io import savemat
 
 from bearingcore import read_table
+from bearingcore.files import formats
+from bearingcore.files.child import MOST_COLUMNS, MOST_NUMBERS
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
+pytestmark = pytest.mark.filterwarnings("ignore:The 'float_precision' argument")
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
 """A folder with real records in folders `cwru`, `mfpt` and `femto`."""
+
+
+@pytest.fixture(autouse=True)
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is read, and how files become that in a process of their own, is tested elsewhere."""
+    monkeypatch.setattr(
+        "bearingcore.files.table.read_file",
+        lambda name, content: formats.read(name, content, MOST_NUMBERS, MOST_COLUMNS),
+    )
 
 
 def matlab(**variables: object) -> bytes:

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from bearingcore.files.text import Refused, read_text
+from bearingcore.files.text import read_text
+
+pytestmark = pytest.mark.filterwarnings("ignore:The 'float_precision' argument")
 
 
 def read(text: str | bytes):
@@ -83,7 +85,5 @@ def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
     ],
 )
 def test_what_cannot_be_read_is_refused(text, told) -> None:
-    with pytest.raises(Refused) as refused:
+    with pytest.raises(ValueError, match=told):
         read(text)
-    field, value, allowed = refused.value.args
-    assert told in f"{field} is {value!r}; allowed: {allowed}"

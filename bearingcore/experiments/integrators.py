@@ -17,7 +17,6 @@ from bearingcore import kernels
 from bearingcore.dynamics.adaptive import March, how_it_ended, march_adaptively, whole_steps
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
-from bearingcore.experiments.compiled_methods import march_generalised_alpha, march_verlet
 
 Marcher = Callable[[MotionProblem, float, float, float], March]
 """(problem, setting, duration [s], sample rate [Hz]) -> March"""
@@ -48,54 +47,19 @@ class Method:
     note: str
 
 
-def _runge_kutta(
-    problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
-) -> March:
-    """The program's own: variables that do not jump where the contact law allows them."""
-    system = moving_system(problem.scene, problem.dofs)
-    return _fixed(kernels.march, 4, problem, system, step_rate, duration)
+def _runge_kutta(*, velocities: bool) -> Marcher:
+    """Steps of one length: in variables that do not jump where the law allows it, or velocities."""
 
-
-def _plain_runge_kutta(
-    problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
-) -> March:
-    return _fixed(kernels.march, 4, problem, problem.system, step_rate, duration)
-
-
-def _verlet(problem: MotionProblem, step_rate: float, duration: float, sample_rate: float) -> March:
-    return _fixed(march_verlet, 1, problem, problem.system, step_rate, duration)
-
-
-def _fixed(
-    march: Callable[..., int],
-    calls: int,
-    problem: MotionProblem,
-    system: kernels.System,
-    step_rate: float,
-    duration: float,
-) -> March:
-    """Explicit steps of one length, so many right-hand sides each."""
-    n_steps = whole_steps(step_rate, duration)
-    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-    y = problem.start.copy()
-    kernels.turn_smooth(y, 1.0, 0.0, system)
-    done = march(y, 1.0 / step_rate, 0.0, system, history)
-    return March(history, step_rate, calls * n_steps, how_it_ended(done, n_steps, step_rate))
-
-
-def _generalised_alpha(am: float, af: float) -> Marcher:
     def march(
         problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
     ) -> March:
+        system = problem.system if velocities else moving_system(problem.scene, problem.dofs)
         n_steps = whole_steps(step_rate, duration)
         history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-        done, calls, unsolved = march_generalised_alpha(
-            problem.start.copy(), 1.0 / step_rate, (am, af), 0.0, problem.system, history
-        )
-        failure = how_it_ended(done, n_steps, step_rate)
-        if not failure and unsolved > n_steps // 100:
-            failure = f"the equations of {unsolved} of {n_steps} steps were not solved"
-        return March(history, step_rate, calls, failure)
+        y = problem.start.copy()
+        kernels.turn_smooth(y, 1.0, 0.0, system)
+        done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
+        return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
 
     return march
 
@@ -165,13 +129,6 @@ def history_of(problem: MotionProblem, time: Array, states: Array) -> Array:
     return history
 
 
-# Chung & Hulbert's choice for a spectral radius of 0.8 at infinite frequency
-_RADIUS = 0.8
-_AM, _AF = (2.0 * _RADIUS - 1.0) / (_RADIUS + 1.0), _RADIUS / (_RADIUS + 1.0)
-
-GENERALISED_ALPHA = {"trapezoidal": (0.0, 0.0), "generalised-α": (_AM, _AF)}
-"""How far before a step's end inertia and forces are taken, by the implicit methods' names."""
-
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (
@@ -179,7 +136,7 @@ METHODS: dict[str, Method] = {
             "RK4",
             True,
             4,
-            _runge_kutta,
+            _runge_kutta(velocities=False),
             "Runge-Kutta of order 4 as the program uses it: in variables that do not jump where "
             "the scene allows them",
         ),
@@ -187,23 +144,8 @@ METHODS: dict[str, Method] = {
             "RK4 in velocities",
             True,
             4,
-            _plain_runge_kutta,
+            _runge_kutta(velocities=True),
             "the same steps with velocities as variables, which jump in rate as a ball touches",
-        ),
-        Method("Verlet", True, 2, _verlet, "velocity-Verlet (leapfrog): symplectic, explicit"),
-        Method(
-            "trapezoidal",
-            True,
-            2,
-            _generalised_alpha(*GENERALISED_ALPHA["trapezoidal"]),
-            "trapezoidal rule: implicit, loses no amplitude",
-        ),
-        Method(
-            "generalised-α",
-            True,
-            2,
-            _generalised_alpha(*GENERALISED_ALPHA["generalised-α"]),
-            "generalised-α, spectral radius 0.8: implicit, damps what it cannot resolve",
         ),
         Method(
             "Dormand-Prince",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
 
@@ -24,7 +24,7 @@ class Point:
     Attributes
     ----------
     method, setting
-        who, and how it was set, in words.
+        its name, and how it was set, in words.
     value
         the setting as a number: steps a second [Hz], tolerance, number of cage angles.
     errors
@@ -226,19 +226,3 @@ def least_time(
         taken = time.perf_counter() - start
         least, spent, done = min(least, taken), spent + taken, done + 1
     return answer, least, done
-
-
-def slope(values: Iterable[float], errors: Iterable[float]) -> float:
-    """Slope of log error against log value, by least squares; NaN with fewer than two points."""
-    pairs = [
-        (math.log(v), math.log(e))
-        for v, e in zip(values, errors, strict=True)
-        if e > 0.0 and math.isfinite(e)
-    ]
-    if len(pairs) < 2:
-        return nan
-    mean_v = sum(v for v, _ in pairs) / len(pairs)
-    mean_e = sum(e for _, e in pairs) / len(pairs)
-    over = sum((v - mean_v) * (e - mean_e) for v, e in pairs)
-    under = sum((v - mean_v) ** 2 for v, _ in pairs)
-    return over / under if under > 0.0 else nan

@@ -1,15 +1,14 @@
-"""Where methods of marching break: steps that are too long, and energy that leaks away.
+"""Steps that are too long for Runge-Kutta: where linear theory and the motion itself say so.
 
-For each method the linear limit is the longest step at which it does not let a linear oscillation
-grow, for the stiffest static state of the scene: the eigenvalues λ of the linearised motion
-(Eq. 28, signs mended) go through the method's own amplification.
+The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
+static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go
+through the method's own amplification.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +24,7 @@ from bearingcore.dynamics.modes import (
 )
 from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.problem import motion_problem
-from bearingcore.experiments.integrators import GENERALISED_ALPHA, METHODS
+from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import BAND, at_rate
 from bearingcore.experiments.points import Reference
 from bearingcore.experiments.references import MotionReference, motion_reference
@@ -152,7 +151,7 @@ def linear_limits(scene: Scene) -> dict[str, float]:
     # the stiffest is the one whose fastest eigenvalue is greatest
     fastest = [np.abs(np.linalg.eigvals(_first_order(K, C))).max() for K, C in systems]
     K, C = systems[int(np.argmax(fastest))]
-    return {name: _least_stable_rate(name, K, C, float(max(fastest))) for name in FIXED_STEP}
+    return dict.fromkeys(FIXED_STEP, _least_stable_rate(K, C, float(max(fastest))))
 
 
 def _first_order(K: Array, C: Array) -> Array:
@@ -163,48 +162,25 @@ def _first_order(K: Array, C: Array) -> Array:
     return A
 
 
-def amplification(method: str, K: Array, C: Array, h: float) -> Array:
-    """What one step h [s] of a fixed-step method does to the state of ẍ + C ẋ + K x = 0.
+def amplification(K: Array, C: Array, h: float) -> Array:
+    """One Runge-Kutta step h [s] of order 4 as a matrix on the state (x, h v) of ẍ + C ẋ + K x = 0.
 
-    K [1/s²] and C [1/s] (m, m), divided by the masses. The state is (x, h v) or, for Verlet and
-    generalised-α, (x, h v, h² a).
+    K [1/s²] and C [1/s] (m, m), divided by the masses. On a linear motion the variables that the
+    steps are taken in make no difference.
     """
     m = len(K)
     one, zero = np.eye(m), np.zeros((m, m))
-    k, c = h * h * K, h * C
-    if method in ("RK4", "RK4 in velocities"):
-        z = np.block([[zero, one], [-k, -c]])
-        step: NDArray[Any] = np.eye(2 * m) + z @ (
-            np.eye(2 * m) + z @ (np.eye(2 * m) / 2 + z @ (np.eye(2 * m) / 6 + z / 24))
-        )
-        return step
-    if method == "Verlet":
-        x = np.hstack([one, one, 0.5 * one])
-        foretold = np.hstack([zero, one, one])
-        a = -k @ x - c @ foretold
-        v = np.hstack([zero, one, 0.5 * one]) + 0.5 * a
-        return np.vstack([x, v, a])
-    am, af = GENERALISED_ALPHA[method]
-    gamma, beta = 0.5 - am + af, 0.25 * (1.0 - am + af) ** 2
-    # (1−am) a1 + am a + c v(af) + k x(af) = 0 with Newmark's x1 and v1
-    x0 = np.hstack([one, one, (0.5 - beta) * one])
-    v0 = np.hstack([zero, one, (1.0 - gamma) * one])
-    x_before, v_before = np.hstack([one, zero, zero]), np.hstack([zero, one, zero])
-    right = (
-        am * np.hstack([zero, zero, one])
-        + k @ ((1.0 - af) * x0 + af * x_before)
-        + c @ ((1.0 - af) * v0 + af * v_before)
-    )
-    left = (1.0 - am) * one + (1.0 - af) * (beta * k + gamma * c)
-    a = -np.asarray(np.linalg.solve(left, right), dtype=float)
-    return np.vstack([x0 + beta * a, v0 + gamma * a, a])
+    z = np.block([[zero, one], [-h * h * K, -h * C]])
+    whole = np.eye(2 * m)
+    step: Array = whole + z @ (whole + z @ (whole / 2 + z @ (whole / 6 + z / 24)))
+    return step
 
 
-def _least_stable_rate(method: str, K: Array, C: Array, fastest: float) -> float:
+def _least_stable_rate(K: Array, C: Array, fastest: float) -> float:
     """Bisection on the spectral radius; `fastest` is the greatest |λ| [1/s]."""
 
     def grows(h: float) -> bool:
-        radius = float(np.abs(np.linalg.eigvals(amplification(method, K, C, h))).max())
+        radius = float(np.abs(np.linalg.eigvals(amplification(K, C, h))).max())
         return radius > 1.0 + 1e-9
 
     steps = np.geomspace(0.02, 200.0, 200) / fastest
@@ -291,104 +267,3 @@ def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
     if decibel <= RIGHT_DB:
         verdict = RIGHT
     return Trial(name, step_rate, verdict, decibel, amplitude)
-
-
-# --- energy --------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class EnergyDrift:
-    """Energy of a motion that nothing damps, over time.
-
-    Attributes
-    ----------
-    method, setting
-        who, and steps a second [Hz] or tolerance.
-    time : (n,) [s]
-    drift : (n,)
-        energy gained since the start over the energy of the motion.
-    failure
-        empty, or why it broke off.
-    """
-
-    method: str
-    setting: float
-    time: Array
-    drift: Array
-    failure: str = ""
-
-    @property
-    def final(self) -> float:
-        """Mean drift over the last tenth; NaN for a motion that failed."""
-        return float(self.drift[-max(len(self.drift) // 10, 1) :].mean())
-
-
-def bouncing(scene: Scene) -> Scene:
-    """The scene with a healthy bearing and nothing that damps."""
-    damping = {f"damping_{dof}": 0.0 for dof in scene.active_dofs}
-    return replace(scene.healthy(), contact_damping=0.0).replace(**damping)
-
-
-def energy_drifts(
-    scene: Scene,
-    *,
-    duration: float = 5.0,
-    steps_a_period: float = 16.0,
-    tolerance: float = 1e-6,
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
-) -> tuple[EnergyDrift, ...]:
-    """Energy drift of the scene's undamped, bouncing motion, cage held still, by each method.
-
-    The inner ring starts lifted off its static place against the load by five times the
-    compression it has there, so that balls lose contact and meet again all the time. What remains
-    of the energy shows what a method invents or swallows.
-
-    Parameters
-    ----------
-    scene
-        whose bearing, masses and support bounce.
-    duration
-        [s]; of what is kept, at most 2000 instants are returned.
-    steps_a_period
-        steps of the fixed-step methods in a period of the highest natural frequency.
-    tolerance
-        of the adaptive ones.
-    progress, cancelled
-        see `points`.
-    """
-    still = bouncing(scene)
-    highest = highest_natural_frequency(still)
-    rate = steps_a_period * highest
-    problem = motion_problem(still, still=True)
-    n = len(problem.dofs)
-    force = problem.system.rotor.force
-    size = float(np.linalg.norm(force))
-    if size == 0.0:
-        raise checks.refuse("load", 0.0, "one that the free directions feel")
-    lift = -5.0 * problem.scale[0] * force / size
-    problem = motion_problem(still, still=True, offset=lift)
-    at_rest = motion_problem(still, still=True).start.reshape(1, 4, n)
-    lowest = problem.energy(_as_history(at_rest))[0]
-    names = [name for name in METHODS if not name.startswith("scipy")]
-    drifts = []
-    for name in in_turn(names, str, progress, cancelled):
-        method = METHODS[name]
-        setting = rate if method.fixed_step else tolerance
-        with np.errstate(all="ignore"):
-            march = method.march(problem, setting, duration, rate)
-            every = max(len(march.history) // 2000, 1)
-            history = march.history[::every]
-            energy = problem.energy(np.ascontiguousarray(history))
-            drift = (energy - energy[0]) / (energy[0] - lowest)
-        time = np.arange(len(history)) * every / march.step_rate
-        drifts.append(EnergyDrift(name, setting, time, drift, march.failure))
-    return tuple(drifts)
-
-
-def _as_history(states: Array) -> Array:
-    """History (n, 6, directions) without accelerations of states (n, 4, directions)."""
-    nothing = np.zeros_like(states[:, 0])
-    return np.stack(
-        [states[:, 0], states[:, 1], nothing, states[:, 2], states[:, 3], nothing], axis=1
-    )

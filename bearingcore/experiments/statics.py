@@ -1,7 +1,7 @@
 """Work and precision of static equilibrium: solvers, and the number and placing of cage angles.
 
-The energy Newton is here a second time, in NumPy and over all cage angles at once: readable, and
-what the compiled one is compared with.
+The contacts are here a second time, in NumPy and over all cage angles at once: readable, in any
+precision, and what the compiled ones are compared with.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, Progress, in_turn
-from bearingcore.experiments.compiled_methods import static_states_cold
 from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
 from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.scene import packing
@@ -45,8 +44,9 @@ ANGLE_ERRORS = {
 """Errors of a choice of cage angles by name."""
 
 LEFT_OUT = (
-    "gradient descent and BFGS on the energy, which take hundreds of evaluations an angle; the "
-    "compiled Newton at looser tolerances, as its last step squares the error and nothing is saved"
+    "gradient descent and BFGS on the energy, which take hundreds of evaluations an angle; plain "
+    "Newton steps, which find no way where no ball is touched; the compiled Newton at looser "
+    "tolerances, as its last step squares the error and nothing is saved"
 )
 
 WRONG, STRICT = 0.1, 1e-6
@@ -142,95 +142,25 @@ class Found(NamedTuple):
     evaluations: int
 
 
-def energy_newton(
-    problem: StaticProblem,
-    tolerance: float,
-    *,
-    search: bool = True,
-    start: Array | None = None,
-    extended: bool = False,
-    most: int = 100,
-) -> Found:
-    """Newton's method on the energy V(q), all cage angles at once.
+def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
+    """Displacements q (m, 5) [m] after Newton steps whose forces are 80-bit numbers.
 
-    Parameters
-    ----------
-    problem
-        what to solve.
-    tolerance
-        of the unbalanced load over the load.
-    search
-        False takes every step whole: the plain Newton-Raphson method.
-    start : (5,) [m]
-        None takes `problem.guess`.
-    extended
-        forces and energy in 80-bit numbers; directions still in double precision, which only
-        makes them slightly wrong directions.
+    The stiffness stays in double precision, which only makes the steps slightly wrong. Solved are
+    angles whose unbalanced load is below 1e-15 of the load: the energy is convex, so that this
+    bounds the error by as much over the least stiffness.
     """
-    kind = np.longdouble if extended else np.float64
-    m, active = len(problem.angles), problem.active
-    q = np.zeros((m, 5), dtype=kind)
-    q[:] = problem.guess if start is None else start
-    load = problem.load or 1.0
-    F = problem.force.astype(kind)
-    todo = np.arange(m)
-    solved = np.zeros(m, dtype=bool)
-    evaluations = 0
-    # of one ball under all of the load
-    spring = (
-        problem.packed.exponent[0] * load / packing.typical_compression(problem.scene.bearing, load)
-    )
-    shift = np.full(m, 1e-3)
-    state = contacts(problem, q)
-    evaluations += m
-    for _ in range(most):
-        g = (state.force - F)[:, active]
-        residual = np.sqrt((g**2).sum(axis=1)) / load
-        finite = np.isfinite(residual)
-        done = finite & (residual <= tolerance)
-        solved[todo[done]] = True
-        keep = finite & ~done
-        todo, g = todo[keep], g[keep]
-        if not todo.size:
-            break
-        now = q[todo]
-        H = state.stiffness[keep][:, active][:, :, active].astype(float)
-        V = state.energy[keep] - now @ F
-        # the plain method has no remedy for a direction without stiffness
-        least = np.linalg.eigvalsh(H)[:, 0]
-        greatest = np.abs(H).max(axis=(1, 2))
-        weak = least <= 1e-12 * greatest
-        if search:
-            extra = np.where(weak, shift[todo] * np.maximum(spring, greatest), 0.0)
-            shift[todo[weak]] *= 0.1
-            H = H + extra[:, None, None] * np.eye(len(active))
-        else:
-            todo, g, now, V, H = (part[~weak] for part in (todo, g, now, V, H))
-            if not todo.size:
-                break
-        p = np.zeros_like(now)
-        p[:, active] = -np.linalg.solve(H, g.astype(float)[..., None])[..., 0]
-        slope = (g * p[:, active]).sum(axis=1)
-        step = np.ones(len(todo))
-        open_ = np.arange(len(todo))
-        state = contacts(problem, now + p, todo)
-        evaluations += len(todo)
-        for _ in range(60 if search else 0):
-            trial = now[open_] + step[open_, None] * p[open_]
-            new = contacts(problem, trial, todo[open_])
-            evaluations += 0 if step[0] == 1.0 and len(open_) == len(todo) else len(open_)
-            fall = (new.energy - trial @ F) - V[open_]
-            flat = (
-                np.abs(((new.force - F) * p[open_]).sum(axis=1)) <= 0.9 * np.abs(slope[open_])
-            ) & (np.abs(fall) <= 1e-14 * (np.abs(V[open_]) + new.energy))
-            open_ = open_[~((fall <= 1e-4 * step[open_] * slope[open_]) | flat)]
-            if not open_.size:
-                break
-            step[open_] *= 0.4
-        q[todo] = now + step[:, None] * p
-        if np.any(step != 1.0):
-            state = contacts(problem, q[todo], todo)
-    return Found(q, solved, evaluations)
+    active, load = problem.active, problem.load or 1.0
+    precise = np.where(np.isfinite(q), q, 0.0).astype(np.longdouble)
+    force = problem.force.astype(np.longdouble)
+    for _ in range(steps):
+        state = contacts(problem, precise)
+        unbalanced = (state.force - force)[:, active].astype(float)
+        stiffness = state.stiffness[:, active][:, :, active].astype(float)
+        back = np.linalg.pinv(stiffness, rcond=1e-12, hermitian=True)
+        precise[:, active] -= np.einsum("mij,mj->mi", back, unbalanced)
+    unbalanced = (contacts(problem, precise).force - force)[:, active].astype(float)
+    residual = np.linalg.norm(unbalanced, axis=1) / load
+    return Found(precise, np.isfinite(q).all(axis=1) & (residual <= 1e-15), steps * len(q))
 
 
 def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool) -> Found:
@@ -276,32 +206,25 @@ def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool)
     return Found(q, solved, evaluations)
 
 
-def _compiled(problem: StaticProblem, tolerance: float, warm: bool) -> Found:
-    """The program's own, whose tolerance is fixed."""
+def _compiled(problem: StaticProblem, tolerance: float) -> Found:
+    """The program's own, whose tolerance is fixed: each angle starts from the one before."""
     load = kernels.StaticLoad(problem.force, problem.active)
-    arguments = (problem.angles, problem.packed, packing.path(problem.scene), load)
-    if warm:
-        q, _, _, _, status, _, _, evaluations = kernels.static_states(*arguments)
-        return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
-    q, evaluations, met = static_states_cold(*arguments)
-    return Found(q, np.full(len(q), met), int(evaluations))
+    q, _, _, _, status, _, _, evaluations = kernels.static_states(
+        problem.angles, problem.packed, packing.path(problem.scene), load
+    )
+    return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 
 Solver = Callable[[StaticProblem, float], Found]
 
-_TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
-_FEW = (1e-2, 1e-4, 1e-8, 1e-12)
+_TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-12)
 
 SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
-    "compiled, warm start": (partial(_compiled, warm=True), (kernels.RESIDUAL_AIM,)),
-    "compiled, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
-    "energy Newton, NumPy": (energy_newton, _TOLERANCES),
-    "plain Newton, NumPy": (partial(energy_newton, search=False), _TOLERANCES),
-    "plain Newton from zero": (partial(energy_newton, search=False, start=np.zeros(5)), (1e-6,)),
-    "scipy hybr": (partial(_by_scipy, method="hybr", warm=False), _FEW),
-    "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _FEW),
-    "scipy lm": (partial(_by_scipy, method="lm", warm=False), _FEW),
-    "scipy least squares": (partial(_by_scipy, method="least_squares", warm=False), _FEW),
+    "compiled energy Newton": (_compiled, (kernels.RESIDUAL_AIM,)),
+    "scipy hybr": (partial(_by_scipy, method="hybr", warm=False), _TOLERANCES),
+    "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _TOLERANCES),
+    "scipy lm": (partial(_by_scipy, method="lm", warm=False), _TOLERANCES),
+    "scipy least squares": (partial(_by_scipy, method="least_squares", warm=False), _TOLERANCES),
 }
 """Ways to solve, by name, with the tolerances at which each is measured."""
 
@@ -320,22 +243,19 @@ class StaticReference:
 
 
 def static_reference(problem: StaticProblem) -> StaticReference:
-    """Minima of the energy in extended precision, and roots of the forces in double precision.
+    """Minima of the energy, refined in extended precision, and roots of the forces in double.
 
-    The energy is convex, so that a residual of r times the load bounds the error by r·|F| over the
-    least stiffness. Angles where the least stiffness is zero have no unique answer.
+    Angles where the least stiffness is zero have no unique answer.
     """
     exact, seconds, _ = least_time(
-        lambda: energy_newton(problem, 1e-17, extended=True), runs=1, budget=0.0
+        lambda: refined(problem, _compiled(problem, 0.0).q), runs=1, budget=0.0
     )
     other = _by_scipy(problem, 1e-12, "hybr", warm=False)
     at = contacts(problem, exact.q)
-    residual = np.sqrt((((at.force - problem.force)[:, problem.active]) ** 2).sum(axis=1))
     active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
     least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
     greatest = np.abs(at.stiffness.astype(float)[active]).max(axis=(1, 2))
-    with np.errstate(invalid="ignore"):
-        known = (residual <= 1e-15 * problem.load) & (least > 1e-10 * greatest)
+    known = exact.solved & (least > 1e-10 * greatest)
     stiffness, load = at.stiffness.astype(float), at.load.astype(float)
     both = known & other.solved
     agreement = (
@@ -348,7 +268,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     if alone:
         note += f"; at {alone} of them MINPACK found none, and the proof is the residual alone"
     reference = Reference(
-        ("energy Newton in 80-bit numbers", "MINPACK hybr on the forces"),
+        ("energy Newton, refined in 80-bit numbers", "MINPACK hybr on the forces"),
         agreement,
         bool(known.any()) and agreement["stiffness"] < 1e-6,
         seconds,
@@ -530,7 +450,7 @@ class _DenseTruth:
     """Curves on a dense grid with a node at every edge, and their means by another quadrature."""
 
     def __init__(self, scene: Scene, curves: str, first: float, last: float) -> None:
-        # the compiled solver's curves against those of the NumPy one: the same model, other code
+        # the compiled solver's curves against contacts in NumPy: the same model, other code
         began = default_cage_angles(scene, 1001)
         dense = place(scene, curves, 3e-4).angles
         self.angles = np.unique(
@@ -548,8 +468,8 @@ class _DenseTruth:
         middle = first + (np.arange(n) + 0.5) * (last - first) / n
         other = curves_of(equilibrium(scene, middle), curves).mean(axis=0)
         problem = static_problem(scene, began)
-        twin = energy_newton(problem, 1e-12)
         same = equilibrium(scene, began)
+        twin = refined(problem, same.state)
         both = same.converged & twin.solved
         units = np.ones(5)
         units[3:] = scene.bearing.groove_center_radius
@@ -563,7 +483,10 @@ class _DenseTruth:
             "mean": float((np.abs(other - self.mean) / self.size).max()),
         }
         self.reference = Reference(
-            ("compiled Newton on a dense grid", "NumPy Newton; midpoint rule for the mean"),
+            (
+                "compiled Newton on a dense grid",
+                "80-bit NumPy; midpoint rule for the mean",
+            ),
             agreement,
             agreement["trace"] < 1e-6 and (not self.complete or agreement["mean"] < 1e-4),
             math.nan,

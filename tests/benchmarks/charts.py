@@ -18,16 +18,12 @@ import numpy as np
 
 from bearingcore import presets
 from bearingcore.experiments import (
-    EnergyDrift,
     Experiment,
     Point,
     StabilityChart,
     angles_experiment,
-    energy_drifts,
-    measured_orders,
     models_experiment,
     motion_experiment,
-    order_table,
     stability_chart,
     statics_experiment,
 )
@@ -152,23 +148,6 @@ def draw_stability(charts: dict[str, StabilityChart]) -> None:
     _save(figure, "stability")
 
 
-def draw_energy(drifts: Iterable[EnergyDrift]) -> None:
-    """Energy of an undamped bounce over time."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.0, 3.4), layout="constrained")
-    axes = figure.subplots()
-    for number, drift in enumerate(drifts):
-        style = _style(number)
-        every = max(len(drift.time) // 20, 1)
-        axes.plot(drift.time, drift.drift, lw=1, markevery=every, ms=4, label=drift.method, **style)
-    axes.set(xlabel="time [s]", ylabel="energy gained, over the motion's")
-    axes.set_yscale("symlog", linthresh=1e-3)
-    axes.grid(alpha=0.3, lw=0.5)
-    figure.legend(loc="outside right center", frameon=False, fontsize=8)
-    _save(figure, "energy")
-
-
 def _save(figure, name: str) -> None:  # type: ignore[no-untyped-def]
     FIGURES.mkdir(parents=True, exist_ok=True)
     # no date and no random names inside, so that equal charts are equal files
@@ -201,15 +180,10 @@ def main() -> None:
             print(f"{experiment.text()}\n{pace()}\n", flush=True)
             title = f"{name}: {experiment.title}"
             draw_experiment(experiment, f"{name}-{experiment.name}", title, errors)
-    print(order_table(measured_orders()), flush=True)
     charts = {name: stability_chart(presets[name]) for name in ("fan-rig", "liew-lim")}
     for name, chart in charts.items():
         print(f"{name}\n{chart.text()}", flush=True)
     draw_stability(charts)
-    drifts = energy_drifts(fan_rig)
-    for drift in drifts:
-        print(f"  energy drift after 5 s, {drift.method}: {drift.final:+.1e} {drift.failure}")
-    draw_energy(drifts)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ import threading
 from numba.core.compiler_lock import global_compiler_lock
 
 from bearingcore import kernels, presets
-from bearingcore.experiments.ball_steps import march_split_balls
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
 from bearingcore.warm_up import motions_with_mass, start_python
@@ -95,7 +94,6 @@ def _slowest() -> tuple[object, ...]:
         kernels.march_with_tangent,
         kernels.march_balls,
         kernels.race_loads,
-        march_split_balls,
     )
 
 

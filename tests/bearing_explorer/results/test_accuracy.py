@@ -38,9 +38,9 @@ EXPERIMENT = Experiment(
     (
         point("RK4", 32768.0, 1e-2, 1e-3, settings={"step_rate": 32768.0}),
         point("RK4", 65536.0, 1e-4, 2e-3, settings={"step_rate": 65536.0}),
-        point("Verlet", 65536.0, 1e-1, 2e-2),
-        point("Verlet", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
-        point("trapezoidal", 8192.0, math.inf, 1e-3),
+        point("Dormand-Prince", 65536.0, 1e-1, 2e-2),
+        point("Dormand-Prince", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
+        point("scipy LSODA", 8192.0, math.inf, 1e-3),
     ),
 )
 
@@ -59,7 +59,7 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
     assert sources["accuracy_1"]["error"].tolist() == [1e-1]
     assert sources["accuracy_2"]["error"].size == 0
     failed = sources["accuracy_failed"]
-    assert [NAMES[int(k)] for k in failed["method"]] == ["Verlet", "trapezoidal"]
+    assert [NAMES[int(k)] for k in failed["method"]] == ["Dormand-Prince", "scipy LSODA"]
     assert failed["named"].tolist() == [1.0, 2.0]
     low, high = ranges["accuracy_error"]
     assert low < 1e-4
@@ -75,7 +75,7 @@ def test_words_and_numbers_name_the_reference_and_what_failed() -> None:
     words = view.sentence(Results(RIG))
     assert "LSODA and Dormand-Prince agree" in words
     assert "2·10⁻⁷ dB" in words
-    assert "Verlet failed: diverged" in words
+    assert "Dormand-Prince failed: diverged" in words
     assert view.sentence(Results(RIG.healthy())).startswith("The scene has changed")
     table = view.table(Results(RIG))
     assert table["spectrum_error_db"][0] == 1e-2
@@ -96,7 +96,7 @@ def test_a_click_takes_the_steps_of_the_point_under_it() -> None:
     view._tapped("seconds", 2.02e-3, 1.05e-4)
     view._tapped("evaluations", 1000, 1e-2)
     assert taken == [65536.0, 32768.0]
-    view._tapped("seconds", 2e-2, 1e-1)  # Verlet cannot be taken
+    view._tapped("seconds", 2e-2, 1e-1)  # its steps cannot be taken
     assert "RK4" in view._step_words.text
     for strange in (None, "x", math.nan, -1.0, 0.0, 1e300, True, [1.0]):
         view._tapped("seconds", strange, 1e-2)

@@ -444,7 +444,7 @@ BAD = {
     "false wav": ("f.wav", b"RIFF" + bytes(3000), "a whole WAV file"),
     "broken mat": ("b.mat", mat_of(a=NOISE)[:9000], "a whole MATLAB file"),
     "new mat": ("h.mat", b"\x89HDF\r\n\x1a\n" + bytes(999), "damaged or unknown part"),
-    "bomb": ("z.mat", bomb(), "once unpacked"),
+    "bomb": ("z.mat", bomb(), "damaged or unknown part"),
     "text mat": ("t.mat", mat_of(a=np.array(["some words"])), "vector or matrix of real numbers"),
 }
 

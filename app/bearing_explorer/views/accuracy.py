@@ -6,6 +6,7 @@ import html
 import json
 import math
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -100,6 +101,8 @@ class Accuracy(JobView[Found]):
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
         self.take_steps = parts.take_steps
+        for cost, plot in zip(COSTS, self._plots, strict=True):
+            plot.on_event(Tap, partial(self._clicked, cost))
 
     def build(self, packed: PackedSource) -> Any:
         self._ranges: Ranges = {}
@@ -204,7 +207,6 @@ class Accuracy(JobView[Found]):
                 formatters=readers,
             )
         )
-        plot.on_event(Tap, lambda event: self._tapped(cost, event.x, event.y))
         return plot
 
     def _verdicts(self, packed: PackedSource) -> figure:
@@ -274,6 +276,9 @@ class Accuracy(JobView[Found]):
 
     def _step_chosen(self, _: str) -> None:
         self._use(self.offered().get(self._steps.values["steps"]))
+
+    def _clicked(self, cost: str, event: Any) -> None:
+        self._tapped(cost, event.x, event.y)
 
     def _tapped(self, cost: str, x: Any, y: Any) -> None:
         point = self.nearest(cost, x, y)

@@ -23,21 +23,21 @@ from __future__ import annotations
 
 import asyncio
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import panel as pn
 import param
-from bokeh.models import Plot, SaveTool
+from bokeh.models import LayoutDOM, Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
-from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.plots.zoom import zoomable
 from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.reference import WITHOUT_DEFECT
+from bearing_explorer.views.python_lines import lines_of
 from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
     from bearing_explorer.state.scene_editor import SceneEditor
     from bearing_explorer.widgets.controls import Rows
+    from bearingcore import Scene
 
 #: {source: {column: array}}
 Sources = dict[str, dict[str, np.ndarray]]
@@ -157,6 +158,8 @@ class View:
     leads_to: ClassVar[str] = ""
     #: what a job of the view has found
     found: Any = None
+    #: whether `choose` computes what the view shows
+    computes: ClassVar[bool] = False
 
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
@@ -272,6 +275,34 @@ class View:
     def python(self) -> str:
         """Lines of Python that make what is drawn now; empty before the first."""
         return "" if self._results is None else lines_of(self, self._results)
+
+    # Outside of the page: see `views.still_figure`
+
+    def scene_drawn(self, results: Results) -> Scene:
+        """The scene that is drawn: what a job has found may be of an earlier one."""
+        return results.scene
+
+    def choices(self) -> dict[str, Any]:
+        """What is chosen in the view itself, as plain values, for `choose`."""
+        return {}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        """Take what `choices` says, and compute what the page computes when it is chosen."""
+
+    def take_measurement(self, measurement: Measurement) -> None:
+        """Take a measured signal, where the view shows one."""
+
+    def lines_before(self) -> list[str]:
+        """Lines of Python between those of the scene and of the figure."""
+        return []
+
+    def more_arguments(self) -> dict[str, str]:
+        """What these lines have made for the figure: parameters and expressions."""
+        return {}
+
+    def still_figures(self) -> Sequence[LayoutDOM]:
+        """Bokeh's figures, once `data` is in them."""
+        return self.figures
 
     def _answer(self, event: Any) -> None:
         if event.data == "csv":

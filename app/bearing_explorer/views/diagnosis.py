@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.diagnoses import SPEEDS, Question
+from bearing_explorer.measurement.diagnoses import SPEEDS, Question, answered
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
@@ -63,6 +64,7 @@ class PartDiagnosis(MeasuredView):
     )
     needs = frozenset()
     without_size = True
+    computes = True
 
     def build(self, packed: PackedSource) -> Any:
         self.speed, self.zoom = "given", Zoom()
@@ -106,6 +108,18 @@ class PartDiagnosis(MeasuredView):
             self.zoom = Zoom(part, int(harmonic)) if part else Zoom()
         if self.measurement is not None:
             self.measurement.redraw()
+
+    def choices(self) -> dict[str, Any]:
+        zoom = f"{self.zoom.part} {self.zoom.harmonic}" if self.zoom.part else ""
+        chosen = {"speed": self.speed, "zoom": zoom}
+        return {name: v for name, v in chosen.items() if v not in ("given", "")}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        for name, value in choices.items():
+            self.look_changed(name, value)
+        question = self.question(results.scene.bearing)
+        if question is not None and self.measurement is not None:
+            self.measurement.diagnoses.keep(question, answered(question))
 
     def _show_look(self) -> None:
         zoom = f"{self.zoom.part} {self.zoom.harmonic}" if self.zoom.part else ""

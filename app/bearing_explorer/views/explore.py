@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import CustomJS, Plot, Spacer
+from bokeh.models import CustomJS, LayoutDOM, Plot, Spacer
 
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
@@ -42,7 +42,8 @@ from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import Sweep, focused, value_of
 from bearing_explorer.views.base import Fill, Ranges, SessionParts, Sources
-from bearing_explorer.views.job_view import JobView
+from bearing_explorer.views.job_view import JobView, last_shown
+from bearing_explorer.views.still_figure import editor_of
 from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 
@@ -76,6 +77,7 @@ class Asked:
     y: Sweep
     output: MapOutput
     stride: int
+    given: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     def of(self, results: Results) -> Question:
         """The question for the scene shown."""
@@ -174,7 +176,7 @@ class ExplorePlane(JobView[Plane]):
                     for name, end in (("band_from", "beginning"), ("band_to", "end"))
                 )
             )
-        return Asked(x, y, output, int(given["grid"]))
+        return Asked(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:
         """Ask for the map of the form; the job begins when the sliders rest."""
@@ -193,6 +195,25 @@ class ExplorePlane(JobView[Plane]):
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
         self._fill = parts.fill
+
+    # Outside of the page
+
+    def choices(self) -> dict[str, Any]:
+        return {} if self._asking is None else dict(self._asking.given)
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        editor = editor_of(results)
+        self._asking = asking = self.asked({**self.form(editor)[0], **choices}, editor)
+        question = asking.of(results)
+        self.found = last_shown(lambda job: refine(job, question, asking.stride))
+
+    def still_figures(self) -> Sequence[LayoutDOM]:
+        import holoviews as hv
+
+        from bearing_explorer.plotting.plane import plane as linked_figures
+
+        assert self.found is not None
+        return [hv.render(linked_figures(field_of(self.found, self._at)), backend="bokeh")]
 
     def end(self) -> None:
         super().end()

@@ -73,6 +73,19 @@ class Look:
     band: tuple[float | None, float | None] = (None, None)
 
 
+def look_values(look: Look) -> dict[str, Any]:
+    """A look as the fields above the figures have it."""
+    low, high = ("" if edge is None else f"{edge:g}" for edge in look.band)
+    return {
+        "direction": look.direction,
+        "scale": look.scale,
+        "resolution": look.resolution,
+        "lines": list(look.lines),
+        "low": low,
+        "high": high,
+    }
+
+
 @dataclass(frozen=True)
 class Shown:
     """What a figure is to show: spectra up to `top` [Hz], and what to say beside them."""
@@ -181,18 +194,20 @@ class FrequencyView(MeasuredView):
         low, high = self.look.band
         return replace(self.look, band=(end, high) if name == "low" else (low, end))
 
+    def choices(self) -> dict[str, Any]:
+        first = look_values(self.first_look)
+        return {k: v for k, v in look_values(self.look).items() if v != first[k]}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        for name, value in choices.items():
+            self.look = self._looked(name, value)
+
     def _show_look(self) -> None:
         look, measured = self.look, self.measured
         directions = measured.directions if measured is not None else SHOWN
+        seen = look.direction if look.direction in directions else directions[0]
         self.panel_of_look.show(
-            {
-                "direction": look.direction if look.direction in directions else directions[0],
-                "scale": look.scale,
-                "resolution": look.resolution,
-                "lines": list(look.lines),
-                "low": "" if look.band[0] is None else f"{look.band[0]:g}",
-                "high": "" if look.band[1] is None else f"{look.band[1]:g}",
-            },
+            look_values(look) | {"direction": seen},
             disabled={"direction": [dof for dof in SHOWN if dof not in directions]},
         )
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import panel as pn
 
 from bearing_explorer.results.jobs import Jobs, JobState, Work
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import Sentence, SessionParts, View
+from bearing_explorer.views.still_figure import editor_of
 from bearing_explorer.widgets.form import (
     SEARCHED,
     Fields,
@@ -21,6 +24,10 @@ from bearing_explorer.widgets.form import (
     select,
 )
 
+if TYPE_CHECKING:
+    from bearing_explorer.results.results import Results
+    from bearingcore import Scene
+
 Found = TypeVar("Found")
 
 _PROGRESS = """
@@ -28,6 +35,17 @@ progress { width: 220px; height: 6px; accent-color: var(--accent); vertical-alig
 progress::-webkit-progress-bar { background: var(--track-soft); border-radius: 3px; }
 progress::-webkit-progress-value { background: var(--accent); border-radius: 3px; }
 """
+
+
+def last_shown(work: Callable[[Work], str]) -> Any:
+    """What a job has found at its end, worked on here and now; ValueError where it is nothing."""
+    job = Work(math.inf)
+    job.started = time.monotonic()
+    words = work(job)
+    found = job.taken()
+    if not found:
+        raise ValueError(words)
+    return found[-1]
 
 
 class JobForm(pn.Column):
@@ -138,7 +156,10 @@ class JobView(View, Generic[Found]):
     at_once: ClassVar[bool] = False
     """Whether a changed field starts the job, without the button."""
 
+    computes = True
     found: Found | None = None
+    #: what stood in the form, and the scene, when what is found was asked for
+    _found_for: tuple[dict[str, str], Scene] | None = None
     _jobs: Jobs | None = None
     _editor: SceneEditor
     _draw: Callable[[], None]
@@ -187,16 +208,38 @@ class JobView(View, Generic[Found]):
         if self._jobs is None:
             return
         try:
-            work = self.prepare(given, self._editor)
+            self.begin(given)
         except ValueError as error:
             self.job.show(JobState("failed", 0.0, str(error)))
-        else:
-            self._jobs.start(work, self._take, self.job.show)
 
     def cancel_job(self) -> None:
         """End the job; its newest result stays."""
         if self._jobs is not None:
             self._jobs.cancel()
+
+    def begin(self, given: Mapping[str, str]) -> None:
+        """Start the job that a form asks for; ValueError with a sentence where it cannot be."""
+        assert self._jobs is not None
+        work, asked = self.prepare(given, self._editor), (dict(given), self._editor.scene)
+
+        def take(found: Found) -> None:
+            self._found_for = asked
+            self._take(found)
+
+        self._jobs.start(work, take, self.job.show)
+
+    def scene_drawn(self, results: Results) -> Scene:
+        return results.scene if self._found_for is None else self._found_for[1]
+
+    def choices(self) -> dict[str, Any]:
+        return {} if self._found_for is None else dict(self._found_for[0])
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        """Compute what a form with these fields asks for; those that are missing are as usual."""
+        editor = editor_of(results)
+        given = {**self.form(editor)[0], **choices}
+        self.found = last_shown(self.prepare(given, editor))
+        self._found_for = given, editor.scene
 
     def _take(self, found: Found) -> None:
         self.found = found

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 
-from bearing_explorer.export.measured_lines import measured_lines
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.views.base import SessionParts, View
+from bearing_explorer.views.python_lines import code_of, lines_of, short
 
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
+    from bearingcore import Scene
 
 MEASURED = style.INK
 """Colour of what was measured, where something simulated stands beside it."""
@@ -92,7 +94,24 @@ class MeasuredView(View):
         measured, results = self.measured, self._results
         if measured is None or results is None:
             return f"# {self.why_nothing or NOTHING}\n"
-        return measured_lines(self, results, measured)
+        return lines_of(self, results)
+
+    def scene_drawn(self, results: Results) -> Scene:
+        measured = self.measured
+        return results.scene if measured is None else measured.scene(results.scene)
+
+    def take_measurement(self, measurement: Measurement) -> None:
+        self.measure(measurement)
+
+    def lines_before(self) -> list[str]:
+        """Lines that read the recording, or simulate it."""
+        return [] if self.measured is None else recording_lines(self.measured)
+
+    def more_arguments(self) -> dict[str, str]:
+        measured = self.measured
+        return {"recording": "recording"} | (
+            {} if measured is None or measured.in_si else {"in_si": "False"}
+        )
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -111,3 +130,37 @@ class MeasuredView(View):
     def drawn(self) -> bool:
         """Whether its figures are on screen."""
         return self.measured is not None
+
+
+def column_name(direction: str, in_si: bool) -> str:
+    """Of the signal along a direction; without a unit where that is not known."""
+    return f"acceleration_{direction}_m_per_s2" if in_si else f"signal_{direction}"
+
+
+def recording_lines(measured: Measured) -> list[str]:
+    """Lines of Python that make `recording`: read from the file, or simulated without noise."""
+    recording, origin = measured.recording, measured.origin
+    along, rate = code_of(list(recording.directions)), short(recording.sample_rate)
+    if origin is None:
+        duration = math.ceil(10.0 * recording.duration) / 10.0
+        return [
+            "# simulated again, without noise",
+            f"motion = simulate(scene, {short(duration + 0.3)}, {rate})",
+            f"columns = [motion.dofs.index(dof) for dof in {along}]",
+            "settled = motion.outer_acceleration[motion.time >= 0.3]",
+            f"recording = Recording(settled[:, columns], {rate}, {along})",
+        ]
+    known = {"sensitivity": origin.sensitivity, "shaft_speed": recording.shaft_speed}
+    further = "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
+    name, unit = code_of(origin.file), code_of(origin.unit if measured.in_si else "m/s²")
+    return [
+        f"table = read_table({name}, Path({name}).read_bytes())",
+        *(
+            []
+            if measured.in_si
+            else ["# the unit of the file is not known"]
+        ),
+        "recording = table.recording(",
+        f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",
+        ")",
+    ]

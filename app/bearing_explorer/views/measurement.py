@@ -11,14 +11,13 @@ from bokeh.models import LinearAxis
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.export.measured_lines import column_name
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.excerpt import least_and_greatest
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.measured_view import MeasuredView, write_over
+from bearing_explorer.views.measured_view import MeasuredView, column_name, write_over
 from bearing_explorer.views.vibration_spectrum import SHOWN
 from bearing_explorer.widgets.measurement_form import MeasurementForm
 

@@ -10,10 +10,8 @@ import time
 from collections.abc import Callable
 from itertools import pairwise
 
-import matplotlib as mpl
 import numpy as np
 import pytest
-from bearing_explorer.export.python_lines import lines_of
 from bearing_explorer.results import explore
 from bearing_explorer.results.explore import (
     MAP_OUTPUTS,
@@ -300,24 +298,6 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     assert view.data(results)[0]["explore_old"]["alpha"] == pytest.approx([0.65])
     assert view.sentence(results).startswith("What is drawn, faint, is another map.")
     assert summary(view.found) in words
-
-
-@pytest.mark.parametrize("output", ["k_yy_mean", "band_least:y1"])
-def test_lines_of_python_make_the_map_again(output: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("dask")
-    mpl.use("agg")
-    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
-    view = ExplorePlane(PackedSource())
-    small = question(output, ("extent_deg", "30", "40"), ("depth_um", "50", "60"), shape=(3, 3))
-    survey = Survey(small)
-    survey.compute(2)
-    view.found = survey.plane(2)
-    made: dict = {}
-    exec(compile(lines_of(view, Results(RIG)), "<lines>", "exec"), made)
-    mpl.pyplot.close("all")
-    table = view.table(Results(RIG))
-    ((column, values),) = made["columns"].items()
-    np.testing.assert_allclose(values, table[column], rtol=1e-9)
 
 
 def test_the_first_page_does_not_wait_for_holoviews() -> None:

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses
-import io
 import math
 import re
 import time
 from functools import cache
 
-import matplotlib as mpl
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from bearing_explorer.measurement import diagnoses
 from bearing_explorer.measurement.background import true_part
 from bearing_explorer.measurement.diagnoses import SLIP, Diagnoses, Question, answered
-from bearing_explorer.measurement.session import read_file, simulated
+from bearing_explorer.measurement.session import simulated
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.results.results import Results
@@ -36,13 +33,10 @@ from bearing_explorer.views.part_lines import (
     named,
     window,
 )
-from scipy.io import wavfile
 
 from bearingcore import Diagnosis, Recording, Scene, presets
 from bearingcore.common.numbers import probability
 from tests.helpers.measuring import measuring
-
-mpl.use("agg")
 
 MOTOR = presets["6205"]
 RESULTS = Results(MOTOR)
@@ -319,33 +313,6 @@ def test_the_table_has_the_evidence_and_the_spectrum():
     assert table["harmonic_1_db"][0] == found.of("outer race").harmonics[0]
     assert len(table["envelope_level_db"]) == len(found.spectrum.level)
     assert view.csv().startswith("part,frequency_hz,nominal_frequency_hz,order,")
-
-
-@pytest.mark.parametrize("speed", ["given", "rough", "unknown"])
-def test_the_lines_of_python_make_the_same_diagnosis(speed, tmp_path, monkeypatch):
-    file = io.BytesIO()
-    signal = heard("inner race").recording.acceleration
-    wavfile.write(file, 25_600, signal.astype(np.float32))
-    (tmp_path / "motor.wav").write_bytes(file.getvalue())
-    read_back = read_file("motor.wav", file.getvalue(), 29.95).asked
-    assert not read_back.in_si  # nothing says what full scale is
-    measured = Measured(
-        read_back.recording, read_back.shaft_speed, origin=read_back.origin, in_si=False
-    )
-    view = view_of(measured)
-    view.speed = speed
-    question = view.question(MOTOR.bearing)
-    found = answered(question)
-    view.measurement.diagnoses.keep(question, found)
-    view.say(RESULTS, "")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
-    namespace: dict = {}
-    exec(compile(view.python(), "<lines>", "exec"), namespace)
-    plt.close("all")
-    assert namespace["found"].status == found.status
-    np.testing.assert_allclose(namespace["columns"]["frequency_hz"],
-                               view.table(RESULTS)["frequency_hz"])  # fmt: skip
 
 
 def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_known():

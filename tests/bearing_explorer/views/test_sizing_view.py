@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-import io
 import math
 import re
 import time
 
-import matplotlib as mpl
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from bearing_explorer.measurement.diagnoses import Question, answered
@@ -35,13 +32,10 @@ from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
 from bearing_explorer.views.sizing import BEFORE, DefectSize, compute, has_answer, status
 from bearing_explorer.widgets.candidates import rows
-from scipy.io import wavfile
 
 from bearingcore import Recording, Spectrum, presets
 from tests.helpers.measuring import measuring, signal
 from tests.helpers.recordings import file_from_elsewhere
-
-mpl.use("agg")
 
 RIG = presets["fan-rig"]
 RESULTS = Results(RIG)
@@ -446,45 +440,12 @@ def test_a_single_direction_hides_the_other_s_figures():
     assert view.csv().startswith("extent_deg,ball_spacings,probability,edge,")
 
 
-# -- lines of Python -------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("kind", [MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize])
-@pytest.mark.parametrize("from_file", [True, False])
-def test_the_lines_beside_a_figure_run_without_the_page(kind, from_file, tmp_path, monkeypatch):
-    measured = signal()
-    name = 'it\'s "a" file.wav'
-    if from_file:
-        file = io.BytesIO()
-        wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
-        (tmp_path / name).write_bytes(file.getvalue())
-        read = read_file(name, file.getvalue(), 7.0)
-        asked = understood(read.table, {**read.form, "unit": "m/s²"})
-        measured = Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
-    view = view_of(kind, measured)
-    view.say(RESULTS, "")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
-    namespace: dict = {}
-    exec(compile(view.python(), "<lines>", "exec"), namespace)
-    plt.close("all")
-    columns = namespace["columns"]
-    if kind is DefectSize:
-        best = columns["extent_deg"][columns["probability"].argmax()]
-        assert best == pytest.approx(12.9, abs=0.3)
-    elif from_file and kind is not MeasuredSignal:
-        table = view.table(RESULTS)
-        for column, values in columns.items():
-            np.testing.assert_allclose(values, table[column], rtol=1e-6)
-    else:
-        assert all(len(values) > 50 for values in columns.values())
+# -- before a signal, and before its unit is known -------------------------------------------------
 
 
 def test_without_a_signal_there_are_no_lines():
     assert view_of(MeasuredSpectrum).python().startswith("# There is no signal yet")
 
-
-# -- before a signal, and before its unit is known -------------------------------------------------
 
 WAITING = (DefectSize, MeasuredSpectrum, MeasuredEnvelope)
 
@@ -526,7 +487,8 @@ def test_a_signal_without_a_unit_is_drawn_on_an_axis_without_one():
         shown = [axis for axis in plot.left if axis.visible]
         assert [axis.axis_label for axis in shown] == ["Numbers of the file, unit not known"]
     assert list(view.table(RESULTS)) == ["time_s", "signal_x", "signal_y"]
-    assert 'table.recording([1, 2], ["x", "y"], "m/s²"' in view.python()
+    assert '[1, 2], ["x", "y"], "m/s²"' in view.python()
+    assert "in_si=False" in view.python()
     assert "# the unit of the file is not known" in view.python()
     view.measure(measuring(signal()))
     view.say(RESULTS, view.sentence(RESULTS))

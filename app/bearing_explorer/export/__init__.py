@@ -1,1 +1,0 @@
-"""Lines of Python that make what a view shows."""

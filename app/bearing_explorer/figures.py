@@ -1,0 +1,37 @@
+"""Every view of the page as a function, for scripts and notebooks.
+
+``from bearing_explorer import figures`` and call the function named like a view, with a scene:
+
+    drawn = figures.stiffness(presets["fan-rig"], cage_angle=0.1)
+    drawn.show()      # in the browser; in a notebook the figure shows by itself
+    drawn.table()     # the numbers, as in the view's CSV file
+
+They draw what the page draws, by the same code. `names` lists them; `views.still_figure.figure_of`
+says what they take and `views.still_figure.Figure` what they return.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.views.base import View
+from bearing_explorer.views.still_figure import Figure, figure_of
+
+_VIEWS: dict[str, type[View]] = {
+    view.name.replace("-", "_"): view for section in SECTIONS for view in section.views
+}
+
+names = tuple(_VIEWS)
+"""The functions that there are."""
+
+
+def __getattr__(name: str) -> Callable[..., Figure]:
+    if name not in _VIEWS:
+        raise AttributeError(f"there is no figure {name!r}; there are: {', '.join(names)}")
+    return partial(figure_of, _VIEWS[name])
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *names]

@@ -1,0 +1,214 @@
+"""A view of one scene made once, outside of the page: for reports, notebooks and scripts."""
+
+from __future__ import annotations
+
+import html
+import tempfile
+import webbrowser
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.document import Document
+from bokeh.embed import components, file_html
+from bokeh.events import DocumentReady
+from bokeh.models import Column, CustomJS, Div
+from bokeh.resources import INLINE
+
+from bearing_explorer.measurement.session import Measurement
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.results.endurance import Asked
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import Columns, PackedSource
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.settings import Settings
+
+if TYPE_CHECKING:
+    from bearing_explorer.views.base import View
+    from bearingcore import Recording, Scene
+
+_FOLLOW = """
+for (const range of ranges) for (const end of ["start", "end"]) range.properties[end].change.emit()
+for (const source of sources) source.properties.data.change.emit()
+"""
+
+
+class FilledSources(PackedSource):
+    """Sources and ranges that hold their numbers, where those of the page are sent them.
+
+    What figures derive from them in the browser (labels with prefixes, pictures, words) follows
+    changes; `announce` is the callback that has it follow what is there from the beginning.
+    """
+
+    def fill(
+        self, data: Mapping[str, Columns], ranges: Mapping[str, tuple[float, float]]
+    ) -> CustomJS:
+        """Put numbers into sources and ranges; returns what the browser is to run when ready."""
+        for name, columns in data.items():
+            self._block(name, columns)  # refuses what does not fit
+            rows = {column: np.asarray(v, np.float32).ravel() for column, v in columns.items()}
+            self._sources[name].data = rows
+        for name, (start, end) in ranges.items():
+            self._ranges[name].update(start=start, end=end, reset_start=start, reset_end=end)
+        args = {"sources": list(self._sources.values()), "ranges": list(self._ranges.values())}
+        return CustomJS(args=args, code=_FOLLOW)
+
+
+class Figure:
+    """A view with the numbers of one scene in it.
+
+    Attributes
+    ----------
+    results
+        everything that is known about the scene; its attributes are results of `bearingcore`.
+    sentence
+        what there is to see, in a sentence.
+    layout
+        the Bokeh layout of its figures, with the sentence below them.
+    document
+        the Bokeh document that holds the layout.
+
+    Parameters
+    ----------
+    choices
+        what is chosen in the view itself, by its fields: computations are made anew with them.
+    recording
+        the signal that was measured, for views of a measurement; `in_si`: whether its numbers are
+        in m/s².
+    found
+        what a computation of the view has found, where that is known already.
+
+    Raises
+    ------
+    ValueError
+        where there is no such figure for this scene, with the reason.
+    """
+
+    def __init__(
+        self,
+        kind: type[View],
+        results: Results,
+        *,
+        choices: Mapping[str, Any] | None = None,
+        recording: Recording | None = None,
+        in_si: bool = True,
+        found: Any = None,
+    ) -> None:
+        self.results = results
+        sources = FilledSources()
+        self.view = kind(sources)
+        if recording is not None:
+            self.view.take_measurement(_measurement(results.scene, recording, in_si))
+        if found is not None:
+            self.view.found = found
+        elif choices is not None or self.view.computes:
+            self.view.choose(choices or {}, results)
+        data, ranges = self.view.data(results)
+        self.sentence = self.view.sentence(results)
+        self.view.say(results, self.sentence)
+        follow = sources.fill(data, ranges)
+        for plot in self.view.figures:
+            plot.frame_align = False  # or all would leave as much room as the one that needs most
+        words = Div(text=f"<p>{html.escape(self.sentence)}</p>", sizing_mode="stretch_width")
+        parts = [*self.view.still_figures(), words]
+        self.layout = Column(children=parts, sizing_mode="stretch_width")
+        self.document = Document()
+        self.document.add_root(self.layout)
+        self.document.js_on_event(DocumentReady, follow)
+
+    def table(self) -> dict[str, np.ndarray]:
+        """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
+        return self.view.table(self.results)
+
+    def page(self) -> str:
+        """A page with the figure that needs nothing from outside."""
+        return file_html(self.document, INLINE, f"{self.view.title}: {self.sentence}")
+
+    def save(self, path: str | Path) -> None:
+        """Write `page` to a file."""
+        Path(path).write_text(self.page(), encoding="utf-8")
+
+    def show(self) -> None:
+        """Open the figure in the browser; where there is none, its path is printed."""
+        with tempfile.NamedTemporaryFile(
+            "w", suffix=f"-{self.view.name}.html", delete=False, encoding="utf-8"
+        ) as file:
+            file.write(self.page())
+        if not webbrowser.open(Path(file.name).as_uri()):
+            print(file.name)
+
+    def _repr_html_(self) -> str:
+        """In a notebook; Bokeh itself comes with the first figure."""
+        script, place = components(self.layout)
+        return f"{_bokeh_once()}{place}{script}"
+
+
+def figure_of(
+    kind: type[View],
+    scene: Scene,
+    *,
+    cage_angle: float = 0.0,
+    focus: int = 0,
+    pinned: Scene | None = None,
+    pinned_name: str = "pinned",
+    before: Scene | None = None,
+    settings: Mapping[str, Any] | None = None,
+    endurance: Mapping[str, Any] | None = None,
+    **more: Any,
+) -> Figure:
+    """The figure of a view for a scene.
+
+    Parameters
+    ----------
+    cage_angle
+        [rad] shown.
+    focus
+        number of the defect that is looked at.
+    pinned, pinned_name
+        a scene drawn in grey, and its name; None: the bearing without its defect.
+    before
+        the scene before the last change, for the view that says what it did.
+    settings, endurance
+        fields of `Settings` (how finely it is computed) and of steel, oil and surfaces.
+    more
+        further parameters of `Figure`.
+    """
+    results = Results(
+        scene,
+        cage_angle,
+        Settings(**(settings or {})),
+        focus,
+        pinned=None if pinned is None else Reference(pinned, pinned_name),
+        before=before,
+        asked=Asked(**(endurance or {})),
+    )
+    return Figure(kind, results, **more)
+
+
+def editor_of(results: Results) -> SceneEditor:
+    """The controls as they are for a scene."""
+    editor = SceneEditor("fan-rig")
+    editor.take_scene(results.scene, selected=results.focus)
+    return editor
+
+
+def _measurement(scene: Scene, recording: Recording, in_si: bool) -> Measurement:
+    """A measurement that is there already."""
+
+    async def assign(change: Any) -> None:
+        change()
+
+    made = Measurement(SceneEditor("fan-rig"), assign, lambda: None)
+    made.measured = Measured(recording, scene.shaft_speed, in_si=in_si)
+    return made
+
+
+_has_bokeh = False
+
+
+def _bokeh_once() -> str:
+    global _has_bokeh
+    first, _has_bokeh = not _has_bokeh, True
+    return INLINE.render() if first else ""

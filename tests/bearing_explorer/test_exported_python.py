@@ -1,0 +1,229 @@
+"""The lines of Python that views export run as they stand, and give the numbers of the view.
+
+All of them run in one fresh interpreter, each in a namespace of its own.
+"""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import io
+import os
+import pickle
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from bearing_explorer.measurement.form import understood
+from bearing_explorer.measurement.session import read_file
+from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.views.base import View
+from bearing_explorer.views.measured_view import MeasuredView
+from bearing_explorer.views.python_lines import FILE, scene_code
+from scipy.io import wavfile
+
+from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
+from tests.helpers.measuring import measuring, signal
+
+FAN_RIG = presets["fan-rig"].replace(extent=np.radians(38.6), fy=-120.0, contact_damping=130.0)
+SCENES: dict[str, tuple[Scene, float, Reference | None]] = {
+    "dragged": (FAN_RIG, 0.1, None),
+    "pinned": (FAN_RIG, 0.0, Reference(presets["fan-rig"].replace(n_balls=11), 'a "name"')),
+    "inner race": (presets["6205"].replace(race="inner", extent=0.1), 5.0, None),
+    "two defects": (
+        presets["liew-lim"].replace(
+            defect=(Defect(0.3, 50e-6, 4.7), Defect(0.2, 30e-6, 1.0, floor=RoughFloor(2e-6, 2e-4)))
+        ),
+        0.05,
+        None,
+    ),
+    "balls with mass": (
+        presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass"),
+        0.05,
+        None,
+    ),
+}
+VIEWS = {view.name: view for section in SECTIONS for view in section.views}
+PLANE = {"x": "extent_deg", "x_from": "10", "x_to": "40", "y": "shaft_speed_hz", "y_from": "8",
+         "y_to": "12", "grid": "8"}  # fmt: skip
+CHOICES: dict[str, dict[str, Any]] = {
+    "explore": PLANE | {"output": "k_xx_mean"},
+    "stability-map": PLANE | {"grid": "13"},
+    "speed-run": {"from": "7", "to": "9", "count": "25"},
+    "accuracy": {"experiment": "angles"},
+    "diagnosis": {"speed": "rough"},
+    "measured-spectrum": {"direction": "x", "scale": "linear"},
+    "measured-envelope": {"low": "400", "high": "3000"},
+}
+CASES = [
+    *(("dragged", name) for name in VIEWS),
+    *(("pinned", name) for name in ("load-distribution", "stiffness", "vibration-spectrum")),
+    *(("two defects", name) for name in ("depth-profile", "maps", "vibration-time")),
+    *(("inner race", name) for name in ("load-distribution", "modes", "vibration-spectrum")),
+    *(("balls with mass", name) for name in ("bearing", "stiffness", "mass-time")),
+    ("error of the extent", "explore"),
+]
+RECORDED = 'it\'s "a" file.wav'
+
+
+@cache
+def recorded() -> tuple[bytes, Measured]:
+    """A file with a signal, and what the page has read in it."""
+    file = io.BytesIO()
+    wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
+    read = read_file(RECORDED, file.getvalue(), 7.0)
+    asked = understood(read.table, {**read.form, "unit": "m/s²"})
+    return file.getvalue(), Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
+
+
+@cache
+def shown(case: tuple[str, str]) -> tuple[View, Results]:
+    """A view with all that it shows, as it is when its lines are asked for."""
+    name = case[1]
+    scene, cage_angle, pinned = SCENES.get(case[0], SCENES["dragged"])
+    choices = CHOICES.get(name, {})
+    if case[0] == "error of the extent":  # none has an answer, which is quick
+        scene, choices = SCENES["inner race"][0], choices | {"output": "extent_error"}
+    results = Results(scene, cage_angle, pinned=pinned)
+    view = VIEWS[name](PackedSource())
+    if isinstance(view, MeasuredView):
+        results = Results(presets["fan-rig"])
+        view.measure(measuring(recorded()[1]))
+    if choices or view.computes:
+        view.choose(choices, results)
+    view.say(results, view.sentence(results))
+    return view, results
+
+
+RUN = """
+import pickle, sys, time, webbrowser
+webbrowser.open = lambda address: True
+with open("scripts", "rb") as file:
+    scripts = pickle.load(file)
+for key, lines in scripts.items():
+    namespace = {}
+    started = time.time()
+    try:
+        exec(compile(lines, str(key), "exec"), namespace)
+    except Exception as error:
+        scripts[key] = f"{type(error).__name__}: {error}\\n{lines}"
+    else:
+        scripts[key] = namespace["scene"], namespace["columns"]
+    print(key, round(time.time() - started, 2), file=sys.stderr)
+with open("found", "wb") as file:
+    pickle.dump(scripts, file)
+"""
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], Any]:
+    """What the lines of each case have made: the scene and the columns, or why they failed."""
+    folder = tmp_path_factory.mktemp("exported")
+    (folder / RECORDED).write_bytes(recorded()[0])
+    scripts = {case: shown(case)[0].python() for case in CASES}
+    (folder / "scripts").write_bytes(pickle.dumps(scripts))
+    paths = os.pathsep.join(path for path in sys.path if path)
+    subprocess.run(
+        [sys.executable, "-c", RUN],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": paths, "TMPDIR": str(folder)},
+        check=True,
+        timeout=600,
+    )
+    return pickle.loads((folder / "found").read_bytes())
+
+
+MEASURED_ANEW = {"accuracy": ("time_s",)}
+"""Columns that say how long something took."""
+
+
+@pytest.mark.parametrize("case", CASES, ids=": ".join)
+def test_the_lines_give_the_numbers_of_the_view(
+    case: tuple[str, str], found: dict[tuple[str, str], Any]
+) -> None:
+    view, results = shown(case)
+    made = found[case]
+    assert not isinstance(made, str), made
+    scene, columns = made
+    assert scene == view.scene_drawn(results)
+    table = view.table(results)
+    assert list(columns) == list(table)
+    for name, values in table.items():
+        if name in MEASURED_ANEW.get(case[1], ()):
+            continue
+        if np.asarray(values).dtype.kind == "f":
+            scale = np.nanmax(np.abs(values), initial=1e-300)
+            np.testing.assert_allclose(
+                columns[name], values, rtol=1e-6, atol=1e-9 * scale, err_msg=name
+            )
+        else:
+            np.testing.assert_array_equal(columns[name], values, err_msg=name)
+
+
+def test_lines_are_few_and_import_the_program_alone() -> None:
+    for case in CASES:
+        lines = shown(case)[0].python()
+        assert lines.count("\n") <= 30 or "from_toml" in lines
+        names = {
+            node.module.partition(".")[0] if isinstance(node, ast.ImportFrom) and node.module
+            else "math"
+            for node in ast.walk(ast.parse(lines))
+            if isinstance(node, ast.Import | ast.ImportFrom)
+        }  # fmt: skip
+        assert names <= {"bearing_explorer", "bearingcore", "pathlib", "math"}
+
+
+@pytest.mark.parametrize("name", sorted(CHOICES))
+def test_before_anything_is_computed_the_lines_say_so(name: str) -> None:
+    view = VIEWS[name](PackedSource())
+    view.say(Results(presets["fan-rig"]), "")
+    lines = view.python()
+    assert "#" in lines
+    exec(compile(lines, name, "exec"), {})
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        *presets.values(),
+        FAN_RIG,
+        presets["6205"].replace(ball_diameter=8e-3),
+        presets["6205"].replace(
+            bearing=dataclasses.replace(presets["6205"].bearing, load_deflection_factor=9e9)
+        ),
+        presets["7208-25deg"].replace(dofs=None, contact_law="no tension", contact_damping=None),
+        presets["fan-rig"].replace(
+            floor=MeasuredFloor((-1.0, 0.1, 1.0), (0.0, 1.0, 0.25)), extent=1 / 3
+        ),
+        SCENES["two defects"][0],
+    ],
+)
+def test_every_scene_can_be_written_in_python(scene: Scene) -> None:
+    import math
+
+    code = scene_code(scene)
+    assert eval(code, {"math": math, "presets": presets, "Scene": Scene}) == scene
+
+
+def test_a_scene_close_to_a_preset_is_written_as_its_changes() -> None:
+    code = scene_code(FAN_RIG)
+    assert code.startswith('presets["fan-rig"].replace(')
+    assert "extent=math.radians(38.6)" in code
+
+
+def test_a_long_floor_comes_from_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    floor = MeasuredFloor(tuple(np.linspace(-1, 1, 500)), (0.5,) * 500)
+    scene = presets["fan-rig"].replace(floor=floor)
+    code = scene_code(scene)
+    assert len(code) < 200
+    (tmp_path / FILE).write_text(scene.to_toml())
+    monkeypatch.chdir(tmp_path)
+    assert eval(code, {"Path": Path, "Scene": Scene}) == scene

@@ -124,7 +124,8 @@ class Figure:
 
     def page(self) -> str:
         """A page with the figure that needs nothing from outside."""
-        return file_html(self.document, INLINE, f"{self.view.title}: {self.sentence}")
+        title = f"{self.view.title}: {self.sentence}"
+        return file_html(self.document, INLINE, title, suppress_callback_warning=True)
 
     def save(self, path: str | Path) -> None:
         """Write `page` to a file."""

@@ -205,7 +205,7 @@ def _load_figures() -> None:
     Where one thread still imports it then, both fail. A first map has it import three hundred
     modules more, in a third of a second: not on the event loop, when somebody opens Explore.
     """
-    from bearing_explorer.plotting.plane import first_drawing
+    from bearing_explorer.plots.plane import first_drawing
 
     first_drawing()
 

@@ -18,22 +18,20 @@ from datetime import UTC, datetime
 from typing import Any
 from urllib.parse import urlsplit
 
-from bokeh.document import Document
 from bokeh.embed import json_item
-from bokeh.models import Column
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.plots.defect_words import extent_words
 from bearing_explorer.plots.element_words import row_words
 from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.serve.taking_apart import take_apart_now
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
-from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.base import View
 from bearing_explorer.views.bearing_editor import facts_of
+from bearing_explorer.views.still_figure import Figure
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
 from bearingcore import Scene
@@ -71,52 +69,33 @@ def report(
 
     `found` is what jobs have found, by view; views of jobs without are left out.
     """
-    packed = PackedSource()
     parts: list[str] = []
-    made: list[View] = []
-    shown: list[View] = []
-    sources: Sources = {}
-    ranges: Ranges = {}
+    drawn: list[Figure] = []
     for kind in views:
         if not (kind.in_report and (kind.needs or kind.name in found)):
             continue
-        view = kind(packed)
-        made.append(view)
-        view.found = found.get(kind.name)
         try:
-            data, sentence = view.data(results), view.sentence(results)
+            figure = Figure(kind, results, found=found.get(kind.name), computed=False)
         except ValueError as error:
-            parts.append(
-                _figure(
-                    view, results, [], f"Not shown for this scene: {in_page_words(str(error))}."
-                )
-            )
+            why = f"Not shown for this scene: {in_page_words(str(error))}."
+            parts.append(_figure(kind, results, [], why))
             continue
         except Exception:
-            log.exception("the view %s failed in a report", view.name)
+            log.exception("the view %s failed in a report", kind.name)
             continue
-        if not view.figures:
-            continue
-        view.say(results, sentence)
-        sources |= data[0]
-        ranges |= data[1]
-        shown.append(view)
-        parts.append(_figure(view, results, [plot.id for plot in view.figures], sentence))
-    packed.send(sources, ranges)
-    plots = [plot for view in shown for plot in view.figures]
-    for plot in plots:
-        plot.frame_align = False  # or all would leave as much room as the one that needs most
-    layout = Column(children=[*plots, packed.anchor], sizing_mode="stretch_width")
-    document = Document()
-    document.add_root(layout)  # else Bokeh looks at that of whichever session is at work now
+        drawn.append(figure)
+        if plots := figure.view.figures:
+            parts.append(_figure(kind, results, [plot.id for plot in plots], figure.sentence))
+    shown = [figure for figure in drawn if figure.view.figures]
     whole = {
         "name": FILE,
         "html": page(results, about, parts),
-        "item": json_item(layout),
-        "packet": packed.anchor.tags[0].id,
-        "figures": [plot.id for plot in plots],
+        "items": [json_item(figure.layout) for figure in shown],
+        "figures": [plot.id for figure in shown for plot in figure.view.figures],
     }
-    take_apart_now((*document.models, document.config, made), (View,))
+    for figure in drawn:
+        document = figure.document
+        take_apart_now((*document.models, document.config, [figure.view]), (View,))
     return whole
 
 
@@ -149,7 +128,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         "<section><h2>Warnings</h2>",
         _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is crossed.</p>",
         _table(
-            ["Looked at", "Value", "Limit", "", "In words"],
+            ["Check", "Value", "Limit", "", "In words"],
             [[_text(_STATES.get(row[key], row[key])) for key in _LIMIT_COLUMNS] for row in limits],
         ),
         "</section>",
@@ -195,7 +174,7 @@ def _link(address: str) -> str:
     return f"<a href='{_text(address)}'>open this scene</a>"
 
 
-def _figure(view: View, results: Results, ids: Sequence[str], sentence: str) -> str:
+def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
     caption = _text(view.caption(results.grey_words))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (

@@ -174,23 +174,24 @@ def reading(
     )
 
 
-def color_bar(mapper: ColorMapper, title: str = "", width: int = 10, **options: Any) -> ColorBar:
+BAR_LOOK: dict[str, Any] = {
+    "width": 10,
+    "major_tick_line_color": None,
+    "major_label_text_font": style.FONT,
+    "major_label_text_font_size": style.SMALL_TEXT_SIZE,
+    "major_label_text_color": style.FAINT_INK,
+    "title_text_font": style.FONT,
+    "title_text_font_style": "normal",
+    "title_text_font_size": style.SMALL_TEXT_SIZE,
+    "title_text_color": style.INK,
+    "background_fill_color": None,
+}
+"""Look of colour bars."""
+
+
+def color_bar(mapper: ColorMapper, title: str = "", **options: Any) -> ColorBar:
     """The scale beside a map."""
-    return ColorBar(
-        color_mapper=mapper,
-        title=title,
-        width=width,
-        major_tick_line_color=None,
-        major_label_text_font=style.FONT,
-        major_label_text_font_size=style.SMALL_TEXT_SIZE,
-        major_label_text_color=style.FAINT_INK,
-        title_text_font=style.FONT,
-        title_text_font_style="normal",
-        title_text_font_size=style.SMALL_TEXT_SIZE,
-        title_text_color=style.INK,
-        background_fill_color=None,
-        **options,
-    )
+    return ColorBar(color_mapper=mapper, title=title, **{**BAR_LOOK, **options})
 
 
 def ring_this_scene(plot: figure, mark: ColumnDataSource, level: str) -> None:

@@ -141,7 +141,7 @@ CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
 SHAFT_ANGLE = AxisQuantity("Shaft angle", "φs", "°")
 
 
-def house_figure(
+def make_figure(
     x: AxisQuantity,
     y: AxisQuantity,
     x_range: Range1d,
@@ -170,30 +170,34 @@ def house_figure(
         min_border_right=right,
         min_border_left=64,
         min_border_top=10,
-        background_fill_color=PAPER,
-        border_fill_color=PAPER,
-        outline_line_color=None,
         lod_threshold=None,  # or Bokeh holds lines of thousands of points once more, with fewer
         **{"min_width": 280, **options},
     )
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
     plot.toolbar_inner = True
-    plot.grid.grid_line_color = GRID
-    if title is not None:
-        plot.title.text_font = FONT
-        plot.title.text_font_size = TEXT_SIZE
-        plot.title.text_font_style = "normal"
-        plot.title.text_color = FAINT_INK
+    style_figure(plot)
     for axis, quantity, shown in ((plot.xaxis[0], x, x_range), (plot.yaxis[0], y, y_range)):
         style_axis(axis)
         write_units(axis, quantity, shown)
     return plot
 
 
+def style_figure(plot: figure) -> None:
+    """Paper, grid, title and toolbar of a figure."""
+    plot.background_fill_color = plot.border_fill_color = PAPER
+    plot.outline_line_color = None
+    plot.toolbar.logo = None
+    plot.toolbar.autohide = True
+    plot.grid.grid_line_color = GRID
+    if plot.title is not None:
+        plot.title.text_font = FONT
+        plot.title.text_font_size = TEXT_SIZE
+        plot.title.text_font_style = "normal"
+        plot.title.text_color = FAINT_INK
+
+
 def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: Any) -> figure:
     """A figure without axes and grid, for drawings."""
-    plot = house_figure(
+    plot = make_figure(
         AxisQuantity("", "", ""),
         AxisQuantity("", "", ""),
         x_range,

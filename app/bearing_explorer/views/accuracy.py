@@ -139,7 +139,7 @@ class Accuracy(JobView[Found]):
     def _chart(self, packed: PackedSource, cost: str, error: Range1d) -> figure:
         """Error over one kind of cost."""
         timed = cost == "seconds"
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.AxisQuantity("Time" if timed else "Evaluations", "", ""),
             style.AxisQuantity("Error", "", ""),
             packed.range(f"accuracy_{cost}", *((1e-4, 1.0) if timed else (1e2, 1e6))),
@@ -211,7 +211,7 @@ class Accuracy(JobView[Found]):
 
     def _verdicts(self, packed: PackedSource) -> figure:
         """Methods down, steps across."""
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.AxisQuantity("Steps in a period of the highest natural frequency", "", ""),
             style.AxisQuantity("", "", ""),
             packed.range("accuracy_steps", 0.8, 80.0),

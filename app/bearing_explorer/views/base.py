@@ -247,9 +247,10 @@ class View:
             pinned = results.pinned.name if results.pinned else ""
             self._caption.put(line=line, rest=rest, pinned=pinned)
 
-    def caption(self, grey: str = WITHOUT_DEFECT) -> str:
-        """What the figure shows; `grey` is what is drawn in grey."""
-        return self.about.replace("{grey}", grey)
+    @classmethod
+    def caption(cls, grey: str = WITHOUT_DEFECT) -> str:
+        """The text above the figure; `grey` is what is drawn in grey."""
+        return cls.about.replace("{grey}", grey)
 
     def put_away(self) -> None:
         """It is off screen: let go of the results, of which a motion alone is megabytes."""

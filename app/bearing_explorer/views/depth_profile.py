@@ -37,7 +37,7 @@ class DepthProfile(View):
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 60e-6, anchor="zero", least_span=1e-6)
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.BALL_ANGLE,
             DEPTH,
             packed.range("depth_profile_angle", 240.0, 300.0),

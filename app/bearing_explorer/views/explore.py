@@ -48,7 +48,7 @@ from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 
 if TYPE_CHECKING:
-    from bearing_explorer.plotting.plane import Field
+    from bearing_explorer.plots.plane import Field
     from bearing_explorer.results.results import Results
 
 REST = 0.2
@@ -210,7 +210,7 @@ class ExplorePlane(JobView[Plane]):
     def still_figures(self) -> Sequence[LayoutDOM]:
         import holoviews as hv
 
-        from bearing_explorer.plotting.plane import plane as linked_figures
+        from bearing_explorer.plots.plane import plane as linked_figures
 
         assert self.found is not None
         return [hv.render(linked_figures(field_of(self.found, self._at)), backend="bokeh")]
@@ -222,7 +222,7 @@ class ExplorePlane(JobView[Plane]):
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        import bearing_explorer.plotting  # noqa: F401 - takes a second, once, and this is not the event loop
+        import bearing_explorer.plots.plane  # noqa: F401 - takes a second, once, and this is not the event loop
 
         none = np.zeros(0)
         sources: Sources = {
@@ -324,7 +324,7 @@ class ExplorePlane(JobView[Plane]):
         import holoviews as hv
         from holoviews.plotting.util import initialize_dynamic
 
-        from bearing_explorer.plotting.plane import plane as linked_figures
+        from bearing_explorer.plots.plane import plane as linked_figures
 
         assert self.found is not None
         self._making = plane = self.found
@@ -418,7 +418,7 @@ class _Marks:
 
 def field_of(plane: Plane, at: tuple[float, float]) -> Field:
     """A map as the figures take it, with lines drawn across it at a place."""
-    from bearing_explorer.plotting.plane import Field
+    from bearing_explorer.plots.plane import Field
 
     question = plane.question
     sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]

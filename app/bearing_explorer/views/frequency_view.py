@@ -122,7 +122,7 @@ class FrequencyView(MeasuredView):
             "linear": style.AxisQuantity("Amplitude density", "√S", "m/s²/√Hz", prefixed=True),
         }
         self._plots = {
-            scale: style.house_figure(
+            scale: style.make_figure(
                 FREQUENCY,
                 quantities[scale],
                 frequency,

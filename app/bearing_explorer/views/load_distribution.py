@@ -46,7 +46,7 @@ class LoadDistribution(View):
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.BALL_ANGLE,
             style.BALL_LOAD,
             Range1d(0.0, 360.0, syncable=False),

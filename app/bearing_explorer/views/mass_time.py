@@ -69,7 +69,7 @@ class MassInTime(View):
         plots = []
         for dof in reversed(SHOWN):
             quantity = style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True)
-            plot = style.house_figure(
+            plot = style.make_figure(
                 TIME, quantity, time, height, height=210, name=f"mass_acceleration_{dof}"
             )
             self._mark(plot, events)
@@ -81,7 +81,7 @@ class MassInTime(View):
         # labels are shorter where there is little room, which is known later than they are
         write = CustomJS(args={"events": events}, code="events.change.emit()")
         plots[0].js_on_change("inner_width", write)
-        below = style.house_figure(
+        below = style.make_figure(
             TIME,
             style.BALL_LOAD,
             time,

@@ -66,7 +66,7 @@ class MeasuredSignal(MeasuredView):
         return pn.Column(self.form, self.hidden, **wide)
 
     def _plot(self, packed: PackedSource, part: str) -> figure:
-        plot = style.house_figure(
+        plot = style.make_figure(
             TIME,
             ACCELERATION,
             packed.range(f"measurement_{part}_time", 0.0, 1.0),

@@ -46,7 +46,7 @@ class WhichMechanism(View):
             "mechanism_bars", "left", "right", "middle", "share", "top", "known", "low", "high",
             "label_at", "alpha",
         )  # fmt: skip
-        plot = style.house_figure(
+        plot = style.make_figure(
             FREQUENCY,
             SHARE,
             packed.range("mechanism_frequency", 125.0, 32000.0),

@@ -64,7 +64,7 @@ class NaturalFrequencies(View):
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0, room=ROOM)
         self._angle_range = packed.range("modes_angle", 0.0, 30.0)
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.CAGE_ANGLE,
             FREQUENCY,
             self._angle_range,

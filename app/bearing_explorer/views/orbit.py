@@ -129,7 +129,7 @@ class SteadyOrbit(View):
         return plot
 
     def _spectrum(self, packed: PackedSource) -> figure:
-        plot = style.house_figure(
+        plot = style.make_figure(
             FREQUENCY,
             style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
             Range1d(0.0, HIGHEST, syncable=False),
@@ -317,7 +317,7 @@ def _points(numbers: NDArray[np.complex128]) -> dict[str, np.ndarray]:
 def _square(
     x: style.AxisQuantity, y: style.AxisQuantity, x_range: Range1d, y_range: Range1d
 ) -> figure:
-    plot = style.house_figure(x, y, x_range, y_range, height=HEIGHT + 40)
+    plot = style.make_figure(x, y, x_range, y_range, height=HEIGHT + 40)
     plot.sizing_mode = "fixed"
     plot.width = plot.min_width = HEIGHT + 70
     plot.min_border_right = 8

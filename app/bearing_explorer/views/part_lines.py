@@ -118,7 +118,7 @@ class PartLines:
         shown = packed.range("diagnosis_frequency", 0.0, 1000.0)
         orders = packed.range("diagnosis_order", 0.0, 40.0)
         level = packed.range("diagnosis_level", LOWEST, 30.0)
-        self.plot = style.house_figure(FREQUENCY, LEVEL, shown, level, height=HEIGHT)
+        self.plot = style.make_figure(FREQUENCY, LEVEL, shown, level, height=HEIGHT)
         self._add_orders(self.plot, orders)
         for part in PARTS:
             self._add_lines(packed, part)

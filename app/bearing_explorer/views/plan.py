@@ -66,7 +66,7 @@ class PlanInFull(View):
     def build(self, packed: PackedSource) -> Any:
         self._rows: dict[str, Any] = {"heads": list(HEADS), "rows": [], "remarks": []}
         self._table = PlanTable(sizing_mode="stretch_width", margin=0)
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.CAGE_ANGLE,
             style.AxisQuantity("", "", ""),
             packed.range("plan_angle", 0.0, 30.0),

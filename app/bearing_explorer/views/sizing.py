@@ -126,7 +126,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     def _pass_plot(
         self, packed: PackedSource, dof: str, seconds: Range1d, events: Any, knocks: Any
     ) -> figure:
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
             style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
             seconds,
@@ -142,7 +142,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         return plot
 
     def _spectrum_plot(self, packed: PackedSource, dof: str, frequency: Range1d) -> figure:
-        plot = style.house_figure(
+        plot = style.make_figure(
             FREQUENCY,
             style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
             frequency,

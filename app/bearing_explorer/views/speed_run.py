@@ -142,7 +142,7 @@ class SpeedRunSpectra(JobView[Found]):
             )
             self._now = packed.source("speed_run_now", "speed")
             self._marched = packed.source("speed_run_marched", "frequency", "speed")
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.AxisQuantity("Frequency", "f", "Hz"),
             style.AxisQuantity(speed.words, speed.symbol, speed.unit),
             frequency,

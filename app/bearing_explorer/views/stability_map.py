@@ -108,7 +108,7 @@ class OrbitStability(JobView[Found]):
     def build(self, packed: PackedSource) -> Any:
         self._sides = {name: Side.of(quantity) for name, quantity in SWEEPABLE.items()}
         speed, extent = self._sides["shaft_speed_hz"], self._sides["extent_deg"]
-        plot = style.house_figure(
+        plot = style.make_figure(
             style.AxisQuantity(speed.words, speed.symbol, speed.unit),
             style.AxisQuantity(extent.words, extent.symbol, extent.unit),
             packed.range("stability_x", 0.0, 60.0),

@@ -79,6 +79,8 @@ class Figure:
         in m/s².
     found
         what a computation of the view has found, where that is known already.
+    computed
+        whether a view of a computation without `found` makes it.
 
     Raises
     ------
@@ -95,6 +97,7 @@ class Figure:
         recording: Recording | None = None,
         in_si: bool = True,
         found: Any = None,
+        computed: bool = True,
     ) -> None:
         self.results = results
         sources = FilledSources()
@@ -103,7 +106,7 @@ class Figure:
             self.view.take_measurement(_measurement(results.scene, recording, in_si))
         if found is not None:
             self.view.found = found
-        elif choices is not None or self.view.computes:
+        elif choices is not None or (computed and self.view.computes):
             self.view.choose(choices or {}, results)
         data, ranges = self.view.data(results)
         self.sentence = self.view.sentence(results)

@@ -79,7 +79,7 @@ class VibrationSpectra(View):
         first = packed.source("spectrum_first_pass", "frequency", "inner", "row")
         plots, marks = [], []
         for dof in SHOWN:
-            plot = style.house_figure(
+            plot = style.make_figure(
                 FREQUENCY,
                 style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
                 frequency,

@@ -58,7 +58,7 @@ class VibrationInTime(View):
         self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
         self._load = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
         time = packed.range("vibration_time", 0.0, 0.04)
-        above = style.house_figure(
+        above = style.make_figure(
             TIME,
             ACCELERATION,
             time,
@@ -79,7 +79,7 @@ class VibrationInTime(View):
                 line_width=1.4,
             )
         self._label_events(above, events)
-        below = style.house_figure(
+        below = style.make_figure(
             TIME,
             style.BALL_LOAD,
             time,

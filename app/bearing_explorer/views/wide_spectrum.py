@@ -53,7 +53,7 @@ class WideSpectra:
         #: along x and along y
         self.plots: list[figure] = []
         for dof in SHOWN:
-            plot = style.house_figure(
+            plot = style.make_figure(
                 FREQUENCY,
                 style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
                 frequency,

@@ -46,7 +46,7 @@ def test_the_label_of_an_axis_has_name_symbol_and_prefixed_unit() -> None:
 
 def test_a_figure_has_fixed_ranges_and_labelled_axes() -> None:
     x, y = Range1d(0.0, 360.0), Range1d(0.0, 2500.0)
-    plot = style.house_figure(style.BALL_ANGLE, style.BALL_LOAD, x, y)
+    plot = style.make_figure(style.BALL_ANGLE, style.BALL_LOAD, x, y)
     assert plot.x_range is x
     assert plot.y_range is y
     assert plot.xaxis[0].axis_label == "Angular position φ (°)"

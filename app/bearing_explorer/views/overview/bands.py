@@ -59,7 +59,7 @@ class OverviewBands(View):
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
-        plot = style.house_figure(
+        plot = style.make_figure(
             FREQUENCY,
             style.AxisQuantity("", "", ""),
             packed.range("overview_band_frequency", 0.0, HIGHEST),

@@ -47,7 +47,7 @@ class OverviewSpectrum(View):
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
-        plot = style.house_figure(
+        plot = style.make_figure(
             FREQUENCY,
             LEVEL,
             packed.range("overview_frequency", 0.0, HIGHEST),

@@ -13,17 +13,24 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import holoviews as hv
+
+if "bokeh" not in hv.Store.loaded_backends():
+    hv.extension("bokeh", logo=False, inline=True)  # exported notebooks need nothing from outside
+
 import numpy as np
+import panel as pn
 import param
-from bokeh.models import CustomJS, HoverTool
+from bokeh.models import CustomJS, HoverTool, Range1d, UIElement
 from holoviews.plotting.bokeh.links import LinkCallback
 from holoviews.plotting.links import Link
 from numpy.typing import NDArray
+from panel.io.notebook import patch_inline_stylesheets
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import Places, Side, reading, sections
+from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL
+from bearing_explorer.plots.heat_map import BAR_LOOK, Places, Side, reading, sections
 from bearing_explorer.plots.style import AxisQuantity
-from bearing_explorer.plotting.style import Axes, color_scale, dimension
+from bearing_explorer.serve.bokeh_private import before_showing
 
 if TYPE_CHECKING:
     from xarray import DataArray
@@ -102,6 +109,78 @@ def _in_page_units(name: Any, given: DataArray) -> tuple[str, AxisQuantity, NDAr
         return f"{name}_deg", AxisQuantity(words, "", "°"), np.degrees(values)
     prefixed = unit not in ("", "1", "kg", "kg·m²")
     return str(name), AxisQuantity(words, "", "" if unit == "1" else unit, prefixed), values
+
+
+def dimension(name: str, quantity: AxisQuantity, **more: Any) -> hv.Dimension:
+    """A dimension called `name`, with the words and the unit of an axis of the page."""
+    return hv.Dimension(name, label=quantity.words, unit=quantity.unit or None, **more)
+
+
+class Axes:
+    """A hook that gives a figure the page's look, and axes that write their own units.
+
+    HoloViews calls hooks again whenever a figure is updated; what follows by itself is done once,
+    as is what is to be done to `each` figure.
+    """
+
+    def __init__(
+        self,
+        x: AxisQuantity,
+        y: AxisQuantity,
+        color: AxisQuantity | None = None,
+        each: Callable[[Any, Any], None] | None = None,
+    ) -> None:
+        self.x, self.y, self.color, self.each = x, y, color, each
+
+    def __call__(self, plot: Any, element: Any) -> None:
+        done = plot.handles.setdefault("house", set())
+        handles = plot.handles
+        for name, quantity in (("x", self.x), ("y", self.y)):
+            axis = handles.get(f"{name}axis")
+            if axis is None or name in done:
+                continue
+            done.add(name)
+            style.style_axis(axis)
+            style.write_units(axis, quantity, handles[f"{name}_range"])
+        bar = handles.get("colorbar")
+        if bar is not None and self.color is not None:
+            self._write_bar(handles)
+        if "figure" not in done:
+            done.add("figure")
+            if self.each is not None:
+                self.each(plot, element)
+            figure = handles["plot"]
+            figure.output_backend = "canvas"
+            style.style_figure(figure)
+
+    def _write_bar(self, handles: dict[str, Any]) -> None:
+        """Title and numbers of the colour bar, with the prefix that its ends ask for."""
+        assert self.color is not None
+        bar, mapper = handles["colorbar"], handles["color_mapper"]
+        if "bar_range" not in handles:
+            handles["bar_range"] = Range1d(mapper.low, mapper.high)
+            bar.update(**BAR_LOOK, bar_line_color=style.STEEL_EDGE)
+            style.write_units(bar, self.color, handles["bar_range"])
+        handles["bar_range"].update(start=mapper.low, end=mapper.high)
+
+
+_PALETTES = {
+    "sequential": ["#{:02x}{:02x}{:02x}".format(*rgb) for rgb in SEQUENTIAL],
+    "diverging": ["#{:02x}{:02x}{:02x}".format(*rgb) for rgb in DIVERGING],
+}
+
+
+def color_scale(values: NDArray[np.float64]) -> tuple[list[str], tuple[float, float]]:
+    """Palette and limits for numbers: light at zero where they have both signs."""
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    if low < 0.0 < high:
+        most = max(-low, high)
+        return _PALETTES["diverging"], (-most, most)
+    if not high > low:
+        half = 0.5 * abs(low) or 0.5
+        low, high = low - half, high + half
+    return _PALETTES["sequential"], (low, high)
 
 
 class Section(Link):
@@ -249,7 +328,7 @@ def plane(
     )
     veil.opts(
         hv.opts.Image(
-            cmap=["#00000000", "#FFFFFFD0"], clim=(0, 1), colorbar=False, tools=[], **shared
+            cmap=["#00000000", f"{style.PAPER}D0"], clim=(0, 1), colorbar=False, tools=[], **shared
         )
     )
     across.opts(
@@ -410,3 +489,14 @@ def _histogram(data: Field) -> hv.Histogram:
     known = data.values[np.isfinite(data.values)]
     counts, edges = np.histogram(known, bins=BINS) if known.size else (np.zeros(1), [0.0, 1.0])
     return hv.Histogram((np.asarray(edges), counts), kdims=value, vdims="points")
+
+
+def _inlined(_: Any, root: Any) -> None:
+    """Have figures outside of a page carry their style sheets: a server serves those of a page."""
+    doc = pn.state.curdoc
+    if doc is None or doc.session_context is None:
+        for part in root.select({"type": UIElement}):
+            patch_inline_stylesheets(part)
+
+
+before_showing(_inlined)

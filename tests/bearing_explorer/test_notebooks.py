@@ -9,7 +9,7 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-OUTSIDE = re.compile(r"https?://[^\s\"\\]+\.(?:css|js)\b")
+OUTSIDE = re.compile(r"https?://[^\s\"\\]+\.css\b|<(?:script|link)[^>]*(?:src|href)=")
 FOLDER = Path(__file__).resolve().parents[2] / "assets" / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 

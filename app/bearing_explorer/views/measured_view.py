@@ -155,11 +155,7 @@ def recording_lines(measured: Measured) -> list[str]:
     name, unit = code_of(origin.file), code_of(origin.unit if measured.in_si else "m/s²")
     return [
         f"table = read_table({name}, Path({name}).read_bytes())",
-        *(
-            []
-            if measured.in_si
-            else ["# the unit of the file is not known"]
-        ),
+        *([] if measured.in_si else ["# the unit of the file is not known"]),
         "recording = table.recording(",
         f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",
         ")",

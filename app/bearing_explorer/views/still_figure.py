@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from bokeh.document import Document
-from bokeh.embed import components, file_html
+from bokeh.embed import components
 from bokeh.events import DocumentReady
-from bokeh.models import Column, CustomJS, Div
-from bokeh.resources import INLINE
+from bokeh.models import Column, CustomJS
+from bokeh.resources import Resources
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.measurement.signal import Measured
@@ -66,7 +66,7 @@ class Figure:
     sentence
         what there is to see, in a sentence.
     layout
-        the Bokeh layout of its figures, with the sentence below them.
+        the Bokeh layout of its figures.
     document
         the Bokeh document that holds the layout.
 
@@ -114,9 +114,8 @@ class Figure:
         follow = sources.fill(data, ranges)
         for plot in self.view.figures:
             plot.frame_align = False  # or all would leave as much room as the one that needs most
-        words = Div(text=f"<p>{html.escape(self.sentence)}</p>", sizing_mode="stretch_width")
-        parts = [*self.view.still_figures(), words]
-        self.layout = Column(children=parts, sizing_mode="stretch_width")
+        plots = list(self.view.still_figures())
+        self.layout = Column(children=plots, sizing_mode="stretch_width")
         self.document = Document()
         self.document.add_root(self.layout)
         self.document.js_on_event(DocumentReady, follow)
@@ -127,8 +126,19 @@ class Figure:
 
     def page(self) -> str:
         """A page with the figure that needs nothing from outside."""
-        title = f"{self.view.title}: {self.sentence}"
-        return file_html(self.document, INLINE, title, suppress_callback_warning=True)
+        title = html.escape(self.view.title)
+        return (
+            f"<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>{title}</title></head>"
+            f"<body>{bokeh_scripts()}{self._place()}</body></html>\n"
+        )
+
+    def _place(self) -> str:
+        """Where the figure goes, the script that draws it, and its sentence."""
+        words = f"<p style='font-family: sans-serif'>{html.escape(self.sentence)}</p>"
+        if not self.layout.children:
+            return words
+        script, place = components(self.layout)
+        return f"{place}{script}{words}"
 
     def save(self, path: str | Path) -> None:
         """Write `page` to a file."""
@@ -145,8 +155,7 @@ class Figure:
 
     def _repr_html_(self) -> str:
         """In a notebook; Bokeh itself comes with the first figure."""
-        script, place = components(self.layout)
-        return f"{_bokeh_once()}{place}{script}"
+        return _bokeh_once() + self._place()
 
 
 def figure_of(
@@ -210,9 +219,15 @@ def _measurement(scene: Scene, recording: Recording, in_si: bool) -> Measurement
 
 
 _has_bokeh = False
+_BOKEH = Resources(mode="inline", components=["bokeh"])
 
 
 def _bokeh_once() -> str:
     global _has_bokeh
     first, _has_bokeh = not _has_bokeh, True
-    return INLINE.render() if first else ""
+    return bokeh_scripts() if first else ""
+
+
+def bokeh_scripts() -> str:
+    """Bokeh itself, without what extensions would load."""
+    return "".join(f"<script>{code}</script>" for code in _BOKEH.js_raw)

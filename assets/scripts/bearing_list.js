@@ -24,13 +24,13 @@ export function render({ model }) {
     return made
   }
   const show = () => {
-    const asked = search.value.toLowerCase().split(/\s+/).filter(Boolean)
+    const words = search.value.toLowerCase().split(/\s+/).filter(Boolean)
     const fits = model.entries.filter((one) => {
       const text = `${one.name} ${one.words} ${one.note}`.toLowerCase()
-      return asked.every((word) => text.includes(word))
+      return words.every((word) => text.includes(word))
     })
     list.replaceChildren(...fits.slice(0, MOST_LISTED).map(entry))
-    count.textContent = fits.length === 0 ? "None fits."
+    count.textContent = fits.length === 0 ? "No match. Enter dimensions instead."
       : fits.length > MOST_LISTED ? `${fits.length} fit; shown are the first ${MOST_LISTED}.`
       : `${fits.length} of ${model.entries.length}`
   }
@@ -53,13 +53,8 @@ export function render({ model }) {
     }
     file.value = ""
   })
-  const example = element("button", { type: "button" }, "A table to fill in")
-  example.addEventListener("click", () => {
-    const link = element("a", { download: model.spec.file,
-      href: URL.createObjectURL(new Blob([model.spec.template], { type: "text/csv" })) })
-    link.click()
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000)
-  })
+  const example = element("a", { download: model.spec.file,
+    href: `data:text/csv;charset=utf-8,${encodeURIComponent(model.spec.template)}` }, "Download CSV template")
   const upload = element("div", { class: "upload" },
     element("label", { for: "bearing-file" }, `A table of your own (CSV with ${model.spec.needed})`),
     file, example, words)

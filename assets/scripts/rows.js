@@ -25,29 +25,11 @@ const format = (value, step) => {
     .replace("-", "\u2212")
 }
 
-// A note under the pointer that says what a quantity is; one for the whole page.
-let tip_waits = 0
-function put_tip(where, { label, symbol, unit, about, limit } = {}) {
-  clearTimeout(tip_waits)
-  const old = document.getElementById("quantity-tip")
-  if (old) old.remove()
-  if (!where) return
-  tip_waits = setTimeout(() => {
-    if (!where.isConnected) return
-    const in_unit = unit === "°" || unit === "" ? unit : `\u00a0${unit}`
-    const number = (value) => String(value).replace("-", "\u2212")
-    const tip = element("div", { id: "quantity-tip", "aria-hidden": "true", popover: "manual" },
-      element("strong", {}, label, " ", element("i", { html: symbol })),
-      element("span", {}, about),
-      element("small", {}, unit ? `In ${unit === "°" ? "degrees (°)" : unit}` : "A number",
-        limit ? `; the slider goes from ${number(limit.least)} to ${number(limit.most)}${in_unit}.` : "."))
-    document.body.append(tip)
-    tip.showPopover?.()
-    const box = where.getBoundingClientRect(), own = tip.getBoundingClientRect()
-    const below = box.bottom + 6 + own.height < innerHeight
-    tip.style.left = `${Math.max(8, Math.min(box.left, innerWidth - own.width - 8))}px`
-    tip.style.top = `${below ? box.bottom + 6 : box.top - own.height - 6}px`
-  }, 350)
+// What a quantity is and how far its slider goes, under the pointer.
+const tip = ({ about, unit, limit: { least, most } }) => {
+  const in_unit = unit === "\u00b0" || unit === "" ? unit : `\u00a0${unit}`
+  const kind = unit ? `In ${unit === "\u00b0" ? "degrees (\u00b0)" : unit}` : "A number"
+  return `${about}\n${kind}; the slider goes from ${least} to ${most}${in_unit}.`.replace(/-(?=\d)/g, "\u2212")
 }
 
 // A box as wide as its number, so that "−100000" is not cut.
@@ -219,15 +201,9 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     help.addEventListener("click", () => {
       words.hidden = !words.hidden
       help.setAttribute("aria-expanded", String(!words.hidden))
-      put_tip(null)
     })
-    head.firstChild.addEventListener("pointerenter", (event) => {
-      if (event.pointerType === "mouse" && words.hidden)
-        put_tip(head.firstChild, { label, symbol, unit, about, limit: limits[name] })
-    })
-    head.firstChild.addEventListener("pointerleave", () => put_tip(null))
     refusal.hidden = true
-    rows[name] = { asked: 0, root, slider, number, refusal, extra, unit, line, about, label, symbol, twin }
+    rows[name] = { asked: 0, root, named: head.firstChild, slider, number, refusal, extra, unit, line, about, label, symbol, twin }
 
     slider.addEventListener("input", () => move(name, Number(slider.value)))
     slider.addEventListener("change", () => { if (!held) release() })
@@ -302,6 +278,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       if (!rows[name]) continue
       limits[name] = limit
       Object.assign(rows[name].slider, { min: limit.least, max: limit.most, step: limit.step })
+      rows[name].named.title = tip({ ...rows[name], limit })
       if (values[name] !== undefined) put(name, values[name])
     }
     for (const [name, value] of Object.entries(state.values ?? {})) {

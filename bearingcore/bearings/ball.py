@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
 
 USUAL_GROOVES = {"inner": 0.52, "outer": 0.53}
-"""Groove radii over the ball diameter that are assumed where none are given."""
+"""Groove radii over the ball diameter where none are given: the widest that ISO 281 rates fully."""
 
 _ALWAYS = ("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "radial_clearance")
 

@@ -32,6 +32,7 @@ from bearingcore.bearings.line_contact import RollerContact
 from bearingcore.bearings.rows import ARRANGEMENTS, LENGTHS, MOST_ROWS, Row, pair, spaced
 from bearingcore.common import checks, scene_file
 from bearingcore.common.lazy import cached_property
+from bearingcore.errors import FieldError
 
 STEEL_DENSITY = 7800.0
 """Density [kg/m³] of balls of bearing steel."""
@@ -126,27 +127,8 @@ class Bearing:
             "radial_clearance",
             checks.number("radial_clearance", self.radial_clearance, at_least=0.0, unit="m"),
         )
-        if self.ball_diameter >= self.pitch_diameter:
-            raise checks.refuse(
-                "ball_diameter",
-                self.ball_diameter,
-                f"below the pitch_diameter of {self.pitch_diameter:g} m",
-            )
-        if self.n_balls > 1:
-            gap = self.pitch_diameter * math.sin(math.pi / self.n_balls)
-            if gap < self.ball_diameter:
-                raise checks.refuse(
-                    "n_balls",
-                    self.n_balls,
-                    "so few that balls do not overlap: their centres would be "
-                    f"{gap:g} m apart, the ball_diameter is {self.ball_diameter:g} m",
-                )
-        if not self.inner_raceway_radius < self.outer_raceway_radius:
-            raise checks.refuse(
-                "inner_raceway_radius",
-                self.inner_raceway_radius,
-                f"below the outer_raceway_radius of {self.outer_raceway_radius:g} m",
-            )
+        for fault in drawing.faults(vars(self)):
+            raise fault
         if self.is_drawn:
             for race in ("inner", "outer"):
                 name = f"{race}_groove_radius"
@@ -298,8 +280,8 @@ class Bearing:
             return self
         try:
             return _with_own(self, tuple(self.unlike(self.rows[row]).items()))
-        except ValueError as refused:
-            raise ValueError(f"row {row + 1}: {refused}") from None
+        except FieldError as refused:
+            raise refused.inside(f"row {row + 1}") from None
 
     @property
     def rows_are_alike(self) -> bool:

@@ -26,8 +26,10 @@ from functools import lru_cache
 from importlib import resources
 from types import MappingProxyType
 
+from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
+from bearingcore.errors import FieldError
 
 NEEDED = ("name", "balls", "ball_diameter_mm", "pitch_diameter_mm")
 
@@ -42,9 +44,6 @@ COLUMNS = (
     "dynamic_load_rating_kn",
     "note",
 )
-
-USUAL_RATIO = {"inner": 0.52, "outer": 0.53}
-"""Groove radius over ball diameter where it is not given: the widest that ISO 281 rates in full."""
 
 USUAL_CLEARANCE_UM = 10.0
 
@@ -275,7 +274,7 @@ def _bearing(
     ball = line.number("ball_diameter_mm", needed=True)
     pitch = line.number("pitch_diameter_mm", needed=True)
     grooves = {
-        race: _groove(line, race, math.nan if ball is None else ball) for race in USUAL_RATIO
+        race: _groove(line, race, math.nan if ball is None else ball) for race in USUAL_GROOVES
     }
     angle = line.number("contact_angle_deg")
     clearance = line.number("diametral_clearance_um")
@@ -300,8 +299,9 @@ def _bearing(
             contact_angle=math.radians(angle),
             diametral_clearance=clearance / 1e6,
         )
-    except ValueError as error:
-        faults.append(f"line {number}, column {_column_of(str(error))}: {error}")
+    except FieldError as error:
+        column = _COLUMN_OF_FIELD.get(error.field, error.field)
+        faults.append(f"line {number}, column {column}: {error}")
         return None
     return CatalogueBearing(
         name=name,
@@ -323,12 +323,6 @@ _COLUMN_OF_FIELD = {
 }
 
 
-def _column_of(refusal: str) -> str:
-    """The column that a refused field of a bearing came from."""
-    field = refusal.split(" ", 1)[0]
-    return _COLUMN_OF_FIELD.get(field, field)
-
-
 def _groove(line: _Line, race: str, ball: float) -> float:
     """Groove radius [mm] of a race, from its radius or its ratio."""
     radius = line.number(f"{race}_groove_radius_mm")
@@ -338,7 +332,7 @@ def _groove(line: _Line, race: str, ball: float) -> float:
     if radius is not None:
         return radius
     if ratio is None:
-        ratio = USUAL_RATIO[race]
+        ratio = USUAL_GROOVES[race]
         line.assumed.append(f"an {race} groove of {ratio:g} ball diameters")
     return ratio * ball
 

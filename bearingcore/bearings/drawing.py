@@ -22,10 +22,12 @@ sideways instead, it moves A0 (1 − cos α0) + r_L either way.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from bearingcore.bearings.hertz import in_series, race_contact
 from bearingcore.common import checks
+from bearingcore.errors import FieldError
 
 WIDEST_CONFORMITY = 0.6
 """Groove radius over ball diameter up to which a groove is believed. Makers use 0.505 to 0.54,
@@ -63,7 +65,7 @@ def check_groove(race: str, radius: float | None, ball_diameter: float) -> float
         radius,  # type: ignore[arg-type]  # None is refused there
         above=0.5 * ball_diameter,
         at_most=WIDEST_CONFORMITY * ball_diameter,
-        unit=f"m: wider than the ball's radius, at most {WIDEST_CONFORMITY:g} of its diameter",
+        unit="m",
     )
 
 
@@ -86,6 +88,53 @@ def check_youngs_modulus(value: float | None) -> float:
 def check_poisson(value: float | None) -> float:
     """Poisson's ratio as a float, else ValueError."""
     return checks.number("poisson", value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+
+
+def faults(values: Mapping[str, float | None]) -> Iterator[FieldError]:
+    """Each way in which dimensions do not fit together, as what a `Bearing` is refused with.
+
+    `values` are in SI, by the names of the fields; what is None or not there is passed over. The
+    `numbers` of a fault name the other fields that it is about.
+    """
+    ball, pitch, count = (values.get(n) for n in ("ball_diameter", "pitch_diameter", "n_balls"))
+    if count is not None and count != int(count):
+        yield checks.refuse("n_balls", count, "a whole number")
+    if ball is not None and pitch is not None:
+        if not 0.0 < ball < pitch:
+            yield checks.refuse(
+                "ball_diameter",
+                ball,
+                "above 0 and below the {pitch_diameter} of {pitch_diameter:m}",
+                "m",
+                pitch_diameter=pitch,
+            )
+        elif count is not None and count > 1 and pitch * math.sin(math.pi / count) < ball:
+            most = math.floor(math.pi / math.asin(ball / pitch) + 1e-9)
+            yield checks.refuse(
+                "n_balls",
+                count,
+                "so few that balls of {ball_diameter:m} do not overlap on a circle of "
+                f"{{pitch_diameter:m}}, here at most {most}",
+                ball_diameter=ball,
+                pitch_diameter=pitch,
+            )
+    for race in ("outer", "inner"):
+        radius = values.get(f"{race}_groove_radius")
+        if ball is not None and radius is not None:
+            try:
+                check_groove(race, radius, ball)
+            except FieldError as fault:
+                fault.numbers["ball_diameter"] = ball
+                yield fault
+    inner, outer = values.get("inner_raceway_radius"), values.get("outer_raceway_radius")
+    if inner is not None and outer is not None and not inner < outer:
+        yield checks.refuse(
+            "inner_raceway_radius",
+            inner,
+            "below the {outer_raceway_radius} of {outer_raceway_radius:m}",
+            "m",
+            outer_raceway_radius=outer,
+        )
 
 
 def derive(

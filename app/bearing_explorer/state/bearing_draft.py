@@ -6,14 +6,14 @@ there too. What was entered is kept as a draft with each field's fault, and appl
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
-from bearing_explorer.state.quantities import QUANTITIES, Values, in_si, refusal
+from bearing_explorer.state.quantities import QUANTITIES, SECOND, Values, in_si, refusal
 from bearing_explorer.state.quantity_list import BEARING_GROUPS
 from bearingcore import Bearing
-from bearingcore.bearings.drawing import WIDEST_CONFORMITY
+from bearingcore.bearings import drawing
 from bearingcore.common.numbers import number
+from bearingcore.errors import FieldError
 
 OF_BEARING = frozenset(
     name for name, quantity in QUANTITIES.items() if quantity.group in BEARING_GROUPS
@@ -30,91 +30,53 @@ def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
     `bearing` is the one that the draft would change, `error` what the core said of it. Faults
     stand at fields of the draft, where there is one among those concerned.
     """
-    get = _Numbers(bearing, draft)
-    ball, pitch, count = get("ball_diameter_mm"), get("pitch_diameter_mm"), get("n_balls")
-    found: list[tuple[tuple[str, ...], str]] = []
-
-    def fault(fields: tuple[str, ...], sentence: str) -> None:
-        found.append((fields, sentence))
-
-    given = bearing.kind.inputs(bearing)
-    if "pitch_diameter" in given:
-        if not 0.0 < ball < pitch:
-            fault(
-                ("ball_diameter_mm", "pitch_diameter_mm"),
-                f"The ball diameter is {_mm(ball)}; allowed: above 0 and below the pitch diameter "
-                f"of {_mm(pitch)}.",
-            )
-        elif count > 1 and pitch * math.sin(math.pi / count) < ball:
-            apart = pitch * math.sin(math.pi / count)
-            fault(
-                ("n_balls", "ball_diameter_mm", "pitch_diameter_mm"),
-                f"The number of balls is {number(count, 6)}; allowed: so few that balls of "
-                f"{_mm(ball)} do not overlap, here {_most_balls(ball, pitch)} (their centres would "
-                f"be {_mm(apart)} apart).",
-            )
-    if count != int(count):
-        fault(("n_balls",), f"The number of balls is {number(count, 6)}; allowed: a whole number.")
-    for race in ("outer", "inner"):
-        name = f"{race}_groove_radius_mm"
-        radius = get(name)
-        if not math.isnan(radius) and not 0.5 * ball < radius <= WIDEST_CONFORMITY * ball:
-            fault(
-                (name, "ball_diameter_mm"),
-                f"The {race} groove radius is {_mm(radius)}; allowed: above {_mm(0.5 * ball)}, the "
-                f"ball's, and at most {_mm(WIDEST_CONFORMITY * ball)}, {WIDEST_CONFORMITY:g} ball "
-                "diameters.",
-            )
-    inner, outer = get("inner_raceway_radius_mm"), get("outer_raceway_radius_mm")
-    if "inner_raceway_radius" in given and not inner < outer:
-        fault(
-            ("inner_raceway_radius_mm", "outer_raceway_radius_mm"),
-            f"The inner raceway radius is {_mm(inner)}; allowed: below the outer raceway radius "
-            f"of {_mm(outer)}.",
-        )
     faults: Faults = {}
-    for fields, sentence in found:
-        for name in [name for name in fields if name in draft][:1] or fields[:1]:
-            faults.setdefault(name, sentence)
+    for fault in drawing.faults(_dimensions(bearing, draft)):
+        concerned = [_CONTROL[name] for name in (fault.field, *fault.numbers)]
+        at = next((name for name in concerned if name in draft), concerned[0])
+        faults.setdefault(at, _sentence(fault))
     if not faults:
-        last = next(reversed(draft))
-        faults[_field_of(error, last)] = refusal(error)
+        field = error.field if isinstance(error, FieldError) else ""
+        if isinstance(error, FieldError) and "row 2" in error.where:
+            field = SECOND + field
+        faults[_CONTROL.get(field, next(reversed(draft)))] = refusal(error)
     return faults
 
 
-class _Numbers:
-    """Dimensions as the page shows them: those of the draft, else those of the bearing."""
-
-    def __init__(self, bearing: Bearing, draft: Mapping[str, float]) -> None:
-        self._bearing, self._draft = bearing, draft
-
-    def __call__(self, name: str) -> float:
-        if name in self._draft:
-            return self._draft[name]
-        quantity = QUANTITIES[name]
-        si = getattr(self._bearing, quantity.last_name)
-        if quantity.last_name in ("inner_groove_radius", "outer_groove_radius"):
-            if quantity.last_name in self._bearing.kind.inputs(self._bearing):
-                si = self._bearing.groove_radius(quantity.last_name[:5])
-            if si is not None and "ball_diameter_mm" in self._draft:
-                # grooves that are not in the draft go with their ball
-                ball = in_si(QUANTITIES["ball_diameter_mm"], self._draft["ball_diameter_mm"])
-                si *= (ball or 0.0) / self._bearing.ball_diameter
-        return math.nan if si is None else float(si) / quantity.unit_si
+_CONTROL = {QUANTITIES[name].last_name: name for name in QUANTITIES if name in OF_BEARING}
+"""The control of each field of a bearing."""
 
 
-def _field_of(error: ValueError, otherwise: str) -> str:
-    """The control that the core speaks of first."""
-    first = str(error).split(" ", 1)[0]
-    return next((name for name in OF_BEARING if QUANTITIES[name].last_name == first), otherwise)
+def _dimensions(bearing: Bearing, draft: Mapping[str, float]) -> dict[str, float | None]:
+    """The fields that a bearing is given by [SI]: those of the draft, else its own.
+
+    Grooves that are not in the draft go with their ball.
+    """
+    given = bearing.kind.inputs(bearing)
+    own: dict[str, float | None] = {
+        name: getattr(bearing, name) for name in given if hasattr(bearing, name)
+    }
+    new = {QUANTITIES[name].last_name: in_si(QUANTITIES[name], draft[name]) for name in draft}
+    wider = (new.get("ball_diameter") or bearing.ball_diameter) / bearing.ball_diameter
+    for race in ("outer", "inner"):
+        name, radius = f"{race}_groove_radius", bearing.groove_radius(race)
+        if name in given and radius is not None:
+            own[name] = wider * radius
+    return own | {name: value for name, value in new.items() if name in given}
 
 
-def _most_balls(ball: float, pitch: float) -> str:
-    return f"at most {math.floor(math.pi / math.asin(ball / pitch) + 1e-9)}"
+def _sentence(fault: FieldError) -> str:
+    """A fault in the words and units of the page."""
 
+    def name(field: str) -> str:
+        return QUANTITIES[_CONTROL[field]].label.lower()
 
-def _mm(value: float) -> str:
-    return f"{number(value, 6)} mm"
+    def amount(value: float, unit: str) -> str:
+        return f"{number(1e3 * value, 6)} mm" if unit == "m" else number(value, 6)
+
+    value = amount(float(fault.value), fault.unit)  # type: ignore[arg-type]  # a number here
+    allowed = fault.allowed_words(name, amount)
+    return f"The {name(fault.field)} is {value}; allowed: {allowed}."
 
 
 def words_of(draft: Values) -> str:

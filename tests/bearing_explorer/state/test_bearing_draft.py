@@ -155,7 +155,7 @@ def test_the_second_row_of_a_pair_has_numbers_of_its_own() -> None:
     editor.choose({"kind": "face-to-face"})
     assert editor.scene.bearing.rows[1].own == own
     refused, _ = editor.set({"second_n_balls": "40"})
-    assert "so few that balls do not overlap" in refused["second_n_balls"]
+    assert "so few that balls of 10 mm do not overlap" in refused["second_n_balls"]
     assert "mm" in refused["second_n_balls"]
     editor.set({"second_n_balls": ""})
     editor.set({"second_ball_diameter_mm": "", "second_contact_angle_deg": ""})

@@ -186,11 +186,19 @@ def as_csv(columns: Mapping[str, NDArray[Any]]) -> str:
     rows = [np.asarray(column).ravel() for column in columns.values()]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
+    writer.writerow([_cell(name) for name in columns])
     for i in range(max((row.size for row in rows), default=0)):
         writer.writerow([_cell(row[i]) if i < row.size else "" for row in rows])
     return text.getvalue()
 
 
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+"""Beginnings of cells that a spreadsheet would compute (OWASP, CSV injection)."""
+
+
 def _cell(value: Any) -> str:
-    return f"{value:.9g}" if isinstance(value, float | np.floating) else str(value)
+    """A number with nine digits, or words that no spreadsheet takes for a formula."""
+    if isinstance(value, float | np.floating):
+        return f"{value:.9g}"
+    text = str(value)
+    return f"'{text}" if isinstance(value, str) and text.startswith(_FORMULA) else text

@@ -27,10 +27,10 @@ from typing import NamedTuple
 import numpy as np
 
 from bearingcore import Scene, presets
-from bearingcore.diagnosis.path_effects import PathEffects, Resonance, recorded_through
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
 from tests.benchmarks.machine import pace
+from tests.helpers.path_effects import PathEffects, Resonance, recorded_through
 
 SCORED, TRAINING = 5812, 4711
 TOGETHER = 8

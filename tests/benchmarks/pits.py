@@ -26,9 +26,10 @@ from typing import NamedTuple
 import numpy as np
 
 from bearingcore import Defect, Scene, presets
-from bearingcore.diagnosis.simulated import pit, simulated_recording
 from bearingcore.diagnosis.size.sizing import AT_MOST, size_defect
+from bearingcore.scene.pit import pit
 from bearingcore.signals.recording import Recording
+from tests.helpers.simulated import simulated_recording
 
 SCORED = 6001
 PIT, LONG, WHOLE, FAINT = "pit", "long", "whole spacings", "faint entry"

@@ -45,8 +45,8 @@ from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.common.numbers import thousands, with_prefix
-from bearingcore.diagnosis.simulated import pit
 from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.scene.pit import pit
 from bearingcore.scene.scene import WITH_MASS
 
 log = logging.getLogger(__name__)

@@ -148,7 +148,7 @@ def _second_opinion(
     healthy.
     """
     shaft = judged.combs.shaft
-    again = judge(signal.as_measured(), part_lines(bearing), shaft, slip, given)
+    again = judge(signal.unwhitened(), part_lines(bearing), shaft, slip, given)
     if again.stands_alone:
         other = max(again.above_other, again.above_other_in_band - ALONE)
         return decide(signal, replace(again, above_other=other), shaft, answer.speed_source)

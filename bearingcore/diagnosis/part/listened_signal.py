@@ -47,10 +47,10 @@ class ListenedSignal:
         self.nothing_to_hear: str | None = None
         if not usable:
             share = min(one.dropped_share for one in faults)
-            self.nothing_to_hear = say.dropped(share)
+            self.nothing_to_hear = say.dropout_message(share)
 
-    def as_measured(self) -> ListenedSignal:
-        """The same, not whitened: what swells where something rings is heard, and tones are."""
+    def unwhitened(self) -> ListenedSignal:
+        """The same signal, not whitened: resonances and tones keep their level."""
         other = copy.copy(self)
         other.whitening = None
         return other

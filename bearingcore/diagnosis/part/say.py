@@ -16,8 +16,8 @@ from bearingcore.common.numbers import (
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence
 
 
-def dropped(share: float) -> str:
-    """Nothing to hear."""
+def dropout_message(share: float) -> str:
+    """Status where a `share` of the samples dropped out, too many to analyse the rest."""
     return (
         f"Cannot tell: {percent(share, 2)} of the signal is one and the same number, as if the "
         "sensor had dropped out."

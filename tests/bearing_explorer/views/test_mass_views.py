@@ -18,9 +18,9 @@ from bearing_explorer.views.mechanism import WhichMechanism, in_words
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
 from bearingcore import presets, simulate
-from bearingcore.diagnosis.simulated import pit
 from bearingcore.dynamics.ball_motion import contact_resonance
 from bearingcore.plan.balls import mass_share
+from bearingcore.scene.pit import pit
 
 FAN_RIG = presets["fan-rig"]
 MOTOR = presets["6205"]

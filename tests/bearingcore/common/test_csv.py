@@ -1,6 +1,10 @@
 """Tables as files."""
 
+import csv
+import io
+
 import numpy as np
+import pytest
 
 from bearingcore.common.table import as_csv
 
@@ -16,3 +20,11 @@ def test_columns_of_different_length_end_in_empty_cells() -> None:
 
 def test_an_empty_table_is_its_head() -> None:
     assert as_csv({"time_s": np.array([])}) == "time_s\n"
+
+
+@pytest.mark.parametrize("word", ["=cmd|'/C calc'!A0", "+1", "-1", "@SUM(A1)", "\t=1"])
+def test_words_are_no_formulas_to_a_spreadsheet(word: str) -> None:
+    text = as_csv({word: np.array([-1.5]), "name": np.array([word])})
+    head, row = csv.reader(io.StringIO(text, newline=""))
+    assert head == ["'" + word, "name"]
+    assert row == ["-1.5", "'" + word]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore import presets, spectrum
-from bearingcore.diagnosis.path_effects import (
+from tests.helpers.path_effects import (
     NO_EFFECTS,
     PathEffects,
     Resonance,

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Load, presets, spectrum
-from bearingcore.diagnosis.simulated import pit, simulated_recording
+from bearingcore.scene.pit import pit
+from tests.helpers.simulated import simulated_recording
 
 CWRU = presets["6205"].replace(
     load=Load(fy=-400.0), shaft_speed=1796 * math.pi / 30.0, contact_damping=300.0

@@ -7,12 +7,12 @@ import math
 import pytest
 
 from bearingcore import presets
-from bearingcore.diagnosis.simulated import pit
 from bearingcore.dynamics.adaptive import simulate_adaptive
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.plan import SETTLED, VIBRATION, plan
 from bearingcore.plan.balls import compare_balls, mass_share
+from bearingcore.scene.pit import pit
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
 

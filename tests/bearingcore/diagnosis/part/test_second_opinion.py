@@ -75,7 +75,7 @@ def test_gears_and_tones_that_are_not_whitened_name_no_part():
     for seed in range(6):
         healthy = background(MOTOR, np.random.default_rng([31, seed]))
         judged = judge(
-            ListenedSignal(Recording(healthy, MOTOR.rate, ("y",))).as_measured(),
+            ListenedSignal(Recording(healthy, MOTOR.rate, ("y",))).unwhitened(),
             part_lines(MOTOR.bearing), MOTOR.turns, 0.02,
         )  # fmt: skip
         assert not judged.stands_alone

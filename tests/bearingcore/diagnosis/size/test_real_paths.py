@@ -7,9 +7,9 @@ import math
 import pytest
 
 from bearingcore import size_defect
-from bearingcore.diagnosis.path_effects import PathEffects, recorded_through
 from bearingcore.diagnosis.size.path_fit import DIRECT
 from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
+from tests.helpers.path_effects import PathEffects, recorded_through
 from tests.helpers.recordings import RIG
 
 

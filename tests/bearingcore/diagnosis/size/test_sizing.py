@@ -8,17 +8,18 @@ import numpy as np
 import pytest
 
 from bearingcore import Defect, Scene, presets, simulate
-from bearingcore.diagnosis.simulated import pit, simulated_recording
 from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
 from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import Sizing, judged, size_defect
 from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.files.table import read_table
+from bearingcore.scene.pit import pit
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing_proof import SCORED, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
+from tests.helpers.simulated import simulated_recording
 
 
 @pytest.fixture(scope="module")

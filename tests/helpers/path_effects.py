@@ -1,8 +1,7 @@
-"""What lies between a motion and its measurement: wandering cages, paths, knocks, tones, noise.
+"""Effects between a motion and its measurement: wandering cages, paths, knocks, tones, noise.
 
 A simulated motion has a cage that turns steadily and a sensor that feels the housing itself. Real
-ones have neither. Each effect can be switched off by itself, so that a method can be asked which of
-them it bears.
+ones have neither. Each effect can be switched off by itself, to find which of them a method bears.
 
 Quantity                                   | Symbol | Name           | Unit
 ------------------------------------------ | ------ | -------------- | ----
@@ -21,11 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.diagnosis.simulated import SETTLING
 from bearingcore.dynamics.motion import simulate
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
 from bearingcore.statics.passes import crossings
+from tests.helpers.simulated import SETTLING
 
 SLOWEST_WANDER = 0.3
 """[Hz] The cage's speed wanders no slower than this, and no faster than the cage turns."""

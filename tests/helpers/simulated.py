@@ -1,49 +1,16 @@
-"""Simulated measurements: what a sensor on the housing would record of a scene."""
+"""Simulated measurements of an accelerometer on the housing."""
 
 from __future__ import annotations
-
-import dataclasses
-import math
 
 import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.dynamics.motion import simulate
-from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
 
 SETTLING = 0.12
 """[s] of motion before the recording begins: several times the slowest mode's decay."""
-
-
-def pit(scene: Scene, length: float, race: str = "outer", depth: float | None = None) -> Defect:
-    """A small pit of a race, in the middle of the load zone, with the edges that geometry asks for.
-
-    Parameters
-    ----------
-    scene
-        whose bearing and load it is for.
-    length
-        along the race [m]; seeded pits of test rigs are 0.2 to 0.5 mm.
-    race
-        "outer" or "inner".
-    depth
-        [m]; None: deep enough that no ball reaches the floor, as far as a ball goes.
-
-    Raises
-    ------
-    ValueError
-        for a length that is not above 0, or a depth that the ball does not roll over.
-    """
-    length = checks.number("length", length, above=0.0, unit="m")
-    bearing = scene.bearing
-    if depth is None:
-        depth = min(0.25 * length, 0.5 * bearing.ball_radius)
-    center = math.atan2(scene.load.fy, scene.load.fx) if scene.load.vector[:2].any() else 0.0
-    made = Defect(0.0, depth, center, race, "exact")
-    extent = min(length / made.raceway_radius(bearing), 2.0 * math.pi)
-    return dataclasses.replace(made, extent=extent)
 
 
 def simulated_recording(
@@ -55,7 +22,7 @@ def simulated_recording(
     seed: int = 0,
     with_mass: bool | None = None,
 ) -> Recording:
-    """What an accelerometer on the housing would record of a scene, its transient left out.
+    """Acceleration that a sensor on the housing records of a scene, its transient left out.
 
     Parameters
     ----------

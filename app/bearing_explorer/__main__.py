@@ -16,7 +16,6 @@ from typing import Any
 for _library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
-from bearing_explorer.serve import heap  # noqa: E402
 from bearing_explorer.serve.log import LEVELS, begin  # noqa: E402
 
 NOT_KEPT = (
@@ -104,17 +103,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     chosen = options(arguments)
     begin(chosen.log_level)
-    heap.keep_small()
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
     from bearing_explorer.page import TABS, page
-    from bearing_explorer.results.first_start import FirstStart
-    from bearing_explorer.serve import idle_collection
-    from bearing_explorer.serve.limits import MEGABYTE, Limits
-    from bearing_explorer.serve.long_addresses import LONGEST_HEADER, send_on
-    from bearing_explorer.serve.serving import make_server, quiet_for
-    from bearing_explorer.serve.threads import still_at_work
+    from bearing_explorer.results import compiling
+    from bearing_explorer.serve.serving import Limits, freeze_startup_objects, make_server
     from bearing_explorer.state.lessons import faults_in, lessons_in, own_folder
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
@@ -126,7 +120,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
         _load_figures()
 
-    first_start = FirstStart(_say, load)
     if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
         bearingcore.warm(report=_say)
         load()
@@ -143,16 +136,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
             origins=chosen.allow_websocket_origin or (),
             root_path=chosen.root_path,
             num_procs=chosen.num_procs,
-            longest_header=LONGEST_HEADER,
-            not_yet=first_start.words,
+            startup_message=compiling.startup_message,
             frame_ancestors=chosen.frame_ancestor or (),
-            bounds=Limits(
+            limits=Limits(
                 sessions=chosen.max_sessions,
-                message=chosen.max_message_mb * MEGABYTE,
+                message=chosen.max_message_mb * 2**20,
                 idle=60.0 * chosen.idle_minutes,
             ),
         )
-        send_on(server)
     except OSError as error:
         _say(f"Cannot listen on {chosen.address} port {chosen.port}: {error.strerror}.")
         return 1
@@ -171,32 +162,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
     url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
 
     def ready() -> None:
-        if first_start.failed is not None:
+        if compiling.failed() is not None:
             loop.stop()
             return
-        idle_collection.begin(quiet_for)
+        freeze_startup_objects()
         _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
 
-    idle_collection.put_aside()
+    freeze_startup_objects()
     server.start()
-    if chosen.num_procs > 1:
-        loop.add_callback(ready)
-    else:
-        first_start.begin(done=lambda: loop.add_callback(ready))
+    # with several processes it finds all compiled, and reads it from disk
+    compiling.begin(_say if chosen.num_procs == 1 else str, load, lambda: loop.add_callback(ready))
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:
         loop.start()
     finally:
         server.stop()
-    if first_start.failed is not None:
-        raise first_start.failed
+    if (failure := compiling.failed()) is not None:
+        raise failure
     _say("Stopped.")
-    if still_at_work() or first_start.at_work:
-        first_start.give_up()
-        sys.stderr.flush()
-        os._exit(0)  # at once: what threads still compute has nobody to be shown to
-    return 0
+    sys.stderr.flush()
+    os._exit(0)  # at once: Python would wait for what threads still compute, for minutes
 
 
 def _load_figures() -> None:

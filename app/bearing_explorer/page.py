@@ -14,13 +14,12 @@ import panel as pn
 import bearingcore
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.results import compiling
+from bearing_explorer.serve.fast import PLAIN
 from bearing_explorer.serve.live import on_loop
-from bearing_explorer.serve.taking_apart import models_at_end, take_apart
 from bearing_explorer.serve.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy
-from bearing_explorer.views.base import View
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
 from bearing_explorer.views.bearing_list import BearingList
@@ -131,7 +130,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("theme_script", asset_text("theme.js"))
     template.add_variable("connection_script", asset_text("connection.js"))
     template.add_variable("order_script", asset_text("in_order.js"))
-    template.add_variable("figures_script", asset_text("fast_figures.js"))
+    template.add_variable("figures_script", "" if PLAIN else asset_text("fast_figures.js"))
     template.add_variable("python_install", PYTHON_INSTALL)
     template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
     template.add_variable("page_script", scripts("projector.js", "page.js"))
@@ -146,14 +145,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("packed", pn.pane.Bokeh(explorer.packed.anchor, margin=0))
     doc = pn.state.curdoc
     pn.state.onload(lambda: on_loop(doc, explorer.start))
-
-    models = models_at_end(doc)
-
-    def over(_: object) -> None:
-        explorer.stop()
-        take_apart((explorer, template, models), (Explorer, View))
-
-    pn.state.on_session_destroyed(over)
+    pn.state.on_session_destroyed(lambda _: explorer.stop())
     if doc is not None:
         doc.title = "Bearing explorer"
     return template

@@ -25,7 +25,6 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.defect_words import extent_words
 from bearing_explorer.plots.element_words import row_words
 from bearing_explorer.results.results import Results
-from bearing_explorer.serve.taking_apart import take_apart_now
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
 from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
@@ -93,9 +92,6 @@ def report(
         "items": [json_item(figure.layout) for figure in shown],
         "figures": [plot.id for figure in shown for plot in figure.view.figures],
     }
-    for figure in drawn:
-        document = figure.document
-        take_apart_now((*document.models, document.config, [figure.view]), (View,))
     return whole
 
 

@@ -28,13 +28,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.results.scheduler import Scheduler
 from bearing_explorer.results.single_flight import WouldWait
 from bearing_explorer.serve import log as write
-from bearing_explorer.serve.live import (
-    good_byes,
-    make_models,
-    models_made,
-    one_message,
-    send_at_once,
-)
+from bearing_explorer.serve.live import one_message, send_at_once
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
@@ -290,13 +284,10 @@ class Explorer:
     def start(self) -> None:
         """The page is up: draw."""
         send_at_once(self._doc)
-        if self._doc is not None:
-            good_byes[self._doc] = self.say_good_bye
         self.draw()
 
     def stop(self) -> None:
         """The session is over: nothing is begun any longer, and what waits for its turn is not."""
-        good_byes.pop(self._doc, None)
         self._worker.stop()
         self._idle_task.end()
         self.jobs.stop()
@@ -605,7 +596,6 @@ class Explorer:
             self._views[name] = await in_thread(self._make, name, slow=True)
         if name not in self._containers:
             self._containers[name] = self._container(self._views[name])
-            await models_made(self._doc, self.main, self._containers[name])
         new = self._containers[name] not in self.main
         await one_message(self._doc, lambda: self._put_up(name), new_models=new)
 
@@ -630,9 +620,6 @@ class Explorer:
 
         async def fill() -> None:
             made = make()
-            await asyncio.sleep(0.0)
-            if self._doc is not None:
-                make_models(layout, made, self._doc)
             await asyncio.sleep(0.0)
 
             def change() -> None:
@@ -735,14 +722,9 @@ class Explorer:
 
         await one_message(self._doc, change)
 
-    async def say_good_bye(self, words: str) -> None:
-        """The last words of a session, on its page."""
-        line = {"mood": "bad", "words": words, "details": []}
-        await one_message(self._doc, lambda: self.status.put(line=line))
-
     async def _failed(self, error: Exception) -> None:
         """Something no view expected: say so, answer the mark, keep the last good picture."""
-        write.trouble("failed", self._doc, scene=write.scene_name(self.scene), view=self._shown)
+        write.log_warning("failed", self._doc, scene=write.scene_name(self.scene), view=self._shown)
         self._drawn_mark = self._mark
 
         def change() -> None:

@@ -3,7 +3,6 @@
 // console alone.
 {
   const WAIT = 1013         // the server's code: come back later
-  const TOLD = /was idle/   // the server has said it on the page itself
 
   let leaving = false
   addEventListener("pagehide", () => { leaving = true })
@@ -20,7 +19,7 @@
   }
 
   const over = (event) => {
-    if (leaving || event.code === 1000 || TOLD.test(event.reason)) return
+    if (leaving || event.code === 1000) return
     const why = event.reason || "The connection to the server is lost."
     const when = event.code === WAIT ? "Reload the page in a minute." : "Reload the page to go on."
     say(`${why} ${when}`)

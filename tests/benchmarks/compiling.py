@@ -47,7 +47,6 @@ def compile_all() -> None:
     from bearingcore import warm_up
 
     imported = time.process_time() - begun
-    warm_up.processors = lambda: 1  # or another process compiles the motions
     warm_up.warm(lambda _: None)
     from tests.benchmarks.machine import pace
 

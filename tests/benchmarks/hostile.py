@@ -5,7 +5,7 @@ page sends (`tests.fuzz.hostile_messages`), connecting again whenever they are c
 send is waited for until the server has done with it or has cut the connection. Meanwhile somebody
 moves a slider, and `/liveness` is asked over and over, each from a process of its own; and inside
 the server each turn of its event loop is timed. Nothing from outside may hold that loop longer than
-0.25 s. The exit code says whether the good session and `/liveness` were answered every time,
+1 s. The exit code says whether the good session and `/liveness` were answered every time,
 whether no turn took more processor time than that, and whether the log is without a traceback.
 """
 

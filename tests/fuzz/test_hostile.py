@@ -8,7 +8,7 @@ import random
 from typing import Any
 
 import pytest
-from bearing_explorer.serve.limits import Limits
+from bearing_explorer.serve.serving import Limits
 
 from tests.bearing_explorer.serve.test_serving import served
 from tests.fuzz.hostile_messages import SHAPES, made

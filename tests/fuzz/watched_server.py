@@ -19,7 +19,7 @@ from collections import deque
 from pathlib import Path
 from typing import Any
 
-LONGEST_HOLD = 0.25  # [s] that nothing from outside may hold the event loop
+LONGEST_HOLD = 1.0  # [s] that nothing from outside may hold the event loop
 LOOKED_AT = 0.08  # [s] after which a turn is asked where it is
 KEPT = 12
 LONG = 0.02  # [s] of work from which a turn is noted with its time

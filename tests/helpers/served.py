@@ -7,9 +7,8 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from bearing_explorer.page import page
-from bearing_explorer.serve import serving
-from bearing_explorer.serve.limits import Limits
-from bearing_explorer.serve.serving import make_server
+from bearing_explorer.serve.serving import Limits, make_server
+from bearing_explorer.serve.websocket import LiveSocket
 from tornado.httpclient import AsyncHTTPClient, HTTPResponse
 
 from tests.helpers.loops import run
@@ -19,17 +18,17 @@ SMALL = Limits(sessions=3, message=300_000, idle=3600.0)
 
 
 def served(
-    test: Callable[[str, Any], Awaitable[None]], bounds: Limits = SMALL, **options: Any
+    test: Callable[[str, Any], Awaitable[None]], limits: Limits = SMALL, **options: Any
 ) -> None:
     """Run `test(url, server)` beside a server, both on one event loop."""
 
     async def both() -> None:
-        server = make_server(page=page, port=0, address="127.0.0.1", bounds=bounds, **options)
+        server = make_server(page=page, port=0, address="127.0.0.1", limits=limits, **options)
         server.start()
         try:
             await test(f"http://127.0.0.1:{server.port}{server.prefix}/", server)
         finally:
-            for socket in list(serving.sockets):
+            for socket in list(LiveSocket.connected):
                 socket.close()
             server.stop()
 

@@ -1,70 +1,113 @@
-"""What plans, orbits and balls with mass are made with, compiled before anybody waits for it.
+"""Kernels are compiled in one thread of the server: first what the first tab needs, then the rest.
 
-That takes longer than a first start should, and a compiler in this process would hold up every
-page. So another process does it, once the first page is asked for, and leaves the machine code on
-disk. Until then the page draws as it does while a slider moves.
+The first part takes 25 s of processor time on a first start; a waiting page stands in for the
+explorer meanwhile. The second, for balls with mass and orbits, takes 45 s more; the page is open
+then, and views that need it say so. Afterwards both are read from disk in a second.
 """
 
 from __future__ import annotations
 
-import atexit
-import os
-import subprocess
+import logging
 import threading
+import time
+from collections.abc import Callable
 
 from numba.core.compiler_lock import global_compiler_lock
 
-from bearingcore import kernels, presets
+from bearingcore import kernels, presets, warm
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.plan import SETTLED, plan
-from bearingcore.warm_up import motions_with_mass, start_python
+from bearingcore.warm_up import motions_with_mass
+
+log = logging.getLogger(__name__)
+
+WAITING = (
+    "The kernels are being compiled for this processor. That is done once and takes about "
+    "half a minute; {:.0f} s have passed. The explorer opens here by itself."
+)
 
 
 class StillCompiling(ValueError):  # noqa: N818
-    """Something that cannot be had until all is compiled, and comes by itself then."""
+    """Something that cannot be computed until all is compiled, and comes by itself then."""
 
     def __init__(self) -> None:
         super().__init__(
             "balls with mass are still being compiled for this computer, once; that takes about "
-            "half a minute"
+            "a minute"
         )
 
 
-_NICE = 5
-"""How far the page goes first: at 10 two busy processes of others leave hardly anything."""
-_IMPORT = f"from {__name__} import compile_behind"
-_lock = threading.Lock()
-_helper: subprocess.Popen[str] | None = None
-_begun = False
+class Compilation:
+    """The compiling of a process; `begin` starts it."""
+
+    def __init__(self) -> None:
+        self.failed: Exception | None = None
+        """The error that ended the first part."""
+        self._begun = 0.0  # [s] of `time.monotonic`; 0 before
+        self._first = threading.Event()
+        self._all = threading.Event()
+        self._lock = threading.Lock()
+
+    def begin(
+        self,
+        report: Callable[[str], object] = log.info,
+        load: Callable[[], object] = lambda: None,
+        done: Callable[[], object] = lambda: None,
+    ) -> None:
+        """Compile in a thread; does nothing the second time.
+
+        `report` gets a line for each part. `load` is called before there is a page: to import what
+        takes long, and must not be imported by two threads at once. `done` is called in the thread
+        once the first part has ended, however it ended.
+        """
+        with self._lock:
+            if self._begun:
+                return
+            self._begun = time.monotonic()
+        threading.Thread(
+            target=self._work, args=(report, load, done), name="compile", daemon=True
+        ).start()
+
+    def startup_message(self) -> str:
+        """A sentence for the waiting page; empty once the first part is compiled."""
+        if not self._begun or self._first.is_set():
+            return ""
+        return WAITING.format(time.monotonic() - self._begun)
+
+    def ready(self) -> bool:
+        """Whether all is compiled, or nothing is being compiled."""
+        return not self._begun or self._all.is_set()
+
+    def _work(self, report: Callable[[str], object], *then: Callable[[], object]) -> None:
+        load, done = then
+        try:
+            warm(report)
+            load()
+        except Exception as error:
+            self.failed = error
+        finally:
+            self._first.set()
+            done()
+        try:
+            if self.failed is None and not all_on_disk():
+                compile_rest()
+        except Exception:
+            log.exception("compiling failed; the rest is compiled where it is needed")
+        finally:
+            self._all.set()
 
 
-def begin() -> None:
-    """Start compiling what is not on disk yet; does nothing the second time."""
-    global _helper, _begun
-    with _lock:
-        if _begun:
-            return
-        _begun = True
-        if all_on_disk():
-            return
-        # in a session of its own: Ctrl+C is for the server, which ends it
-        _helper = start_python(f"{_IMPORT}; compile_behind()", new_session=True)
-        if _helper is not None:  # or all is compiled where it is needed
-            atexit.register(_end)
+_current = Compilation()
+begin, ready, startup_message = _current.begin, _current.ready, _current.startup_message
 
 
-def all_on_disk() -> bool:
-    """Whether an earlier start has compiled everything."""
-    return all(map(kernels.on_disk, _slowest()))
-
-
-def ready() -> bool:
-    """Whether all is compiled, or nobody is at it."""
-    return _helper is None or _helper.poll() is not None
+def failed() -> Exception | None:
+    """The error that ended the first part; None where all is well."""
+    return _current.failed
 
 
 def here() -> bool:
-    """Whether another thread of this process compiles: who needs that too waits for seconds."""
+    """Whether a thread of this process compiles: what needs that too waits for seconds."""
     lock = getattr(global_compiler_lock, "_lock", None)
     if lock is None or not lock.acquire(blocking=False):
         return lock is not None
@@ -72,14 +115,12 @@ def here() -> bool:
     return False
 
 
-def compile_behind() -> None:
-    """`compile_all`, behind what serves the page."""
-    if hasattr(os, "nice"):
-        os.nice(_NICE)
-    compile_all()
+def all_on_disk() -> bool:
+    """Whether an earlier start has compiled everything."""
+    return all(map(kernels.on_disk, _slowest()))
 
 
-def compile_all() -> None:
+def compile_rest() -> None:
     """Move balls with mass, and plan what calls every kernel that planning and orbits need."""
     motions_with_mass()
     for name in ("fan-rig", "liew-lim"):
@@ -95,9 +136,3 @@ def _slowest() -> tuple[object, ...]:
         kernels.march_balls,
         kernels.race_loads,
     )
-
-
-def _end() -> None:
-    if _helper is not None and _helper.poll() is None:
-        _helper.kill()
-        _helper.wait()

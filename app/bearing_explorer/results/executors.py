@@ -10,9 +10,8 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor as Pool
 from typing import TypeVar
-
-from bearing_explorer.serve.threads import Pool
 
 Result = TypeVar("Result")
 

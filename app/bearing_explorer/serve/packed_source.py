@@ -30,6 +30,8 @@ from collections.abc import Mapping
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, Range1d, Spacer
 
+from bearing_explorer.serve.fast import PLAIN
+
 Columns = Mapping[str, np.ndarray]
 
 _UNPACK = """
@@ -89,7 +91,7 @@ class PackedSource:
         if not columns:
             raise ValueError(f"source {name!r} has no columns; it needs at least one")
         source = ColumnDataSource(
-            data={column: [] for column in columns}, name=name, syncable=False
+            data={column: [] for column in columns}, name=name, syncable=PLAIN
         )
         self._sources[name], self._columns[name] = source, columns
         return source
@@ -98,7 +100,7 @@ class PackedSource:
         """Declare a range that `send` can move; also its bounds for the reset tool."""
         if name in self._ranges:
             raise ValueError(f"range {name!r} is declared twice; names are one per session")
-        moved = Range1d(start, end, syncable=False)
+        moved = Range1d(start, end, syncable=PLAIN)
         self._ranges[name] = moved
         return moved
 
@@ -114,10 +116,22 @@ class PackedSource:
         `mark` travels with the packet, so that the browser knows which inputs are drawn;
         `worked` is how long they took once they had their turn [s].
         """
+        if PLAIN:
+            self._assign(data, ranges or {})
+            data, ranges = {}, {}
         packed = self.pack(data, ranges or {}, mark, worked)
         self.introduce()
         self._packet.data = {"packed": packed}
         return packed.nbytes
+
+    def _assign(
+        self, data: Mapping[str, Columns], ranges: Mapping[str, tuple[float, float]]
+    ) -> None:
+        """Change sources and ranges by Bokeh's own messages; the packet holds the mark alone."""
+        for name, columns in data.items():
+            self._sources[name].data = dict(columns)
+        for name, (start, end) in ranges.items():
+            self._ranges[name].update(start=start, end=end, reset_start=start, reset_end=end)
 
     def introduce(self) -> None:
         """Let the browser's callback know all that is declared.

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
 from bokeh.document import Document
 
-from bearing_explorer.serve.bokeh_private import parts_of, shown_in
+from bearing_explorer.serve.fast import parts_of
 
 
 class PageTemplate(pn.Template):
@@ -18,17 +17,12 @@ class PageTemplate(pn.Template):
     named makes Panel write out the whole template as text.
     """
 
-    beside: Sequence[object] = ()
-    """What Panel has made for the document beside the parts."""
-
     def server_doc(self, doc: Document | None = None, *arguments: Any, **named: Any) -> Document:
         """The document of a session."""
         if doc is None:
             return super().server_doc(doc, *arguments, **named)
         with doc.models.freeze():
-            made = super().server_doc(doc, *arguments, **named)
-        self.beside = shown_in(doc)
-        return made
+            return super().server_doc(doc, *arguments, **named)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(parts_of(self))})"

@@ -33,11 +33,7 @@ from bearing_explorer.results.explore import (
     refine,
 )
 from bearing_explorer.results.jobs import JobState, Work
-from bearing_explorer.serve.bokeh_private import plots_of
-from bearing_explorer.serve.drawn_by import DrawnBy
-from bearing_explorer.serve.live import counted_once
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.serve.taking_apart import take_figure_apart
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import Sweep, focused, value_of
@@ -122,8 +118,6 @@ class ExplorePlane(JobView[Plane]):
     _filling: asyncio.Task[None] | None = None
     _drawn: Plane | None = None  # what the figures on the page show
     _making: Plane | None = None  # what those on their way are made for
-    _drawn_by: DrawnBy | None = None  # those on the page
-    _made_by: DrawnBy | None = None  # those on their way
 
     def build(self, packed: PackedSource) -> Any:
         self._mark = packed.source("explore_mark", "x", "y")
@@ -311,8 +305,7 @@ class ExplorePlane(JobView[Plane]):
             return
         started = time.perf_counter()
         self._drawn = plane
-        with counted_once(self._mark.document):
-            self._news.send(field_of(plane, self._at))
+        self._news.send(field_of(plane, self._at))
         now = time.perf_counter()
         self._next_show = now + PAUSE * (now - started)
 
@@ -343,9 +336,7 @@ class ExplorePlane(JobView[Plane]):
             responsive=True,
         )
         initialize_dynamic(layout)  # now, and not in the turn in which the models are made
-        pane = pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
-        self._made_by = DrawnBy(pane, pane.layout, pane.widget_box, layout, self._news)
-        return pane
+        return pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
 
     def _filled(self) -> None:
         """The figures are on the page; there may be a newer map than theirs."""
@@ -353,11 +344,6 @@ class ExplorePlane(JobView[Plane]):
         self._mark.js_on_change("data", *self._followers)
         self._caption.figures = [plot.id for plot in self._plots]
         self._filling, self._drawn = None, self._making
-        if self._drawn_by is not None:
-            take_figure_apart(self._drawn_by)
-        self._drawn_by, self._made_by = self._made_by, None
-        assert self._drawn_by is not None
-        self._drawn_by.roots += plots_of(self._drawn_by.roots[0])
         newest, self.found = self.found, self._drawn
         if newest is not None:
             self._show(newest)

@@ -14,7 +14,6 @@ from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.messages import UploadBegins, UploadPiece, read
-from bearing_explorer.serve.bokeh_private import send_message
 
 
 class FileUpload(JSComponent):
@@ -42,7 +41,7 @@ class FileUpload(JSComponent):
 
     def want(self, first: int, of: int) -> None:
         """Ask for the piece that begins at a byte, of the upload with a number."""
-        send_message(self, {"first": first, "of": of})
+        self._send_msg({"first": first, "of": of})
 
     def _take(self, data: Any) -> None:
         message = read(UploadBegins | UploadPiece, data)  # type: ignore[arg-type]

@@ -9,7 +9,6 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.serve.bokeh_private import send_message
 
 
 class ShareBar(JSComponent):
@@ -32,4 +31,4 @@ class ShareBar(JSComponent):
 
     def answer(self, **news: Any) -> None:
         """Give the browser what it asked for: a `file` to save, a `kept` scene, a `report`."""
-        send_message(self, news)
+        self._send_msg(news)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 
 import pytest
 from bearing_explorer.results import compiling
+from bearing_explorer.results.compiling import Compilation
 from bearing_explorer.session import Explorer, Inputs, Planned, _planned
 
 from bearingcore import kernels, presets
@@ -13,60 +15,55 @@ from bearingcore.plan import SETTLED
 from tests.helpers.compiled import compile_once
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
-
-
-class Helper:
-    """A process that ends when it is told to."""
-
-    started: list[list[str]]
-
-    def __init__(self, command: list[str], **_: object) -> None:
-        self.started.append(command)
-        self.returncode: int | None = None
-
-    def poll(self) -> int | None:
-        return self.returncode
+from tests.helpers.served import wait_until
 
 
 @pytest.fixture
-def fresh(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
-    """A process that has not begun; what it starts."""
-    started: list[list[str]] = []
-    monkeypatch.setattr(Helper, "started", started, raising=False)
-    monkeypatch.setattr(compiling, "_begun", False)
-    monkeypatch.setattr(compiling, "_helper", None)
-    monkeypatch.setattr(compiling.atexit, "register", lambda act: None)
-    monkeypatch.setattr(compiling.subprocess, "Popen", Helper)
-    return started
-
-
-def test_it_begins_once_and_only_where_something_is_missing(
-    fresh: list[list[str]], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(kernels, "on_disk", lambda kernel: True)
-    compiling.begin()
-    assert fresh == []
-    assert compiling.ready()
-    monkeypatch.setattr(compiling, "_begun", False)
+def compilation(monkeypatch: pytest.MonkeyPatch) -> Compilation:
+    """A process that has not begun; nothing is on disk."""
+    made = Compilation()
+    for name in ("begin", "ready", "startup_message"):
+        monkeypatch.setattr(compiling, name, getattr(made, name))
     monkeypatch.setattr(kernels, "on_disk", lambda kernel: False)
-    compiling.begin()
-    compiling.begin()
-    assert len(fresh) == 1
-    assert "compile_behind" in fresh[0][-1]
+    return made
 
 
-def test_motions_are_not_planned_until_it_is_done(
-    fresh: list[list[str]], monkeypatch: pytest.MonkeyPatch
+def test_a_sentence_stands_for_the_page_until_the_first_part_is_compiled(
+    compilation: Compilation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    go_on, first, rest = threading.Event(), threading.Event(), threading.Event()
+    said: list[str] = []
+    monkeypatch.setattr(compiling, "warm", lambda report: report(str(go_on.wait(60.0))))
+    monkeypatch.setattr(compiling, "compile_rest", lambda: rest.wait(60.0))
+    assert compilation.startup_message() == "", "nothing is being compiled yet"
+    compilation.begin(said.append, lambda: said.append("loaded"), first.set)
+    compilation.begin(said.append)
+    assert "being compiled for this processor" in compilation.startup_message()
+    go_on.set()
+    assert first.wait(60.0)
+    assert compilation.startup_message() == ""
+    assert said == ["True", "loaded"]
+    assert not compilation.ready(), "the rest is being compiled"
     inputs = Inputs(presets["fan-rig"], 0.0, 1, rested=True, planned=("load", SETTLED))
-    monkeypatch.setattr(kernels, "on_disk", lambda kernel: False)
-    compiling.begin()
-    assert not compiling.ready()
     assert _planned(inputs, lambda: False) == Planned(("load",), compiled=False)
-    compiling._helper.returncode = 0
-    assert compiling.ready()
+    rest.set()
+    wait_until(compilation.ready)
     assert _planned(inputs, lambda: False) == Planned(("load", SETTLED), compiled=True)
     assert _planned(inputs, lambda: True).views == (), "overtaken"
+
+
+def test_an_error_of_the_first_part_is_kept(
+    compilation: Compilation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def warm(_: object) -> None:
+        raise OSError("no compiler")
+
+    over = threading.Event()
+    monkeypatch.setattr(compiling, "warm", warm)
+    compilation.begin(print, done=over.set)
+    assert over.wait(60.0)
+    assert str(compilation.failed) == "no compiler"
+    assert compilation.startup_message() == ""
 
 
 @pytest.mark.parametrize(

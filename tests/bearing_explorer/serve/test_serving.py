@@ -7,19 +7,18 @@ import json
 import logging
 import re
 import signal
-import threading
-import time
 from pathlib import Path
 from typing import Any
 
 import pytest
-from bearing_explorer.serve import serving
-from bearing_explorer.serve.allowed_messages import by_name, welcome
+from bearing_explorer.serve.allowed_messages import component_message, is_allowed
 from bearing_explorer.serve.headers import policy
-from bearing_explorer.serve.limits import Limits
-from bearing_explorer.serve.small_pages import message_page
+from bearing_explorer.serve.pages import message_page
+from bearing_explorer.serve.serving import Limits
+from bearing_explorer.serve.websocket import LiveSocket
+from bokeh.document import Document
 from bokeh.model import util as model_util
-from bokeh.protocol.messages.pull_doc_reply import pull_doc_reply
+from bokeh.models import CustomJS, Spacer
 from tornado.httpclient import HTTPClientError
 from tornado.websocket import websocket_connect
 
@@ -74,27 +73,7 @@ def test_until_there_is_a_page_words_stand_in_its_place() -> None:
         words[0] = ""
         assert (await get(url)).code == 200
 
-    served(wait, not_yet=lambda: words[0])
-
-
-def test_whoever_comes_too_late_is_asked_to_come_back() -> None:
-    async def fill(url: str, server: Any) -> None:
-        there = [PageClient(url) for _ in range(SMALL.sessions)]
-        for client in there:
-            assert await client.open_page() == 200
-        for client in there[1:]:
-            await client.open_socket(origin(url))
-        late = await get(url)
-        assert late.code == 503
-        assert late.headers["Retry-After"] == "60"
-        assert "room for 3 people" in late.body.decode()
-        # those that are in stay in, and can connect
-        await there[0].open_socket(origin(url))
-        assert not there[0].closed
-        # a name of one's own does not lead past the door
-        assert (await get(url + "?bokeh-session-id=mine")).code in (400, 503)
-
-    served(fill)
+    served(wait, startup_message=lambda: words[0])
 
 
 def test_names_of_sessions_cannot_be_made_up() -> None:
@@ -116,56 +95,61 @@ def test_names_of_sessions_cannot_be_made_up() -> None:
 NEW_MODEL = {"type": "object", "name": "CustomJS", "id": "x1", "attributes": {"code": "alert(1)"}}
 
 
+def told(model: Any, data: Any) -> dict[str, Any]:
+    """A message to a component, as BokehJS writes it."""
+    values = {"type": "map", "entries": [["model", model], ["data", data]]}
+    event = {"type": "event", "name": "data_event", "values": values}
+    return {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+
+
+def changed(attribute: str, new: Any, model: Any = "known") -> dict[str, Any]:
+    return {"kind": "ModelChanged", "model": model, "attr": attribute, "new": new}
+
+
 @pytest.mark.parametrize(
     "event",
     [
         {"kind": "TitleChanged", "title": "mine"},
         {"kind": "RootAdded", "model": NEW_MODEL},
-        {"kind": "RootRemoved", "model": {"id": "p1"}},
-        {"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "tags", "new": [NEW_MODEL]},
-        {"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "code", "new": "alert(1)"},
-        {"kind": "ModelChanged", "model": NEW_MODEL, "attr": "width", "new": 1},
-        {"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "x", "new": [0] * 50_000},
-        {"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "x", "new": {"type": "ndarray"}},
-        {"kind": "ColumnDataChanged", "model": {"id": "p1"}, "attr": "data", "data": {}},
+        {"kind": "RootRemoved", "model": {"id": "known"}},
+        changed("tags", [NEW_MODEL]),
+        changed("code", "alert(1)"),
+        changed("width", 1, NEW_MODEL),
+        changed("width", 1, {"id": "other"}),
+        changed("no_property", 1),
+        changed("css_classes", ["a"] * 50_000),
+        changed("width", {"type": "ndarray"}),
+        {"kind": "ColumnDataChanged", "model": {"id": "known"}, "attr": "data", "data": {}},
         {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": NEW_MODEL},
-        {
-            "kind": "MessageSent",
-            "msg_type": "bokeh_event",
-            "msg_data": {"type": "event", "name": "data_event", "values": [NEW_MODEL]},
-        },
-        {"kind": "MessageSent", "msg_type": "other", "msg_data": {}},
         "text",
         None,
         {},
     ],
 )
-def test_what_the_page_never_says_is_dropped(event: Any) -> None:
-    assert not welcome(event)
-
-
-def test_what_the_page_says_passes() -> None:
-    changed = {"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "inner_width", "new": 300}
-    assert welcome(changed)
-    values = {"type": "map", "entries": [["model", {"id": "p1"}], ["data", {"type": "map"}]]}
-    message = {"type": "event", "name": "data_event", "values": values}
-    assert welcome({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": message})
+def test_new_models_and_code_are_dropped(event: Any) -> None:
+    document, known, script = Document(), Spacer(), CustomJS()
+    for root in (known, script):
+        document.add_root(root)
+    if isinstance(event, dict) and event.get("model") == "known":
+        event = event | {"model": {"id": known.id}}
+    assert component_message(event, {}) is None
+    assert not is_allowed(event, document.models)
+    assert is_allowed(changed("width", 300, {"id": known.id}), document.models)
+    assert not is_allowed(changed("code", "alert(1)", {"id": script.id}), document.models)
 
 
 @pytest.mark.parametrize("model", [{"id": "p1"}, NEW_MODEL])
-def test_a_component_that_is_written_out_is_taken_by_its_id_alone(model: dict[str, Any]) -> None:
-    """As BokehJS does with the first message of a component that came with a second tab."""
-    values = {"type": "map", "entries": [["model", model], ["data", {"type": "map"}]]}
-    message = {"type": "event", "name": "data_event", "values": values}
-    event = by_name({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": message})
-    assert welcome(event)
-    assert event["msg_data"]["values"]["entries"][0] == ["model", {"id": model["id"]}]
-    assert event["msg_data"]["values"]["entries"][1] == values["entries"][1]
-
-
-@pytest.mark.parametrize("event", ["text", None, {"msg_data": {"values": {"entries": [1, [2]]}}}])
-def test_what_is_no_message_stays_what_it_is(event: Any) -> None:
-    assert by_name(event) is event
+def test_a_message_reaches_a_component_by_its_id_alone(model: dict[str, Any]) -> None:
+    """BokehJS writes a component out in full that came with a second tab."""
+    data = {"type": "map", "entries": [["a", [1, {"type": "number", "value": "nan"}]]]}
+    name, read = component_message(told(model, data), {})
+    assert name == model["id"]
+    assert str(read) == "{'a': [1, nan]}"
+    piece = {"type": "bytes", "data": {"id": "b1"}}
+    assert component_message(told(model, piece), {"b1": b"abc"}) == (name, b"abc")
+    for wrong in (NEW_MODEL, {"type": "ndarray"}, [0] * 6000, piece):
+        with pytest.raises(ValueError, match=r"plain|too much|form"):
+            component_message(told(model, wrong), {})
 
 
 def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptureFixture) -> None:
@@ -210,130 +194,6 @@ def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptu
     with caplog.at_level(logging.WARNING):
         served(attack)
     assert "Traceback" not in caplog.text
-
-
-@pytest.mark.parametrize(
-    "frames",
-    [
-        ["no json", "{}", "{}"],
-        ['{"msgid": "1", "msgtype": "PUSH-DOC"}', "{}", '{"doc": {}}'],
-        ['{"msgid": "1", "msgtype": "UNKNOWN"}', "{}", "{}"],
-        ['{"msgid": "1", "msgtype": "PATCH-DOC", "num_buffers": -3}', "{}", "[]", "{}"],
-        [b"\x00\x01", "{}", "{}"],
-        ["[" * 100_000, "{}", "{}"],
-        ['{"msgid": "1", "msgtype": "PATCH-DOC"}', "{}", '"' + "x" * 290_000 + '"'],
-        [
-            *('{"msgid": "1", "msgtype": "PATCH-DOC", "num_buffers": 9}', "{}", '{"events": []}'),
-            *('{"id": "a"}', b"x" * 200_000, '{"id": "b"}', b"x" * 200_000),
-        ],
-    ],
-    ids=range(8),
-)
-def test_bad_frames_end_the_connection_with_a_sentence(
-    frames: list[Any], caplog: pytest.LogCaptureFixture
-) -> None:
-    async def attack(url: str, server: Any) -> None:
-        client = PageClient(url)
-        await client.open_page()
-        await client.open_socket(origin(url))
-        await client.send_frames(*frames)
-        await closed(client)
-        assert client._socket is not None
-        assert client._socket.close_code in (1002, 1008, 1009), client._socket.close_code
-        assert not client.errors
-        assert (await get(url)).code == 200, "others are not concerned"
-
-    with caplog.at_level(logging.WARNING):
-        served(attack)
-    assert "Traceback" not in caplog.text
-    assert len(caplog.text) < 3000, "and the log is not flooded"
-
-
-def test_a_page_that_nobody_touches_is_closed_and_told_so() -> None:
-    async def wait(url: str, server: Any) -> None:
-        client = PageClient(url)
-        await client.open_page()
-        await client.connect()
-        assert await client.until_drawn()
-        for socket in serving.sockets:  # a minute passes
-            socket._heard -= 61.0
-        await closed(client)
-        assert any("session is over" in str(words) for words in client.words.values())
-
-    served(wait, Limits(idle=60.0))
-
-
-@pytest.mark.proof
-def test_a_flood_waits_and_others_do_not() -> None:
-    async def flood(url: str, server: Any) -> None:
-        loud, quiet = PageClient(url), PageClient(url)
-        for client in (loud, quiet):
-            await client.open_page()
-            await client.connect()
-            assert await client.until_drawn()
-        for k in range(100):
-            await loud.ask(set={"extent_deg": 10.0 + 0.1 * k})
-        await quiet.ask(set={"extent_deg": 40.0})
-        assert await quiet.until_drawn()
-        assert loud.drawn < loud.mark, "the flood is not over yet"
-        assert await loud.until_drawn(), "nothing is lost of what was sent too fast"
-
-    served(flood, Limits(messages_a_second=25.0))
-
-
-def test_long_work_of_some_does_not_keep_others_from_dragging() -> None:
-    async def work(url: str, server: Any) -> None:
-        busy, slow, quick = PageClient(url), PageClient(url), PageClient(url)
-        for client in (busy, slow, quick):
-            await client.open_page()
-            await client.connect()
-            assert await client.until_drawn()
-        await busy.show("speed-run", "Run up")
-        await busy.choose("Speeds", "193")
-        await busy.press("Run up")
-        await slow.show("vibration")
-        for k in range(20):
-            await slow.ask(set={"extent_deg": 10.0 + k})
-            await quick.ask(set={"extent_deg": 20.0 + k})
-            assert await quick.until_drawn()
-        words = [str(said) for said in busy.words.values()]
-        assert any(said.startswith("Computing") for said in words), "the job is not done yet"
-
-    served(work)
-
-
-def test_lines_of_the_log_name_session_scene_view_and_time(
-    caplog: pytest.LogCaptureFixture,
-) -> None:
-    names: list[str] = []
-
-    async def look(url: str, server: Any) -> None:
-        client = PageClient(url)
-        await client.open_page()
-        await client.connect()
-        assert await client.until_drawn()
-        await client.ask(set={"extent_deg": 21.0})
-        assert await client.until_drawn()
-        names.extend(session.id for session in session_of(server))
-        await client.close()
-        end = time.monotonic() + 120.0
-        while not any(r.getMessage().startswith("left ") for r in caplog.records):
-            assert time.monotonic() < end
-            await asyncio.sleep(0.01)
-
-    with caplog.at_level(logging.INFO, "bearing_explorer"):
-        served(look)
-    lines = [r.getMessage() for r in caplog.records if r.name == "bearing_explorer"]
-    updates = [
-        re.fullmatch(r"update session=(\S{8}) scene=([0-9a-f]{8}) view=overview ms=[\d.]+", line)
-        for line in lines
-        if line.startswith("update")
-    ]
-    assert len(updates) >= 2
-    assert all(found is not None and names[0].startswith(found[1]) for found in updates)
-    assert updates[0][2] != updates[-1][2], "another scene has another name"  # type: ignore[index]
-    assert any(line.startswith("came session=") for line in lines)
-    assert any(line.startswith("left session=") for line in lines)
 
 
 @pytest.mark.parametrize("strip", [False, True], ids=["path kept", "path stripped"])
@@ -403,27 +263,6 @@ def test_models_are_found_as_bokeh_finds_them() -> None:
     served(look)
 
 
-def test_the_document_is_written_beside_the_event_loop(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With all tabs in it that takes a second, in which nobody else would be heard."""
-    writers: list[str] = []
-    written = pull_doc_reply.create.__func__
-
-    def create(cls: Any, *given: Any, **named: Any) -> Any:
-        writers.append(threading.current_thread().name)
-        return written(cls, *given, **named)
-
-    monkeypatch.setattr(pull_doc_reply, "create", classmethod(create))
-
-    async def look(url: str, server: Any) -> None:
-        client = PageClient(url)
-        await client.open_page()
-        await client.connect()
-        assert await client.until_drawn()
-
-    served(look)
-    assert [name.partition("_")[0] for name in writers] == ["document"]
-
-
 def _slow_walk(document: Any) -> set[Any]:
     quick = model_util.visit_immediate_value_references
 
@@ -443,3 +282,69 @@ def test_messages_are_plain(tmp_path: Path) -> None:
     assert "&lt;b&gt;" in page_text
     assert "a &amp; b" in page_text
     assert json.dumps(page_text)
+
+
+def test_those_who_come_too_late_are_asked_to_come_back() -> None:
+    async def fill(url: str, server: Any) -> None:
+        there = [PageClient(url) for _ in range(SMALL.sessions)]
+        for client in there:
+            assert await client.open_page() == 200
+        late = await get(url)
+        assert late.code == 503
+        assert late.headers["Retry-After"] == "60"
+        assert "room for 3 people" in late.body.decode()
+        await there[0].open_socket(origin(url))
+        assert not there[0].closed, "those who are in can connect"
+        assert (await get(url + "?bokeh-session-id=mine")).code == 400
+        assert (await get(url + "?v=" + "x" * 20_000)).code == 302
+
+    served(fill)
+
+
+@pytest.mark.parametrize(
+    "frames",
+    [
+        ["no json", "{}", "{}"],
+        ['{"msgid": "1", "msgtype": "PUSH-DOC"}', "{}", '{"doc": {}}'],
+        [b"\x00\x01", "{}", "{}"],
+        ["[" * 100_000, "{}", "{}"],
+        ['{"msgid": "1", "msgtype": "PATCH-DOC"}', "{}", '"' + "x" * 290_000 + '"'],
+        [
+            *('{"msgid": "1", "msgtype": "PATCH-DOC", "num_buffers": 9}', "{}", '{"events": []}'),
+            *('{"id": "a"}', b"x" * 200_000, '{"id": "b"}', b"x" * 200_000),
+        ],
+    ],
+    ids=range(6),
+)
+def test_bad_frames_end_the_connection_with_a_sentence(
+    frames: list[Any], caplog: pytest.LogCaptureFixture
+) -> None:
+    async def attack(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        await client.open_socket(origin(url))
+        await client.send_frames(*frames)
+        await closed(client)
+        assert client._socket is not None
+        assert client._socket.close_code in (1002, 1008, 1009), client._socket.close_code
+        assert not client.errors
+        assert (await get(url)).code == 200, "others are not concerned"
+
+    with caplog.at_level(logging.WARNING):
+        served(attack)
+    assert "Traceback" not in caplog.text
+
+
+def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
+    async def wait(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        await client.connect()
+        assert await client.until_drawn()
+        for socket in LiveSocket.connected:  # a minute passes
+            socket.heard_at -= 61.0
+        await closed(client)
+        assert client._socket is not None
+        assert "Nothing was moved for 1 minutes" in str(client._socket.close_reason)
+
+    served(wait, Limits(idle=60.0))

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import ast
+import asyncio
 import re
 import types
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
-from bearing_explorer.serve import bokeh_private
+from bearing_explorer.serve import fast, live, packed_source
+from bearing_explorer.serve.live_component import LiveComponent
 from bokeh.document import Document
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.server import session as bokeh_session
@@ -21,13 +24,19 @@ from tests.helpers.loops import run
 
 def test_this_version_has_all_of_them() -> None:
     """Which of them is gone, and of which version, is what this says when it fails."""
-    assert bokeh_private.missing() == []
+    assert fast.missing() == []
 
 
 def test_a_name_that_is_gone_is_said_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(bokeh_session, "_needs_document_lock")
-    (said,) = bokeh_private.missing()
+    (said,) = fast.missing()
     assert said.startswith("bokeh.server.session._needs_document_lock is gone from bokeh 3.")
+
+
+class Component(LiveComponent):
+    """A component without a script."""
+
+    _esm = "export function render() {}"
 
 
 class Socket:
@@ -54,7 +63,7 @@ def session_of(document: Document, socket: Socket) -> ServerSession:
     return session
 
 
-def changed(act: Any = bokeh_private.locked) -> tuple[list[Any], Range1d]:
+def changed(act: Any = fast.locked) -> tuple[list[Any], Range1d]:
     """What a browser is sent when a range is moved to 1 to 2, and the range."""
     document, socket = Document(), Socket()
     moved = Range1d(0, 1)
@@ -64,7 +73,7 @@ def changed(act: Any = bokeh_private.locked) -> tuple[list[Any], Range1d]:
         session = session_of(document, socket)
 
         async def change(doc: Document) -> None:
-            await bokeh_private.send_changes(session, doc, lambda: moved.update(start=1, end=2))
+            await fast.send_changes(session, doc, lambda: moved.update(start=1, end=2))
 
         await act(session, change)
 
@@ -81,24 +90,24 @@ def test_all_changes_are_one_message() -> None:
 def test_without_a_lock_decorator_bokehs_own_way_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("_needs_document_lock_on_loop", "_needs_document_lock"):
         monkeypatch.delattr(bokeh_session, name, raising=False)
-    sent, _ = changed(bokeh_private._with_lock(lambda session, act: act(session.document)))
+    sent, _ = changed(fast._with_lock(lambda session, act: act(session.document)))
     assert len(sent) == 1
 
 
 def test_where_sockets_cannot_be_found_bokeh_sends(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bokeh_private, "sockets_of", lambda session: [])
+    monkeypatch.setattr(fast, "sockets_of", lambda session: [])
     heard: list[Any] = []
     document, moved = Document(), Range1d(0, 1)
     document.add_root(moved)
     document.on_change(heard.append)
-    run(bokeh_private.send_changes(None, document, lambda: moved.update(start=3)))
+    run(fast.send_changes(None, document, lambda: moved.update(start=3)))
     assert [event.attr for event in heard] == ["start"]
 
 
 def test_without_known_new_models_bokeh_writes_the_message(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(bokeh_private, "Serializer", None)  # it would not be asked
+    monkeypatch.setattr(fast, "Serializer", None)  # it would not be asked
     document, moved = Document(), Range1d(0, 1)
     document.add_root(moved)
     document.models = types.SimpleNamespace(  # type: ignore[assignment]
@@ -106,7 +115,7 @@ def test_without_known_new_models_bokeh_writes_the_message(
     )
     document.hold("combine")
     moved.start = 2
-    message = bokeh_private._patch_of(document, list(document.callbacks._held_events))
+    message = fast._patch_of(document, list(document.callbacks._held_events))
     assert len(message.content["events"]) == 1
 
 
@@ -116,12 +125,12 @@ def test_without_its_callbacks_a_model_hears_by_the_document() -> None:
     heard: list[Any] = []
     source.on_event(DataEvent, heard.append)
     event = DataEvent(source, {"a": 1})
-    bokeh_private.hear(source, event)
+    fast.dispatch_event(source, event)
     callbacks = source._event_callbacks
     del source._event_callbacks
     source._trigger_event = lambda event: [act(event) for act in callbacks[event.event_name]]  # type: ignore[method-assign]
     document.callbacks.subscribe(DataEvent.event_name, source)
-    bokeh_private.hear(source, event)
+    fast.dispatch_event(source, event)
     assert heard == [event, event]
 
 
@@ -133,38 +142,64 @@ def test_models_are_looked_for_bokehs_way_where_a_name_is_gone(
     def slow(*_: object) -> None: ...
 
     monkeypatch.setattr(util, "visit_immediate_value_references", slow)
-    monkeypatch.setattr(bokeh_private, "missing", lambda: ["it is gone"])
-    bokeh_private.visit_quickly()
+    monkeypatch.setattr(fast, "missing", lambda: ["it is gone"])
+    fast.find_models_quickly()
     assert util.visit_immediate_value_references is slow
     assert "it is gone" in caplog.text
 
 
-def test_what_panel_lacks_is_done_without(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delattr(bokeh_private.panel_document, "_garbage_collect")
-    bokeh_private.collect_elsewhere(lambda: None)
-    assert not hasattr(bokeh_private.panel_document, "_garbage_collect")
-    monkeypatch.delattr(bokeh_private.Viewable, "_preprocessing_hooks")
-    bokeh_private.before_showing(lambda pane, root: None)
-    assert bokeh_private.tornado_of(object()) is None
-    assert bokeh_private.sockets_of(object()) == []
-    assert list(bokeh_private.parts_of(object())) == []  # type: ignore[arg-type]
+def test_without_a_session_there_is_nothing_to_send_to() -> None:
+    assert live.send_at_once(None) == 0
+    assert fast.sockets_of(object()) == []
+    changes: list[int] = []
+    run(live.one_message(None, lambda: changes.append(1)))
+    assert changes == [1]
+
+
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_component_hears_its_browser_either_way(
+    monkeypatch: pytest.MonkeyPatch, plain: bool
+) -> None:
+    monkeypatch.setattr(fast, "PLAIN", plain)
+    heard: list[Any] = []
+
+    async def send() -> None:
+        component = Component()
+        component.on_msg(lambda event: heard.append(event.data))
+        document = Document()
+        model = component.get_root(document)
+        document.add_root(model)
+        component._process_bokeh_event(document, DataEvent(model, {"a": 1}))
+        await asyncio.sleep(0.1)
+
+    run(send())
+    assert heard == [{"a": 1}]
+
+
+def test_a_plain_packed_source_changes_its_sources(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(packed_source, "PLAIN", True)
+    made = packed_source.PackedSource()
+    source, moved = made.source("a", "x"), made.range("r", 0.0, 1.0)
+    assert source.syncable
+    made.send({"a": {"x": np.array([1.0, 2.0])}}, {"r": (3.0, 4.0)}, mark=7)
+    assert list(source.data["x"]) == [1.0, 2.0]
+    assert (moved.start, moved.reset_end) == (3.0, 4.0)
+    [packet] = made.anchor.tags
+    np.testing.assert_array_equal(packet.data["packed"], [7, 0, 0, 0])
 
 
 def test_private_names_of_others_stand_here_alone() -> None:
-    """But for three of the websocket and the server, in the files about these.
-
-    And one of Tornado's stream, which is bounded by a class of its own.
-    """
-    package = Path(bokeh_private.__file__).parents[1]
-    own = {"_heard", "_take", "_exit"}  # the last is public, of `os`
-    of_server = {"_async_open", "_current_patch_connection", "_tornado", "_find_read_pos"}
+    """But for those that a class in `serve` overrides or finds in its base."""
+    package = Path(fast.__file__).parents[1]
+    own = {"_exit", "_take"}  # the first is public, of `os`
+    of_server = {"_async_open", "_current_patch_connection", "_tornado"}
     found = []
     for path in package.rglob("*.py"):
-        allowed = own | of_server if path.parent.name == "server" else own
+        allowed = own | of_server if path.parent.name == "serve" else own
         for node in ast.walk(ast.parse(path.read_text())):
             if not isinstance(node, ast.Attribute) or not re.match(r"_[a-z]", node.attr):
                 continue
             of_itself = isinstance(node.value, ast.Name) and node.value.id in ("self", "cls")
-            if not of_itself and node.attr not in allowed and path.name != "bokeh_private.py":
+            if not of_itself and node.attr not in allowed and path.name != "fast.py":
                 found.append(f"{path.name}:{node.lineno} {ast.unparse(node)}")
     assert not found

@@ -1,0 +1,308 @@
+"""What makes the page quick where Bokeh and Panel are too slow for a class, and a switch for it.
+
+Measured on two busy cores, with and without: opening three tabs holds the event loop for 253 ms
+instead of 1,231 (`find_models_quickly`); a drag of the Load tab is drawn in 52 ms instead of 82
+(`PackedSource`) or 132 (`assets/scripts/fast_figures.js`); a class of 20 is drawn 74 pictures a
+second instead of 50 (`send_changes`, `dispatch_event`).
+
+All private names of Bokeh and Panel stand in this file. They may go with any release: `missing`
+says which are gone and of which version, and each use has a public way that it falls back to,
+slower and as right. With the environment variable ``BEARING_EXPLORER_PLAIN=1`` the public ways are
+taken everywhere.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Awaitable, Callable
+from functools import cache
+from importlib.metadata import version
+from typing import Any
+
+from bokeh.core.has_props import HasProps
+from bokeh.core.property.descriptors import PropertyDescriptor
+from bokeh.core.serialization import Serializer
+from bokeh.document import Document
+from bokeh.document.events import DocumentPatchedEvent
+from bokeh.document.models import DocumentModelManager
+from bokeh.model import Model
+from bokeh.model import util as model_util
+from bokeh.protocol.message import Message
+from bokeh.protocol.messages.patch_doc import patch_doc
+from bokeh.server import session as bokeh_session
+from bokeh.server.connection import ServerConnection
+from bokeh.util.callback_manager import EventCallbackManager
+from panel.custom import JSComponent
+from panel.models.esm import DataEvent
+from panel.template.base import BaseTemplate
+from panel.viewable import Viewable
+
+PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
+"""Whether all goes the public ways of Bokeh and Panel."""
+
+log = logging.getLogger(__name__)
+
+_OF_MODULES: tuple[tuple[Any, str], ...] = (
+    (bokeh_session, "_needs_document_lock"),
+    (model_util, "visit_immediate_value_references"),
+    (HasProps, "_overridden_defaults"),
+    (HasProps, "__overridden_defaults__"),
+    (PropertyDescriptor, "is_unstable"),
+    (PropertyDescriptor, "has_unstable_default"),
+    (JSComponent, "_process_bokeh_event"),
+    (Viewable, "_preprocessing_hooks"),
+)
+_OF_OBJECTS: tuple[tuple[type, str], ...] = (
+    (bokeh_session.ServerSession, "_subscribed_connections"),
+    (ServerConnection, "_socket"),
+    (DocumentModelManager, "_new_models"),
+    (Serializer, "_references"),
+    (EventCallbackManager, "_event_callbacks"),
+    (HasProps, "_property_values"),
+    (HasProps, "_unstable_default_values"),
+    (JSComponent, "_msg__callbacks"),
+    (JSComponent, "_models"),
+    (BaseTemplate, "_render_items"),
+)
+
+
+def missing() -> list[str]:
+    """Names that this version of a library does not have, each in a sentence."""
+    gone = [(owner, name) for owner, name in _OF_MODULES if not hasattr(owner, name)]
+    gone += [(kind, name) for kind, name in _OF_OBJECTS if not _set_in(kind, name)]
+    if not hasattr(Document().callbacks, "_held_events"):
+        gone.append((type(Document().callbacks), "_held_events"))
+    return [_gone(owner, name) for owner, name in gone]
+
+
+def _set_in(kind: type, name: str) -> bool:
+    """Whether a constructor mentions an attribute: it is no attribute of the class."""
+    codes = [getattr(base.__dict__.get("__init__"), "__code__", None) for base in kind.__mro__]
+    return any(name in code.co_names for code in codes if code is not None)
+
+
+def _gone(owner: Any, name: str) -> str:
+    module = getattr(owner, "__module__", owner.__name__)
+    library = module.partition(".")[0]
+    return f"{owner.__name__}.{name} is gone from {library} {version(library)}"
+
+
+# The document of a session: changed on the event loop, sent as one message
+
+
+def _with_lock(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[None]]:
+    """Bokeh's decorator that locks a document.
+
+    Its `with_document_locked` takes, from 3.10 on, a way through a thread each time.
+    """
+    known = ("_needs_document_lock_on_loop", "_needs_document_lock")
+    lock = next((getattr(bokeh_session, n) for n in known if hasattr(bokeh_session, n)), None)
+    if lock is not None:
+        decorated: Callable[..., Awaitable[None]] = lock(act)
+        return decorated
+
+    async def locked(session: Any, *args: Any) -> None:
+        await session.with_document_locked(act, session, *args)
+
+    return locked
+
+
+@_with_lock
+def locked(session: Any, act: Callable[[Document], Awaitable[None]]) -> Awaitable[None]:
+    """Let `act` change the document of a session, while nothing else does."""
+    return act(session.document)
+
+
+def dispatch_event(model: Model, event: DataEvent) -> None:
+    """Give an event of the browser to the callbacks of `model`.
+
+    Bokeh would ask each model of the document whether the event is meant for it.
+    """
+    callbacks = None if PLAIN else getattr(model, "_event_callbacks", None)
+    if callbacks is None:
+        if model.document is not None:
+            model.document.callbacks.trigger_event(event)
+        return
+    for callback in callbacks.get(DataEvent.event_name, ()):
+        callback(event)
+
+
+def sockets_of(session: Any) -> list[Any]:
+    """The websockets of a session; none where they cannot be found."""
+    connections = tuple(getattr(session, "_subscribed_connections", ()))
+    sockets = (getattr(connection, "_socket", None) for connection in connections)
+    return [socket for socket in sockets if socket is not None]
+
+
+async def send_changes(session: Any, document: Document, change: Callable[[], None]) -> None:
+    """Run `change` and send all that it changed as one message, written when this returns.
+
+    The public way, Bokeh sends it in as many messages as it likes.
+    """
+    callbacks: Any = document.callbacks
+    document.hold("combine")
+    patches: list[DocumentPatchedEvent] = []
+    try:
+        change()
+    finally:
+        sockets = [] if PLAIN else sockets_of(session)
+        held = getattr(callbacks, "_held_events", None)
+        if held is not None and sockets:
+            patches = [event for event in held if isinstance(event, DocumentPatchedEvent)]
+            callbacks._held_events = [event for event in held if event not in patches]
+        document.unhold()
+    if patches:
+        message = _patch_of(document, patches)
+        for socket in sockets:
+            await socket.send_message(message)
+
+
+def _patch_of(document: Document, events: list[DocumentPatchedEvent]) -> Message[Any]:
+    """A message of `events`.
+
+    Bokeh lists all models of the document first, so as to know new ones from those that the
+    browser has. Where there are none new, those that the events are about will do.
+    """
+    if not getattr(document.models, "_new_models", True):
+        known = {model for event in events if (model := getattr(event, "model", None)) is not None}
+        serializer = Serializer(references=known)
+        content = {"events": serializer.encode(events)}
+        if len(getattr(serializer, "_references", ())) == len(known):
+            message: Message[Any] = patch_doc(patch_doc.create_header(), {}, content)
+            message.add_buffers(*serializer.buffers)
+            return message
+    return patch_doc.create(events)
+
+
+# Models, looked for where models can be
+
+
+def find_models_quickly() -> None:
+    """Have Bokeh look for models only where models can be.
+
+    It walks all models whenever one is added, and asks each for the value of every property that
+    might hold another, making up defaults that never hold one. That is most of what a session
+    costs. Here defaults are asked for only where they are made anew for each model; and what
+    Bokeh works out about a class for each of its models is worked out once. Values are walked
+    without an import for each of them.
+    """
+    if PLAIN or getattr(model_util, "visit_immediate_value_references", None) is _visit:
+        return
+    if gone := missing():
+        log.warning("models are looked for everywhere: %s", "; ".join(gone))
+        return
+    model_util.visit_immediate_value_references = _visit
+    changed = HasProps.__dict__["_overridden_defaults"].__func__
+    patched: Any = HasProps
+    remembering: Any = cache(changed)
+    patched._overridden_defaults = classmethod(remembering)
+    descriptor: Any = PropertyDescriptor
+    descriptor.has_unstable_default = _has_unstable_default
+
+
+_unstable: dict[tuple[type, PropertyDescriptor], bool] = {}
+
+
+def _has_unstable_default(self: PropertyDescriptor, obj: HasProps) -> bool:
+    key = (type(obj), self)
+    found = _unstable.get(key)
+    if found is None:
+        changed = type(obj).__overridden_defaults__.get(self.name)
+        found = self.property._may_have_unstable_default() or self.is_unstable(changed)
+        _unstable[key] = bool(found)
+    return bool(found)
+
+
+_PLAIN = frozenset({int, float, str, bool, bytes, type(None)})
+_places: dict[type, list[tuple[str, bool]]] = {}
+
+
+def _places_of(kind: type[HasProps]) -> list[tuple[str, bool]]:
+    """Properties of a class that may hold models, and whether their default may."""
+    found = _places.get(kind)
+    if found is None:
+        changed = kind._overridden_defaults()
+        found = []
+        for name in kind.properties_with_refs():
+            descriptor = kind.lookup(name)
+            own = descriptor.property._may_have_unstable_default()
+            here = kind.__overridden_defaults__.get(name)
+            changes = (here, changed.get(name))
+            found.append((name, own or any(map(descriptor.is_unstable, changes))))
+        _places[kind] = found
+    return found
+
+
+def _walk(value: Any, visitor: Callable[[Any], None]) -> None:
+    """Give `visitor` the models that a value is or holds."""
+    kind = type(value)
+    if kind in _PLAIN:
+        return
+    if issubclass(kind, Model):
+        visitor(value)
+    elif issubclass(kind, list | tuple):
+        for item in value:
+            if type(item) not in _PLAIN:
+                _walk(item, visitor)
+    elif issubclass(kind, dict):
+        for name, item in value.items():
+            _walk(name, visitor)
+            _walk(item, visitor)
+    elif issubclass(kind, HasProps):
+        _visit(value, visitor)
+    else:
+        for name in getattr(kind, "__dataclass_fields__", ()):
+            _walk(getattr(value, name), visitor)
+
+
+def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
+    if not isinstance(value, HasProps):
+        _walk(value, visitor)
+        return
+    given, made = value._property_values, value._unstable_default_values
+    for name, unstable in _places_of(type(value)):
+        if name in given:
+            _walk(given[name], visitor)
+        elif name in made:
+            _walk(made[name], visitor)
+        elif unstable:
+            _walk(getattr(value, name), visitor)
+
+
+# A component that sends and takes many messages
+
+
+class DirectComponent(JSComponent):
+    """Panel's component with short ways to the models in the browser, see `LiveComponent`."""
+
+    def models_shown(self) -> list[Any]:
+        """Bokeh's models of this component, in all documents; none before it is shown."""
+        shown = {} if PLAIN else getattr(self, "_models", {})
+        return list({id(model): model for model, _ in shown.values()}.values())
+
+    def take(self, doc: Document, event: DataEvent, callbacks: list[Callable[[Any], None]]) -> None:
+        """Take a message of the browser; `callbacks` were given to `on_msg`."""
+        raise NotImplementedError
+
+    def _process_bokeh_event(self, doc: Document, event: Any) -> None:
+        callbacks = None if PLAIN else getattr(self, "_msg__callbacks", None)
+        if isinstance(event, DataEvent) and callbacks is not None:
+            self.take(doc, event, list(callbacks))
+        else:
+            super()._process_bokeh_event(doc, event)
+
+
+def parts_of(template: BaseTemplate) -> list[str]:
+    """Names of the parts of a template."""
+    return list(getattr(template, "_render_items", ()))
+
+
+# What is made outside of a server
+
+
+def before_showing(change: Callable[[Any, Any], None]) -> None:
+    """Have `change` see the roots of all that Panel shows; where it cannot, they stay as made."""
+    hooks = getattr(Viewable, "_preprocessing_hooks", None)
+    if hooks is not None and change not in hooks:
+        hooks.append(change)

@@ -1,177 +1,122 @@
-"""Hostile messages to a running server: ``python -m tests.benchmarks.hostile --messages 100000``.
+"""Hostile messages to a running server: ``python -m tests.benchmarks.hostile --messages 20000``.
 
-A server is really started; several strangers open the page and its websocket and send what no
-page sends (`tests.fuzz.hostile_messages`), connecting again whenever they are cut off. What they
-send is waited for until the server has done with it or has cut the connection. Meanwhile somebody
-moves a slider, and `/liveness` is asked over and over, each from a process of its own; and inside
-the server each turn of its event loop is timed. Nothing from outside may hold that loop longer than
-1 s. The exit code says whether the good session and `/liveness` were answered every time,
-whether no turn took more processor time than that, and whether the log is without a traceback.
+A server is really started. From a process of their own several clients open the page and send what
+no page sends (`tests.fuzz.hostile_messages`), connecting again whenever they are cut off.
+Meanwhile a good session moves a slider and `/liveness` is asked over and over; and inside the
+server each turn of its event loop is timed. The exit code says whether the good session and
+`/liveness` were answered every time, whether no turn took more than a second of processor time, and
+whether the log is without a traceback.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import json
 import math
-import os
 import sys
+import tempfile
 import time
-from dataclasses import dataclass
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+
+import numpy as np
+from tornado.httpclient import AsyncHTTPClient
 
 from tests.benchmarks.machine import pace
-from tests.browser.helpers import serving
+from tests.browser.helpers import Server, free_port, serving
 from tests.fuzz.hostile_messages import SHAPES
-from tests.fuzz.pulse import pulse
-from tests.fuzz.slider import slider
-from tests.fuzz.stranger import Stranger, Tally
+from tests.fuzz.stranger import PATIENCE, Tally, attack
 from tests.fuzz.watched_server import LONGEST_HOLD
-from tests.helpers.watched import watched_server
+from tests.helpers.page_client import PageClient
 
-STRANGERS = 6
-TELL_EVERY = 5_000  # messages
-
-
-@dataclass
-class Outcome:
-    """All that was measured."""
-
-    tally: Tally
-    seconds: float
-    memory: list[float]  # [MB] of the server: before, at most, after
-    liveness: list[float]  # longest [s], unanswered
-    slider: list[float]  # pictures, lost, median, 95 %, longest [s]
-    loop: dict[str, Any]
-    lines: int
-    tracebacks: int
-    trouble: str
-
-    @property
-    def longest_work(self) -> float:
-        """Processor time [s] of the longest turn of the loop."""
-        return max((turn["worked"] for turn in self.loop["longest"]), default=0.0)
-
-    def faults(self) -> list[str]:
-        """What must not be, in words."""
-        _, unanswered = self.liveness
-        pictures, lost, *_ = self.slider
-        found = {
-            f"{self.tracebacks} tracebacks in the log:\n{self.trouble}": self.tracebacks > 0,
-            f"/liveness was not answered {unanswered:.0f} times": unanswered > 0,
-            f"{lost:.0f} pictures of the good session were lost": lost > 0,
-            "the good session had no picture": pictures == 0,
-            f"{self.tally.unanswered} messages were never done with": self.tally.unanswered > 0,
-            f"the server told strangers of errors: {self.tally.errors[:2]}": bool(
-                self.tally.errors
-            ),
-            f"a turn of the loop worked for {self.longest_work:.2f} s": (
-                self.longest_work > LONGEST_HOLD
-            ),
-        }
-        return [words for words, wrong in found.items() if wrong]
+CLIENTS = 6
 
 
-def attack(
-    messages: int, strangers: int = STRANGERS, first: int = 0, seconds: float = math.inf
-) -> Outcome:
-    """Send so many messages to a server of its own, or for so long."""
-    server, told = watched_server()
+def send(url: str, messages: int, first: int) -> Tally:
+    """Send from this process; return what came of it."""
     tally = Tally()
-    url = server.url
 
-    until = time.monotonic() + seconds
+    async def all_of_them() -> None:
+        await asyncio.gather(*(attack(url, first + k, messages, tally) for k in range(CLIENTS)))
 
-    async def send() -> list[float]:
-        held = [resident(server.process.pid)]
-        sending = asyncio.gather(
-            *(Stranger(url, first + k, tally).send(messages, until) for k in range(strangers))
+    asyncio.run(all_of_them())
+    return tally
+
+
+async def meanwhile(url: str, sending: asyncio.Future[Tally]) -> tuple[list[float], list[float]]:
+    """Waits for pictures of a good session and for `/liveness` [s]; infinite where none came."""
+    client, pictures, alive = PageClient(url), list[float](), list[float]()
+    await client.open_page()
+    await client.connect()
+    await client.until_drawn(seconds=PATIENCE)
+    while not sending.done() or not pictures:
+        began = time.perf_counter()
+        await client.ask(set={"extent_deg": 20.0 + 10.0 * math.sin(0.1 * len(pictures))})
+        drawn = not client.closed and await client.until_drawn(seconds=PATIENCE)
+        pictures.append(time.perf_counter() - began if drawn else math.inf)
+        began = time.perf_counter()
+        answer = await AsyncHTTPClient().fetch(
+            url + "liveness", raise_error=False, request_timeout=PATIENCE
         )
-        tell_at = TELL_EVERY
-        while not sending.done():
-            await asyncio.wait({sending}, timeout=1.0)
-            held.append(resident(server.process.pid))
-            if tally.messages >= tell_at:
-                print(f"{tally.messages:>10,} messages {held[-1]:>8.0f} MB", flush=True)
-                tell_at += TELL_EVERY
-        await sending
-        return held
-
-    with serving(server), pulse(server.port) as heard, slider(url) as moved:
-        begun = time.perf_counter()
-        held = asyncio.run(send())
-        seconds = time.perf_counter() - begun
-        pictures, alive = moved(), heard()
-        time.sleep(1.0)
-        after = resident(server.process.pid)
-        server.stop()
-        log = server.log
-    at = log.find("Traceback")
-    return Outcome(
-        tally, seconds, [held[0], max(held), after], alive, pictures, told(),
-        len(log.splitlines()), log.count("Traceback"), log[max(at - 300, 0) : at + 9000],
-    )  # fmt: skip
+        alive.append(time.perf_counter() - began if answer.code == 200 else math.inf)
+        await asyncio.sleep(0.3)
+    await client.close()
+    return pictures, alive
 
 
-def resident(process: int) -> float:
-    """What a process holds [MB]."""
-    try:
-        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
-    except OSError:
-        return 0.0
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
-def tell(found: Outcome) -> None:
-    """The table."""
-    tally = found.tally
-    print(f"{'shape':<12}{'messages':>10}{'cut off':>10}{'slowest until heard':>22}")
-    for name in (*SHAPES, "all"):
-        all_ = name == "all"
-        sent = tally.messages if all_ else tally.sent[name]
-        cut = tally.cut.total() if all_ else tally.cut[name]
-        slowest = max(tally.slowest.values()) if all_ else tally.slowest.get(name, 0.0)
-        print(f"{name:<12}{sent:>10,}{cut:>10,}{slowest:>20.2f} s")
-    rate = tally.messages / found.seconds
-    pages = f"{tally.pages} pages, {tally.late_pages} that came too late"
-    print(f"{pages}; {found.seconds:.0f} s, {rate:.0f} messages a second")
-    loop = found.loop
-    print(
-        f"event loop: {loop['turns']:,} turns; longest collection {1e3 * loop['collected']:.0f} ms"
-    )
-    for turn in loop["longest"][:6]:
-        print(
-            f"  {1e3 * turn['seconds']:>6.0f} ms, of which it worked {1e3 * turn['worked']:>5.0f}"
-            f"  {turn['where'][:200]}"
-        )
-    longest, unanswered = found.liveness
-    print(f"/liveness: longest {1e3 * longest:.0f} ms, {unanswered:.0f} without an answer")
-    pictures, lost, *waits = found.slider
-    median, most, longest = (1e3 * wait for wait in waits)
-    print(
-        f"a good session: {pictures:.0f} pictures, {lost:.0f} lost; median {median:.0f} ms, "
-        f"95 % {most:.0f} ms, longest {longest:.0f} ms"
-    )
-    before, most, after = found.memory
-    print(f"memory: {before:.0f} MB before, {most:.0f} MB at most, {after:.0f} MB after")
-    print(f"log: {found.lines:,} lines, {found.tracebacks} tracebacks")
-    print(pace())
+async def run(url: str, messages: int, first: int) -> tuple[Tally, list[float], list[float]]:
+    """Everything at once."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as elsewhere:
+        loop = asyncio.get_running_loop()
+        sending = loop.run_in_executor(elsewhere, send, url, messages, first)
+        pictures, alive = await meanwhile(url, sending)
+        return await sending, pictures, alive
 
 
 def main() -> int:
-    """Send, tell, and say with the exit code whether anything was found."""
+    """Send, print a table, and say with the exit code whether anything was found."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--messages", type=int, default=100_000)
-    parser.add_argument("--strangers", type=int, default=STRANGERS)
-    parser.add_argument("--minutes", type=float, default=math.inf, help="end after these")
-    parser.add_argument("--first", type=int, default=0, help="number of the first stranger")
+    parser.add_argument("--messages", type=int, default=20_000)
+    parser.add_argument("--first", type=int, default=0, help="number of the first client")
     chosen = parser.parse_args()
-    found = attack(chosen.messages, chosen.strangers, chosen.first, 60.0 * chosen.minutes)
-    tell(found)
-    for words in found.faults():
+    report, port = Path(tempfile.mkstemp(suffix=".json")[1]), free_port()
+    command = [sys.executable, "-m", "tests.fuzz.watched_server", str(report)]
+    with serving(Server([*command, "--port", str(port), "--no-browser"], port)) as server:
+        began = time.perf_counter()
+        tally, pictures, alive = asyncio.run(run(server.url, chosen.messages, chosen.first))
+        took = time.perf_counter() - began
+        time.sleep(1.5)
+        server.stop()
+        log = server.log
+    turns = json.loads(report.read_text(encoding="utf-8"))
+    print(f"{'shape':<14}{'messages':>10}{'cut off':>10}{'slowest until taken':>22}")
+    for name in SHAPES:
+        slowest = tally.slowest.get(name, 0.0)
+        print(f"{name:<14}{tally.sent[name]:>10,}{tally.cut[name]:>10,}{slowest:>20.2f} s")
+    print(f"{tally.sent.total():,} messages in {took:.0f} s; the longest turns of the event loop:")
+    for turn in turns:
+        print(f"  {1e3 * turn['worked']:>6.0f} ms of work  {turn['where'][:150]}")
+    for what, waits in (("pictures", pictures), ("/liveness", alive)):
+        median, most, longest = np.quantile(waits, [0.5, 0.95, 1.0])
+        print(
+            f"{what}: {len(waits)}; median {median:.3f}, 95 % {most:.3f}, longest {longest:.2f} s"
+        )
+    print(f"log: {len(log.splitlines()):,} lines")
+    print(pace())
+    at = log.find("Traceback")
+    faults = {
+        f"a traceback in the log:\n{log[max(at - 300, 0) : at + 3000]}": at >= 0,
+        f"{tally.unanswered} messages were never taken": tally.unanswered > 0,
+        f"the server answered with errors: {tally.errors[:2]}": bool(tally.errors),
+        "pictures of the good session were lost": math.isinf(max(pictures)),
+        "/liveness was not answered": math.isinf(max(alive)),
+        "a turn of the loop was too long": any(turn["worked"] > LONGEST_HOLD for turn in turns),
+    }
+    for words in (words for words, wrong in faults.items() if wrong):
         print(f"FOUND: {words}")
-    return int(bool(found.faults()))
+    return int(any(faults.values()))
 
 
 if __name__ == "__main__":

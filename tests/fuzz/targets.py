@@ -20,16 +20,13 @@ from bearing_explorer.measurement.form import (
     said,
     understood,
 )
-from bearing_explorer.page import SECTIONS
-from bearing_explorer.session import _BROKEN, Explorer, _picture
 from bearing_explorer.state.address import opened, place_of, write
-from bearing_explorer.state.quantity_list import QUANTITY_LIST
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Scene, catalogue, catalogue_text, presets, read_catalogue, read_floor
 from bearingcore.files.table import read_table
 from bearingcore.sweep.file import grid_from_toml
-from tests.fuzz.inputs import bytes_like, plain_value, text_like
+from tests.fuzz.inputs import bytes_like, text_like
 
 LONGEST_SENTENCE = 700  # characters
 LONGEST = 3.0  # [s] of processor time that one input may take
@@ -198,79 +195,11 @@ def _open_address(text: str) -> None:
         raise AssertionError("there is no scene")
 
 
-_NAMES = [quantity.name for quantity in QUANTITY_LIST]
-_CHOICES = {
-    "preset": list(presets),
-    "race": ["outer", "inner"],
-    "edge": ["published", "chord", "exact"],
-    "floor": ["flat", "rough", "measured"],
-    "law": ["published", "hertz"],
-    "numbers": ["direct", "drawing"],
-    "defect": ["add", "remove", "0", "1", "99999999999", "٣"],
-    "dofs": ["auto", "x y", "x y z rx ry", ""],
-}
-_HANDLERS = ("_asked", "_tab_asked", "_share_asked", "_plan_asked", "_lesson_asked")
-
-
-class Session:
-    """A session whose pictures are not drawn, as that is not what is tried here."""
-
-    def __init__(self) -> None:
-        self._met = 0
-        self._new()
-
-    def _new(self) -> None:
-        self.explorer = Explorer(SECTIONS)
-        self.explorer._worker.stop()
-        self.explorer._idle_task.begin = lambda *_: None  # type: ignore[method-assign]
-
-    def make(self, random_: random.Random) -> tuple[str, Any]:
-        """A handler and a message for it."""
-        handler = random_.choice(_HANDLERS)
-        if random_.random() < 0.1:
-            return handler, plain_value(random_)
-        message: dict[str, Any] = {"mark": random_.choice((1, 5, plain_value(random_)))}
-        names = random_.sample(_NAMES, random_.choice((1, 1, 2, 5)))
-        values = {
-            name: random_.uniform(-400, 400) if random_.random() < 0.5 else plain_value(random_)
-            for name in names
-        }
-        choice = random_.choice(list(_CHOICES))
-        chosen = random_.choice(_CHOICES[choice])
-        parts = (
-            ("set", values),
-            ("typed", {name: str(value) for name, value in values.items()}),
-            ("choose", {choice: chosen if random_.random() < 0.8 else plain_value(random_)}),
-            ("reset", True),
-            ("show", random_.choice(("load", "stiffness", plain_value(random_)))),
-            (random_.choice(("lesson", "pin", "undo", "redo", "go", "name")), plain_value(random_)),
-            (random_.choice(("steady", "own", "step_rate", "open", "toml")), plain_value(random_)),
-        )
-        return handler, message | {k: v for k, v in parts if random_.random() < 0.3}
-
-    def meet(self, given: tuple[str, Any]) -> None:
-        """Hand the message on; the session must have a scene that can be asked for afterwards."""
-        handler, message = given
-        getattr(self.explorer, handler)(message)
-        explorer = self.explorer
-        scene = explorer.inputs.scene
-        assert isinstance(scene, Scene)
-        self._met += 1
-        if self._met % 1000 == 0:
-            views = [view(explorer.packed.__class__()) for view in SECTIONS[1].views]
-            picture = _picture(explorer.inputs.results, views)
-            assert all(drawing.sentence != _BROKEN for drawing in picture.drawings)
-        if self._met % 5000 == 0:
-            explorer.stop()
-            self._new()
-
-
 def targets() -> list[Target]:
     """All of them."""
     scenes, sweeps, floors, bearings = _texts(), _sweeps(), _floors(), _bearings()
     bearing_bytes = [text.encode() for text in bearings]
     tables, waves, matrices, addresses = _csv(), _wav(), _mat(), _addresses()
-    session = Session()
 
     def csv_file(random_: random.Random) -> bytes:
         return text_like(random_, tables).encode("utf-8", "surrogatepass")
@@ -285,5 +214,4 @@ def targets() -> list[Target]:
         Target("wav", lambda r: bytes_like(r, waves), _table),
         Target("matlab", lambda r: bytes_like(r, matrices), _table),
         Target("address", lambda r: text_like(r, addresses), _open_address),
-        Target("messages", session.make, session.meet),
     ]

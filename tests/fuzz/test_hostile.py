@@ -10,31 +10,30 @@ from typing import Any
 import pytest
 from bearing_explorer.serve.serving import Limits
 
-from tests.bearing_explorer.serve.test_serving import served
-from tests.fuzz.hostile_messages import SHAPES, made
-from tests.fuzz.stranger import Stranger, Tally
+from tests.fuzz.hostile_messages import GOOD, SHAPES, patch, told
+from tests.fuzz.stranger import Tally, attack
 from tests.helpers.page_client import PageClient
+from tests.helpers.served import served
 
 
-def test_strangers_break_nothing_and_are_heard_or_cut_off(
+def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
     caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     tally = Tally()
     # it would be made in a thread long after the server is gone, and hold up the next test
     monkeypatch.setattr("bearing_explorer.session.report", lambda *_: {})
 
-    async def attack(url: str, server: Any) -> None:
+    async def send(url: str, server: Any) -> None:
         there = PageClient(url)
         await there.open_page()
         await there.connect()
-        strangers = [Stranger(url, 1_000_001 + k, tally) for k in range(2)]
-        await asyncio.gather(*(one.send(120) for one in strangers))
+        await asyncio.gather(*(attack(url, 1_000_001 + k, 120, tally) for k in range(2)))
         await there.ask(set={"extent_deg": 31.0})
-        assert await there.until_drawn(), "who was there all the while still is"
+        assert await there.until_drawn(), "the session that was there all the while still is"
         await there.close()
 
     with caplog.at_level(logging.WARNING):
-        served(attack, Limits())
+        served(send, Limits())
     assert "Traceback" not in caplog.text
     assert not any(record.exc_info for record in caplog.records)
     assert tally.unanswered == 0
@@ -43,9 +42,29 @@ def test_strangers_break_nothing_and_are_heard_or_cut_off(
     assert tally.cut.total() > 10
 
 
+def test_good_messages_of_the_page_are_taken(caplog: pytest.LogCaptureFixture) -> None:
+    """The schema that hostile messages are made from is that of messages that pass."""
+
+    async def send(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        await client.connect()
+        for component, data in GOOD:
+            if component in client.ids and "report" not in data:
+                await client.send_frames(*patch(told(client.ids[component], data)))
+        await client.ask(set={"extent_deg": 31.0})
+        assert await client.until_drawn()
+        assert not client.closed
+        await client.close()
+
+    with caplog.at_level(logging.WARNING):
+        served(send, Limits())
+    assert not any(record.exc_info for record in caplog.records)
+
+
 def test_what_is_sent_can_be_sent_again() -> None:
     ids = {"Controls": "p1001", "ShareBar": "p1002"}
-    for shape in SHAPES:
+    for make, _ in SHAPES.values():
         for number in range(10):
-            once, again = (made(random.Random(number), shape, ids) for _ in range(2))
+            once, again = (repr(make(random.Random(number), ids)) for _ in range(2))
             assert once == again

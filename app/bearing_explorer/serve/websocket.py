@@ -8,7 +8,13 @@ from typing import Any, ClassVar
 from panel.io import server as panel_server
 
 from bearing_explorer.serve import live
-from bearing_explorer.serve.allowed_messages import MOST_EVENTS, component_message, is_allowed
+from bearing_explorer.serve.allowed_messages import (
+    MOST_EVENTS,
+    by_id,
+    component_message,
+    is_allowed,
+    is_costly,
+)
 from bearing_explorer.serve.fast import locked
 from bearing_explorer.serve.log import log_warning
 
@@ -56,6 +62,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             self.close(1009, "A message is larger than is allowed.")
             return
         try:
+            if isinstance(fragment, str) and is_costly(fragment):
+                raise ValueError("it holds too much")
             message = await self.receiver.consume(fragment)
             if message is not None:
                 self._size = 0
@@ -75,7 +83,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         others = []
         for event in events:
             if (found := component_message(event, buffers)) is None:
-                others.append(event)
+                others.append(by_id(event))
             elif (model := session.document.models.get_by_id(found[0])) is not None:
                 await live.hand_on(session, model, found[1])
         message.content["events"] = [e for e in others if is_allowed(e, session.document.models)]
@@ -102,7 +110,9 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     def on_close(self) -> None:
         """The browser is gone."""
         self.connected.discard(self)
-        super().on_close()
+        connection, self.connection = self.connection, None
+        if connection is not None:  # Bokeh's own fails where a ping found out before
+            self.application.client_lost(connection)
 
 
 def close_idle(seconds: float) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bearing_explorer.serve.allowed_messages import component_message, is_allowed
+from bearing_explorer.serve.allowed_messages import by_id, component_message, is_allowed
 from bearing_explorer.serve.headers import policy
 from bearing_explorer.serve.pages import message_page
 from bearing_explorer.serve.serving import Limits
@@ -136,6 +136,15 @@ def test_new_models_and_code_are_dropped(event: Any) -> None:
     assert not is_allowed(event, document.models)
     assert is_allowed(changed("width", 300, {"id": known.id}), document.models)
     assert not is_allowed(changed("code", "alert(1)", {"id": script.id}), document.models)
+
+
+def test_a_button_that_is_written_out_is_taken_by_its_id() -> None:
+    values = {"type": "map", "entries": [["model", NEW_MODEL]]}
+    click = {"type": "event", "name": "button_click", "values": values}
+    event = {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": click}
+    assert not is_allowed(event, Document().models)
+    assert is_allowed(by_id(event), Document().models)
+    assert is_allowed(by_id(event | {"more": NEW_MODEL}), Document().models) is False
 
 
 @pytest.mark.parametrize("model", [{"id": "p1"}, NEW_MODEL])

@@ -86,13 +86,12 @@ def report(
         if plots := figure.view.figures:
             parts.append(_figure(kind, results, [plot.id for plot in plots], figure.sentence))
     shown = [figure for figure in drawn if figure.view.figures]
-    whole = {
+    return {
         "name": FILE,
         "html": page(results, about, parts),
         "items": [json_item(figure.layout) for figure in shown],
         "figures": [plot.id for figure in shown for plot in figure.view.figures],
     }
-    return whole
 
 
 def mark_of(figure_id: str) -> str:

@@ -1,4 +1,4 @@
-"""The packed source, the live sentence and `server.bokeh_private`, in a real browser."""
+"""The packed source, the live sentence and `serve.fast`, in a real browser."""
 
 from collections.abc import Iterator
 

@@ -1,1 +1,1 @@
-"""Inputs from strangers, by the hundred thousand: ``python -m tests.fuzz``."""
+"""Broken inputs of parsers and hostile messages."""

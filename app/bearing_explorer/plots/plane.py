@@ -30,7 +30,7 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL
 from bearing_explorer.plots.heat_map import BAR_LOOK, Places, Side, reading, sections
 from bearing_explorer.plots.style import AxisQuantity
-from bearing_explorer.serve.bokeh_private import before_showing
+from bearing_explorer.serve.fast import before_showing
 
 if TYPE_CHECKING:
     from xarray import DataArray

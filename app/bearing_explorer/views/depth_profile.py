@@ -9,6 +9,7 @@ import numpy as np
 from bearing_explorer.plots import style
 from bearing_explorer.plots.defect_words import extent_words
 from bearing_explorer.plots.element_words import row_words
+from bearing_explorer.plots.layers import Balls, Line, draw
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -24,14 +25,21 @@ EDGE_WORDS = {
 }
 
 
+LAYERS = (
+    Line("depth_profile_path", "angle", "drop", style.DEFECTIVE, dash=(6, 4)),
+    Balls("depth_profile_balls", "angle", "drop"),
+)
+"""Over the race."""
+
+
 class DepthProfile(View):
     """The race around the defect and the way a ball's centre takes over it."""
 
     name = "depth-profile"
     title = "Depth profile"
     about = (
-        "Race solid, path of a ball's centre dashed. Down is into the ring. Dots: balls at this "
-        "cage angle."
+        "Solid: race surface. Dashed: path of the ball centre. Down is into the ring. Dots: balls "
+        "at this cage angle."
     )
     needs = frozenset({"profile", "drop", "now"})
 
@@ -48,25 +56,8 @@ class DepthProfile(View):
         plot.varea(
             "angle", "depth", "bottom", source=surface, fill_color=style.STEEL, fill_alpha=1.0
         )
-        plot.line("angle", "depth", source=surface, line_color=style.FAINT_INK, line_width=1.6)
-        plot.line(
-            "angle",
-            "drop",
-            source=packed.source("depth_profile_path", "angle", "drop"),
-            line_color=style.DEFECTIVE,
-            line_width=2.0,
-            line_dash=[6, 4],
-        )
-        plot.scatter(
-            "angle",
-            "drop",
-            source=packed.source("depth_profile_balls", "angle", "drop"),
-            size=8,
-            fill_color="white",
-            line_color=style.INK,
-            line_width=1.6,
-            level="annotation",  # whole, also on the edge of the frame
-        )
+        Line("", "angle", "depth", style.FAINT_INK, 1.6).add(plot, surface)
+        draw(plot, packed, LAYERS)
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

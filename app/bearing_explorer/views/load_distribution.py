@@ -11,6 +11,7 @@ from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import elements
+from bearing_explorer.plots.layers import Balls, Line, Strips, Words, draw
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.defect_shape import pieces, spans
 from bearing_explorer.results.load_curve import curves_table, load_curve, row_name
@@ -29,13 +30,36 @@ OTHER_ROWS = style.DIRECTION_COLORS[1]
 """Colour of the rows after the first."""
 
 
+CURVES = (
+    Line("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
+    Line("load_distribution_curve", "angle", "load", style.DEFECTIVE),
+)
+LAYERS = (
+    Strips("load_distribution_defect", "start", "end", style.DEFECT, 0.16),
+    Line("load_distribution_healthy", "angle", "load", style.HEALTHY),
+    Line("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
+    Line("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
+    *CURVES,
+    Balls("load_distribution_balls", "angle", "load"),
+    Words(
+        "load_distribution_rows",
+        "angle",
+        "load",
+        "return `row ${row.row}`",
+        reads=("row",),
+        look={"y_offset": -5, "text_align": "center", "text_baseline": "bottom"},
+    ),
+)
+"""From the lowest to the highest."""
+
+
 class LoadDistribution(View):
     """Load of a ball over its angle, the balls of this cage angle on the curve."""
 
     name = "load-distribution"
     title = "Load distribution"
     about = (
-        "What a ball carries at each angle. Blue: this scene. Grey: {grey}. Shaded: the "
+        "Ball load against angular position. Blue: this scene. Grey: {grey}. Shaded: the "
         "defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
         "turn of the shaft. A second row is orange, and in grey dashed. Of balls with mass the "
         "full line is the load at the outer race, where their centrifugal load comes on top, the "
@@ -55,69 +79,8 @@ class LoadDistribution(View):
         )
         style.fixed_ticks(plot.xaxis[0], range(0, 361, 45))
         plot.xgrid.ticker = plot.xaxis[0].ticker
-        plot.vstrip(
-            "start",
-            "end",
-            source=packed.source("load_distribution_defect", "start", "end"),
-            fill_color=style.DEFECT,
-            fill_alpha=0.16,
-            line_color=None,
-        )
-        plot.line(
-            "angle",
-            "load",
-            source=packed.source("load_distribution_healthy", "angle", "load"),
-            line_color=style.HEALTHY,
-            line_width=2.0,
-        )
-        plot.line(
-            "angle",
-            "load",
-            source=packed.source("load_distribution_other_healthy", "angle", "load"),
-            line_color=style.HEALTHY,
-            line_width=2.0,
-            line_dash=[6, 4],
-        )
-        plot.line(
-            "angle",
-            "load",
-            source=packed.source("load_distribution_inner", "angle", "load"),
-            line_color=style.DEFECTIVE,
-            line_width=1.4,
-            line_dash=[5, 3],
-        )
-        curves = [
-            plot.line(
-                "angle",
-                "load",
-                source=packed.source(f"load_distribution_{which}", "angle", "load"),
-                line_color=color,
-                line_width=2.0,
-            )
-            for which, color in (("other_rows", OTHER_ROWS), ("curve", style.DEFECTIVE))
-        ]
-        plot.scatter(
-            "angle",
-            "load",
-            source=packed.source("load_distribution_balls", "angle", "load"),
-            size=8,
-            fill_color="white",
-            line_color=style.INK,
-            line_width=1.6,
-            level="annotation",  # whole, also on the edge of the frame
-        )
-        names = packed.source("load_distribution_rows", "angle", "load", "row")
-        plot.text(
-            "angle",
-            "load",
-            text=style.words_of(names, "return `row ${row.row}`"),
-            source=names,
-            y_offset=-5,
-            text_align="center",
-            text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.INK,
-        )
+        drawn = draw(plot, packed, LAYERS)
+        curves = [glyph for layer, glyph in zip(LAYERS, drawn, strict=True) if layer in CURVES]
         plot.add_tools(
             HoverTool(
                 renderers=curves,

@@ -11,7 +11,7 @@ from bearing_explorer.plots import style
 from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.mass_time import MASSLESS_LINE
+from bearing_explorer.views.mass_time import MASSLESS
 from bearing_explorer.views.wide_spectrum import WideSpectra
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ class MassInSpectrum(View):
     needs = frozenset({"ball_mass"})
 
     def build(self, packed: PackedSource) -> Any:
-        self._spectra = WideSpectra(packed, "mass_spectrum", MASSLESS_LINE)
+        self._spectra = WideSpectra(packed, "mass_spectrum", MASSLESS)
         plots = reversed(self._spectra.plots)
         return pn.Column(*plots, sizing_mode="stretch_width", margin=0)
 

@@ -8,10 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper, Range1d
-from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import (
+    ON_PAPER,
+    Layer,
+    Line,
+    Strips,
+    Uprights,
+    Words,
+    add_all,
+    by_number,
+    sources_of,
+)
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.ball_mass import BallMass
 from bearing_explorer.results.excerpt import least_and_greatest, why_ended
@@ -37,14 +46,56 @@ EVENT_ROWS = 3
 
 _EVENT_WORDS = f"""
 const does = {json.dumps(WORDS)}[row.kind]
-let width = 0  // on a phone there is room for less
-try {{ width = plot.inner_width }} catch {{ /* not laid out yet */ }}
-return width && width < 420 ? does : `ball ${{row.ball}} ${{does}}, ${{si(row.time, 's')}}`
+return narrow ? does : `ball ${{row.ball}} ${{does}}, ${{si(row.time, 's')}}`
 """
 
-
-MASSLESS_LINE = {"line_color": style.INK, "line_alpha": 0.35, "line_width": 3.0}
+MASSLESS: dict[str, Any] = {"color": style.INK, "alpha": 0.35, "width": 3.0}
 """Look of what moves without the mass of the balls."""
+
+
+EVENTS = Uprights("mass_events", "time", style.FAINT_INK, 1.0, 0.55)
+NAMES_OF_EVENTS = Words(
+    "mass_events",
+    "label_from",
+    "label_at",
+    _EVENT_WORDS,
+    reads=("ball", "kind"),
+    y_share=True,
+    fitting=style.NARROW,
+    look={"x_offset": 4, **ON_PAPER},
+)
+
+
+def layers_above(dof: str) -> list[Layer]:
+    """Acceleration along a direction, with and without mass."""
+    color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+    return [
+        EVENTS,
+        Line("mass_motion", "time", f"{dof}_massless", **MASSLESS),
+        Line("mass_motion", "time", dof, color, 1.4),
+    ]
+
+
+def layers_below() -> list[Layer]:
+    """Free flights, loads at both races, and the names of the balls."""
+    colors = by_number("slot", style.BALL_COLORS)
+    balls = list(enumerate(style.BALL_COLORS))
+    return [
+        Strips("mass_flights", "from", "to", colors, 0.13, reads=("slot",)),
+        *(Line("mass_loads", "time", f"inner{i}", color, 1.3, (5, 3)) for i, color in balls),
+        *(Line("mass_loads", "time", f"outer{i}", color, 1.8) for i, color in balls),
+        Words(
+            "mass_ball_names",
+            "from",
+            "at",
+            "return `ball ${row.ball}`",
+            reads=("ball", "slot"),
+            x_share=True,
+            y_share=True,
+            look={"text_color": colors},
+        ),
+        EVENTS,
+    ]
 
 
 class MassInTime(View):
@@ -64,23 +115,18 @@ class MassInTime(View):
         self._load = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
         time = packed.range("mass_time", 0.0, 0.03)
         height = packed.range("mass_acceleration", -5.0, 5.0)
-        events = packed.source("mass_events", "time", "ball", "kind", "label_from", "label_at")
-        motion = packed.source("mass_motion", "time", *SHOWN, *(f"{d}_massless" for d in SHOWN))
+        loads = layers_below()
+        above = {dof: layers_above(dof) for dof in SHOWN}
+        sources = sources_of(packed, [*loads, *above["x"], *above["y"], NAMES_OF_EVENTS])
         plots = []
         for dof in reversed(SHOWN):
             quantity = style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True)
             plot = style.make_figure(
                 TIME, quantity, time, height, height=210, name=f"mass_acceleration_{dof}"
             )
-            self._mark(plot, events)
-            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            plot.line("time", f"{dof}_massless", source=motion, **MASSLESS_LINE)
-            plot.line("time", dof, source=motion, line_color=color, line_width=1.4)
+            add_all(plot, sources, above[dof])
             plots.append(plot)
-        self._label_events(plots[0], events)
-        # labels are shorter where there is little room, which is known later than they are
-        write = CustomJS(args={"events": events}, code="events.change.emit()")
-        plots[0].js_on_change("inner_width", write)
+        add_all(plots[0], sources, [NAMES_OF_EVENTS])
         below = style.make_figure(
             TIME,
             style.BALL_LOAD,
@@ -89,45 +135,8 @@ class MassInTime(View):
             height=250,
             name="mass_loads",
         )
-        self._draw_loads(below, packed)
-        self._mark(below, events)
+        add_all(below, sources, loads)
         return pn.Column(*plots, below, sizing_mode="stretch_width", margin=0)
-
-    def _mark(self, plot: figure, events: ColumnDataSource) -> None:
-        plot.vspan("time", source=events, line_color=style.FAINT_INK, line_alpha=0.55, line_width=1)
-
-    def _label_events(self, plot: figure, events: ColumnDataSource) -> None:
-        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.text(
-            "label_from", "label_at", y_range_name="shares",
-            text=style.words_of(events, _EVENT_WORDS, plot=plot), source=events, x_offset=4,
-            text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.INK, text_baseline="middle", background_fill_color="white",
-            background_fill_alpha=0.85,
-        )  # fmt: skip
-
-    def _draw_loads(self, plot: figure, packed: PackedSource) -> None:
-        colors = LinearColorMapper(palette=list(style.BALL_COLORS), low=-0.5, high=SLOTS - 0.5)
-        free = packed.source("mass_flights", "from", "to", "slot")
-        plot.vstrip("from", "to", source=free, fill_color={"field": "slot", "transform": colors},
-                    fill_alpha=0.13, line_color=None)  # fmt: skip
-        loads = packed.source(
-            "mass_loads", "time", *(f"{race}{i}" for race in RACES_OF_LOADS for i in range(SLOTS))
-        )
-        for i, color in enumerate(style.BALL_COLORS):
-            plot.line("time", f"inner{i}", source=loads, line_color=color, line_width=1.3,
-                      line_dash=[5, 3])  # fmt: skip
-            plot.line("time", f"outer{i}", source=loads, line_color=color, line_width=1.8)
-        names = packed.source("mass_ball_names", "from", "at", "ball", "slot")
-        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.text(
-            "from", "at", x_range_name="shares", y_range_name="shares",
-            text=style.words_of(names, "return `ball ${row.ball}`"), source=names,
-            text_baseline="middle", text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-            text_color={"field": "slot", "transform": colors},
-        )  # fmt: skip
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown = results.ball_mass
@@ -209,7 +218,7 @@ def way_of_the_ball(shown: BallMass) -> str:
         where = ""
         if math.isfinite(shown.far_edge):
             where = f", meets the far edge {style.with_prefix(shown.far_edge, 's')} later"
-        return f"{words}{where} and never lets go of its races: it does not fly"
+        return f"{words}{where} and stays in contact with both races"
     struck = [
         f"the {strike.race} race after {style.with_prefix(strike.time, 's')} with "
         f"{style.with_prefix(strike.load, 'N', 2)}"

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper, Range1d
-from bokeh.plotting import figure
+from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Layer, Line, Strips, Uprights, Words, by_number, draw
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -42,10 +42,32 @@ SHORT_BAND_WORDS = f"{_BAND_NAME}\nif (narrow) return name\n{_BAND_SPAN}"
 """The same for `style.fitting_words`."""
 
 
-def direction_mapper() -> LinearColorMapper:
-    """Colour of a direction given as its index in `style.DIRECTIONS`."""
-    return LinearColorMapper(
-        palette=list(style.DIRECTION_COLORS), low=-0.5, high=len(style.DIRECTIONS) - 0.5
+def layers(colors: Any) -> Sequence[Layer]:
+    """From the lowest to the highest; `colors` of what has a direction."""
+    return (
+        Strips("modes_bands", "low", "high", colors, 0.10, level=True),
+        Line("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
+        *(
+            Line(f"modes_{direction}", "angle", "frequency", color)
+            for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True)
+        ),
+        Uprights("modes_now"),
+        # at the right edge of the frame, not cut off by it, also when it is zoomed
+        Words(
+            "modes_bands",
+            1.0,
+            "label_at",
+            SHORT_BAND_WORDS,
+            reads=("direction", "number"),
+            x_share=True,
+            in_view="y",
+            look={
+                "level": "annotation",
+                "x_offset": 8,
+                "text_font_size": style.TEXT_SIZE,
+                "text_color": colors,
+            },
+        ),
     )
 
 
@@ -74,52 +96,10 @@ class NaturalFrequencies(View):
         )
         room = CustomJS(args={"usual": BESIDE, "below": style.NARROW}, code=_ROOM)
         plot.js_on_change("outer_width", room)
-        bands = packed.source("modes_bands", "low", "high", "direction", "number", "label_at")
-        colors = direction_mapper()
-        plot.hstrip(
-            "low",
-            "high",
-            source=bands,
-            fill_color={"field": "direction", "transform": colors},
-            fill_alpha=0.10,
-            line_color=None,
-        )
-        plot.line(
-            "angle",
-            "frequency",
-            source=packed.source("modes_healthy", "angle", "frequency"),
-            line_color=style.HEALTHY,
-            line_width=1.5,
-        )
-        for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True):
-            plot.line(
-                "angle",
-                "frequency",
-                source=packed.source(f"modes_{direction}", "angle", "frequency"),
-                line_color=color,
-                line_width=2.0,
-            )
-        style.now_line(plot, packed.source("modes_now", "now"))
-        self._label(plot, bands, colors)
+        colors = by_number("direction", style.DIRECTION_COLORS)
+        draw(plot, packed, layers(colors))
         self._axis = plot.xaxis[0]
         return plot
-
-    def _label(self, plot: figure, bands: ColumnDataSource, colors: LinearColorMapper) -> None:
-        # at the right edge also of who has zoomed in
-        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.text(
-            1.0,
-            "label_at",
-            x_range_name="shares",
-            text=style.words_in_view(plot, bands, SHORT_BAND_WORDS, "label_at", "y"),
-            source=bands,
-            level="annotation",  # beside the frame, not cut off by it
-            x_offset=8,
-            text_font={"value": style.FONT},
-            text_font_size=style.TEXT_SIZE,
-            text_baseline="middle",
-            text_color={"field": "direction", "transform": colors},
-        )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes, healthy = results.modes, results.healthy_modes

@@ -6,12 +6,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d
-from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import element_name
+from bearing_explorer.plots.layers import (
+    ON_PAPER,
+    Layer,
+    Line,
+    Uprights,
+    Words,
+    add_all,
+    by_number,
+    sources_of,
+)
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest, why_ended
 from bearing_explorer.serve.packed_source import PackedSource
@@ -42,6 +50,50 @@ return narrow ? `${{row.ball}} ${{does}}` : `{_BALL} ${{does}}`
 """
 
 
+EVENTS = Uprights("vibration_events", "time", style.FAINT_INK, 1.0, 0.55)
+
+
+def layers_above() -> list[Layer]:
+    """Acceleration, with the names of the events."""
+    colors = dict(zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True))
+    return [
+        EVENTS,
+        *(Line("vibration_motion", "time", dof, colors[dof], 1.4) for dof in reversed(SHOWN)),
+        Words(
+            "vibration_events",
+            "label_from",
+            "label_at",
+            _EVENT_WORDS,
+            reads=(*NAMED, "enters"),
+            y_share=True,
+            fitting=NARROW,
+            look={"x_offset": 4, **ON_PAPER},
+        ),
+    ]
+
+
+def layers_below() -> list[Layer]:
+    """Loads of the balls, moving and at rest, with their names."""
+    return [
+        EVENTS,
+        Line("vibration_static_loads", "time", "load", style.INK, 1.0),
+        *(
+            Line("vibration_loads", "time", f"load{i}", color, alpha=0.9)
+            for i, color in enumerate(style.BALL_COLORS)
+        ),
+        Words(
+            "vibration_ball_names",
+            "from",
+            "at",
+            f"return `{_BALL}`",
+            reads=(*NAMED, "slot"),
+            x_share=True,
+            y_share=True,
+            look={"text_color": by_number("slot", style.BALL_COLORS)},
+        ),
+    ]
+
+
 class VibrationInTime(View):
     """What an accelerometer on the housing sees, and what the balls carry meanwhile."""
 
@@ -65,20 +117,6 @@ class VibrationInTime(View):
             packed.range("vibration_acceleration", -5.0, 5.0),
             height=270,
         )
-        events = packed.source(
-            "vibration_events", "time", *NAMED, "enters", "label_from", "label_at"
-        )
-        motion = packed.source("vibration_motion", "time", *SHOWN)
-        self._mark(above, events)
-        for dof in reversed(SHOWN):
-            above.line(
-                "time",
-                dof,
-                source=motion,
-                line_color=style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)],
-                line_width=1.4,
-            )
-        self._label_events(above, events)
         below = style.make_figure(
             TIME,
             style.BALL_LOAD,
@@ -86,58 +124,11 @@ class VibrationInTime(View):
             packed.range("vibration_load", 0.0, 100.0),
             height=230,
         )
-        self._mark(below, events)
-        self._draw_loads(below, packed)
+        over, under = layers_above(), layers_below()
+        sources = sources_of(packed, [*over, *under])
+        add_all(above, sources, over)
+        add_all(below, sources, under)
         return pn.Column(above, below, sizing_mode="stretch_width", margin=0)
-
-    def _mark(self, plot: figure, events: ColumnDataSource) -> None:
-        plot.vspan("time", source=events, line_color=style.FAINT_INK, line_alpha=0.55, line_width=1)
-
-    def _label_events(self, plot: figure, events: ColumnDataSource) -> None:
-        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.text(
-            "label_from",
-            "label_at",
-            y_range_name="shares",
-            text=style.fitting_words(plot, events, _EVENT_WORDS, below=NARROW),
-            source=events,
-            x_offset=4,
-            text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.INK,
-            text_baseline="middle",
-            background_fill_color="white",
-            background_fill_alpha=0.85,
-        )
-
-    def _draw_loads(self, plot: figure, packed: PackedSource) -> None:
-        moving = packed.source("vibration_loads", "time", *(f"load{i}" for i in range(SLOTS)))
-        resting = packed.source("vibration_static_loads", "time", "load")
-        plot.line("time", "load", source=resting, line_color=style.INK, line_width=1.0)
-        for i, color in enumerate(style.BALL_COLORS):
-            plot.line(
-                "time", f"load{i}", source=moving, line_color=color, line_width=2.0, line_alpha=0.9
-            )
-        names = packed.source("vibration_ball_names", "from", "at", *NAMED, "slot")
-        plot.extra_x_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.extra_y_ranges["shares"] = Range1d(0.0, 1.0, syncable=False)
-        plot.text(
-            "from",
-            "at",
-            x_range_name="shares",
-            y_range_name="shares",
-            text=style.words_of(names, f"return `{_BALL}`"),
-            source=names,
-            text_baseline="middle",
-            text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-            text_color={
-                "field": "slot",
-                "transform": LinearColorMapper(
-                    palette=list(style.BALL_COLORS), low=-0.5, high=SLOTS - 0.5
-                ),
-            },
-        )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown = results.excerpt

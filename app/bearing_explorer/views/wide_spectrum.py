@@ -5,10 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import Range1d
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import (
+    ON_PAPER,
+    Layer,
+    Line,
+    Strips,
+    Words,
+    add_all,
+    sources_of,
+)
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
@@ -47,9 +55,8 @@ class WideSpectra:
         self._levels = StickyRange(-120.0, -20.0, least_span=60.0)
         frequency = packed.range(f"{name}_frequency", LOWEST, 32768.0)
         level = packed.range(f"{name}_level", -120.0, -20.0)
-        lines = packed.source(f"{name}_lines", "frequency", *SHOWN)
-        others = packed.source(f"{name}_others", "frequency", *SHOWN)
-        band = packed.source(f"{name}_resonance", "low", "high", "above", "label_at")
+        layers = {dof: self._layers(dof, other) for dof in SHOWN}
+        sources = sources_of(packed, [layer for own in layers.values() for layer in own])
         #: along x and along y
         self.plots: list[figure] = []
         for dof in SHOWN:
@@ -63,21 +70,28 @@ class WideSpectra:
                 name=f"{name}_{dof}",
             )
             in_hertz(plot)
-            plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
-            plot.vstrip("low", "high", source=band, fill_color=style.DEFECT, fill_alpha=0.22,
-                        line_color=None)  # fmt: skip
-            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            beneath = {"line_color": style.HEALTHY, "line_width": 1.5, **other}
-            plot.line("frequency", dof, source=others, **beneath)
-            plot.line("frequency", dof, source=lines, line_color=color, line_width=1.4)
-            plot.text(
-                "label_at", 0.06, y_range_name="rows", source=band,
-                text=style.words_in_view(plot, band, _BAND_WORDS, "label_at"),
-                text_align="right", text_baseline="middle", text_font={"value": style.FONT},
-                text_font_size=style.SMALL_TEXT_SIZE, text_color=style.INK, level="annotation",
-                background_fill_color="white", background_fill_alpha=0.85,
-            )  # fmt: skip
+            add_all(plot, sources, layers[dof])
             self.plots.append(plot)
+
+    def _layers(self, dof: str, other: dict[str, Any]) -> list[Layer]:
+        """Along a direction, from the lowest to the highest."""
+        name = self._name
+        color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+        beneath = {"color": style.HEALTHY, "width": 1.5, **other}
+        return [
+            Strips(f"{name}_resonance", "low", "high", style.DEFECT, 0.22, reads=("above",)),
+            Line(f"{name}_others", "frequency", dof, **beneath),
+            Line(f"{name}_lines", "frequency", dof, color, 1.4),
+            Words(
+                f"{name}_resonance",
+                "label_at",
+                0.06,
+                _BAND_WORDS,
+                y_share=True,
+                in_view="x",
+                look={"text_align": "right", "level": "annotation", **ON_PAPER},
+            ),
+        ]
 
     def nothing(self) -> Sources:
         """Columns while nobody sees the figures."""

@@ -53,7 +53,7 @@ def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     assert small.strikes == ()
     assert small.exit is not None
     assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
-    assert "never lets go" in MassInTime(PackedSource()).sentence(
+    assert "stays in contact" in MassInTime(PackedSource()).sentence(
         Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True)
     )
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import by_number
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -15,7 +16,6 @@ from bearing_explorer.views.modes import (
     FREQUENCY,
     SHORT_BAND_WORDS,
     band_rows,
-    direction_mapper,
 )
 from bearing_explorer.views.vibration_spectrum import HIGHEST
 from bearingcore.dynamics.modes import bands_table
@@ -72,7 +72,6 @@ class OverviewBands(View):
         plot.yaxis.visible = False
         plot.ygrid.visible = False
         plot.min_border_bottom = plot.min_border_top = 2
-        colors = direction_mapper()
         healthy = packed.source("overview_healthy_bands", "low", "high", "row")
         plot.hbar(
             "row", left="low", right="high", height=0.84, source=healthy,
@@ -89,7 +88,7 @@ class OverviewBands(View):
             "to_left",
             "shared",
         )
-        color = {"field": "direction", "transform": colors}
+        color = by_number("direction", style.DIRECTION_COLORS)
         plot.hbar(
             "row", left="low", right="high", height=0.5, source=bands,
             fill_color=color, fill_alpha=0.6, line_color=color,

@@ -1,0 +1,206 @@
+"""Layers of a figure as declarations: lines, strips, dots and words over the packed source.
+
+A view lists what its figure shows, from the lowest layer to the highest; `draw` declares the
+sources with the columns that the layers name, once each, and draws them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from bokeh.models import ColumnDataSource, GlyphRenderer, LinearColorMapper, Range1d
+from bokeh.plotting import figure
+
+from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
+
+
+class Layer(Protocol):
+    """One glyph of a figure, over one source."""
+
+    @property
+    def source(self) -> str:
+        """Name of the source."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it reads."""
+
+    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
+        """Draw it."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A curve; NaN is a gap."""
+
+    source: str
+    x: str
+    y: str
+    color: str
+    width: float = 2.0
+    dash: Sequence[int] = ()
+    alpha: float = 1.0
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it reads."""
+        return self.x, self.y
+
+    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
+        """Draw it."""
+        look = {"line_color": self.color, "line_width": self.width, "line_alpha": self.alpha}
+        return plot.line(self.x, self.y, source=source, line_dash=list(self.dash), **look)
+
+
+@dataclass(frozen=True)
+class Strips:
+    """Shaded stretches of an axis: of the horizontal one, or with `level` of the vertical one.
+
+    `reads`: columns that the colour reads besides.
+    """
+
+    source: str
+    low: str
+    high: str
+    color: Any
+    alpha: float
+    level: bool = False
+    reads: tuple[str, ...] = ()
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it reads."""
+        return self.low, self.high, *self.reads
+
+    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
+        """Draw it."""
+        strip = plot.hstrip if self.level else plot.vstrip
+        look = {"fill_color": self.color, "fill_alpha": self.alpha, "line_color": None}
+        return strip(self.low, self.high, source=source, **look)
+
+
+@dataclass(frozen=True)
+class Balls:
+    """Balls at this cage angle: white dots that the frame does not cut."""
+
+    source: str
+    x: str
+    y: str
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it reads."""
+        return self.x, self.y
+
+    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
+        """Draw it."""
+        look = {"fill_color": "white", "line_color": style.INK, "line_width": 1.6}
+        return plot.scatter(self.x, self.y, source=source, size=8, level="annotation", **look)
+
+
+@dataclass(frozen=True)
+class Uprights:
+    """Upright lines through the whole frame; as it is at the current cage angle."""
+
+    source: str
+    x: str = "now"
+    color: str = style.INK
+    width: float = 1.2
+    alpha: float = 0.75
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it reads."""
+        return (self.x,)
+
+    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
+        """Draw it."""
+        look = {"line_color": self.color, "line_width": self.width, "line_alpha": self.alpha}
+        return plot.vspan(x=self.x, source=source, **look)
+
+
+@dataclass(frozen=True)
+class Words:
+    """Text made in the browser by `code`, see `style.words_of`.
+
+    `reads`: columns that the code and the `look` read besides. A place along an axis is a column or
+    a number; `x_share`, `y_share`: it is a share of the frame. `fitting`: the code knows whether
+    the frame is `narrow`, below so many pixels; `in_view`: so it does, and words that the frame
+    would cut off along that side are left out, `share` as `style.words_in_view` has it.
+    """
+
+    source: str
+    x: str | float
+    y: str | float
+    code: str
+    reads: tuple[str, ...] = ()
+    x_share: bool = False
+    y_share: bool = False
+    fitting: float = 0.0
+    in_view: str = ""
+    share: float = 0.0
+    look: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it reads."""
+        return *(at for at in (self.x, self.y) if isinstance(at, str)), *self.reads
+
+    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
+        """Draw it."""
+        ranges = {}
+        for side, shares, extra in (
+            ("x", self.x_share, plot.extra_x_ranges),
+            ("y", self.y_share, plot.extra_y_ranges),
+        ):
+            if shares:
+                extra.setdefault("shares", Range1d(0.0, 1.0, syncable=False))
+                ranges[f"{side}_range_name"] = "shares"
+        if self.in_view:
+            at = self.x if self.in_view == "x" else self.y
+            text = style.words_in_view(plot, source, self.code, str(at), self.in_view, self.share)
+        elif self.fitting:
+            text = style.fitting_words(plot, source, self.code, below=self.fitting)
+        else:
+            text = style.words_of(source, self.code)
+        look = {
+            "text_font": {"value": style.FONT},
+            "text_font_size": style.SMALL_TEXT_SIZE,
+            "text_color": style.INK,
+            "text_baseline": "middle",
+            **self.look,
+        }
+        return plot.text(self.x, self.y, source=source, text=text, **ranges, **look)
+
+
+ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}
+"""Look of words that lie on lines."""
+
+
+def sources_of(packed: PackedSource, layers: Iterable[Layer]) -> dict[str, ColumnDataSource]:
+    """The sources that layers name, each declared once with all the columns that they read."""
+    columns: dict[str, dict[str, None]] = {}
+    for layer in layers:
+        columns.setdefault(layer.source, {}).update(dict.fromkeys(layer.columns))
+    return {name: packed.source(name, *own) for name, own in columns.items()}
+
+
+def draw(plot: figure, packed: PackedSource, layers: Sequence[Layer]) -> list[GlyphRenderer]:
+    """Draw layers whose sources no other figure has."""
+    return add_all(plot, sources_of(packed, layers), layers)
+
+
+def add_all(
+    plot: figure, sources: Mapping[str, ColumnDataSource], layers: Sequence[Layer]
+) -> list[GlyphRenderer]:
+    """Draw layers over sources that several figures share."""
+    return [layer.add(plot, sources[layer.source]) for layer in layers]
+
+
+def by_number(column: str, colors: Sequence[str]) -> dict[str, Any]:
+    """The colour of what a column numbers, from 0."""
+    mapper = LinearColorMapper(palette=list(colors), low=-0.5, high=len(colors) - 0.5)
+    return {"field": column, "transform": mapper}

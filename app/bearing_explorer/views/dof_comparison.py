@@ -1,19 +1,20 @@
-"""Which directions are free to move, and what it would change if others were."""
+"""The free directions of the scene, and the error of leaving others out."""
 
 from __future__ import annotations
 
+import html
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import param
+import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.widgets.controls import Rows
+from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.widgets.form import Fields, button, row
 from bearingcore import DOF_NAMES
 from bearingcore.common.numbers import decibels as in_decibels
 from bearingcore.common.numbers import percent, scientific
@@ -32,21 +33,7 @@ _WORDS = {
 }
 
 
-class DofRows(Rows):
-    """The boxes and the differences in the browser."""
-
-    #: {"needed": "x y", "active": "x y", "facts": [{label, symbol, value, about}]}
-    shown = param.Dict(default={})
-
-    _esm = scripts("element.js", "asking.js", "rows.js", "dof_comparison.js")
-    _stylesheets: ClassVar[list[str]] = [
-        asset_text("button.css"),
-        asset_text("controls.css"),
-        asset_text("dof_comparison.css"),
-    ]
-
-
-class DofDifferences(ControlView):
+class DofDifferences(View):
     """The free directions of the inner ring, and the error of leaving some out."""
 
     name = "dofs"
@@ -55,12 +42,45 @@ class DofDifferences(ControlView):
         "Directions in which the rings can move. The scene takes the fewest that are exact; force "
         "others on it, and see what that changes."
     )
+    in_report = False
     needs = frozenset({"dof_comparison", "spectra"})
+    _parts: SessionParts | None = None
 
     def build(self, packed: PackedSource) -> Any:
-        spec = {"dofs": [[name, _WORDS[name]] for name in DOF_NAMES]}
-        self.rows = DofRows(self.forward, spec=spec)
-        return self.rows
+        self._fields = Fields(lambda _: self.choose(self._fields.values["dofs"]))
+        boxes = pn.widgets.CheckBoxGroup(
+            options={words: name for name, words in _WORDS.items()},
+            css_classes=["dofs"],
+            margin=0,
+            stylesheets=[asset_text("form.css")],
+        )
+        self._fields.add("dofs", boxes)
+        self._automatic = button("As the scene needs", lambda: self._ask("auto"), align="start")
+        self._facts = _html("", styles={"flex": "1 1 260px"})
+        self._refusal = _html("", visible=False)
+        form = pn.Column(
+            _html("<h3>Free directions</h3>"), self._automatic, boxes, self._refusal,
+            styles={"flex": "1 1 260px", "gap": "7px"}, margin=0,
+        )  # fmt: skip
+        return row(form, self._facts, styles={"align-items": "start", "gap": "10px 34px"})
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self._parts = parts
+
+    def choose(self, dofs: Sequence[str]) -> None:
+        """Force directions on the scene."""
+        free = [name for name in DOF_NAMES if name in dofs]
+        if free:
+            self._ask(" ".join(free))
+            return
+        words = "At least one direction has to be free."
+        self._refusal.param.update(object=f'<p role="alert">{words}</p>', visible=True)
+
+    def _ask(self, dofs: str) -> None:
+        self._refusal.visible = False
+        if self._parts is not None:
+            self._parts.ask({"choose": {"dofs": dofs}})
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         return {}, {}
@@ -84,14 +104,9 @@ class DofDifferences(ControlView):
         if results is not None:
             found = results.dof_comparison
             against = "all five free" if found.other == DOF_NAMES else _listed(found.other)
-            self.rows.put(
-                shown={
-                    "needed": " ".join(results.scene.needed_dofs),
-                    "active": " ".join(found.chosen),
-                    "against": against,
-                    "facts": facts_of(found),
-                }
-            )
+            self._fields.put({"dofs": list(found.chosen)})
+            self._automatic.disabled = found.chosen == results.scene.needed_dofs
+            self._facts.object = facts_html(facts_of(found), against)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.dof_comparison.table().named()
@@ -114,6 +129,21 @@ def facts_of(found: DofComparison) -> list[dict[str, str]]:
     if found.no_motion:
         facts.append(("Spectrum of the vibration", "S", f"none: {found.no_motion}"))
     return [dict(zip(("label", "symbol", "value"), fact, strict=True)) for fact in facts]
+
+
+def facts_html(facts: list[dict[str, str]], against: str) -> str:
+    """The differences as HTML; symbols hold subscripts."""
+    rows = "".join(
+        f"<div><dt>{fact['label']} <i>{fact['symbol']}</i></dt>"
+        f"<dd>{html.escape(fact['value'])}</dd></div>"
+        for fact in facts
+    )
+    head = f"Greatest difference against {against}" if facts else "Nothing is left out"
+    return f"<h3>{head}</h3><dl>{rows}</dl>"
+
+
+def _html(words: str, **params: Any) -> pn.pane.HTML:
+    return pn.pane.HTML(words, stylesheets=[asset_text("facts.css")], margin=0, **params)
 
 
 def share(value: float) -> str:

@@ -101,7 +101,7 @@ class LifeOfBearing(View):
         self.asked = Asked()
         self._fields = Fields(self.take)
         hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
-        self._refusal = pn.pane.HTML("", visible=False, stylesheets=[asset_text("life.css")])
+        self._refusal = pn.pane.HTML("", visible=False, stylesheets=[asset_text("facts.css")])
         parts: list[Any] = []
         for field in FIELDS:
             given = entry(
@@ -188,7 +188,7 @@ def read(field: Field, given: object) -> float | None:
 
 
 def _html(words: str, **params: Any) -> pn.pane.HTML:
-    return pn.pane.HTML(words, stylesheets=[asset_text("life.css")], margin=0, **params)
+    return pn.pane.HTML(words, stylesheets=[asset_text("facts.css")], margin=0, **params)
 
 
 def answers_html(groups: list[dict[str, Any]]) -> str:

@@ -57,12 +57,8 @@ class MeasuredSignal(MeasuredView):
         self._sized = [plot.yaxis[0] for plot in plots]
         self._unsized = [_axis_without_unit(plot) for plot in plots]
         self._mark_events(packed, plots[1])
-        wide: dict[str, Any] = {
-            "sizing_mode": "stretch_width",
-            "margin": 0,
-            "stylesheets": [style.WRAPPED],
-        }
-        self.hidden = pn.Row(*plots, visible=False, **wide)
+        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self.hidden = pn.Row(*plots, visible=False, stylesheets=[style.WRAPPED], **wide)
         return pn.Column(self.form, self.hidden, **wide)
 
     def _plot(self, packed: PackedSource, part: str) -> figure:

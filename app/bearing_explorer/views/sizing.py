@@ -102,15 +102,12 @@ class DefectSize(JobView[Sized], MeasuredView):
         events = packed.source("sizing_events", "time", "exit", "row", "shift")
         knocks = packed.source("sizing_knocks", "time", "shift")
         self._rows = {}
-        wide: dict[str, Any] = {
-            "sizing_mode": "stretch_width",
-            "margin": 0,
-            "stylesheets": [style.WRAPPED],
-        }
+        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         for dof in SHOWN:
             self._rows[dof] = pn.Row(
                 self._pass_plot(packed, dof, seconds, events, knocks),
                 self._spectrum_plot(packed, dof, frequency),
+                stylesheets=[style.WRAPPED],
                 **wide,
             )
         self._answer_part = pn.Column(

@@ -139,7 +139,7 @@ def facts_html(facts: list[dict[str, str]], against: str) -> str:
         for fact in facts
     )
     head = f"Greatest difference against {against}" if facts else "Nothing is left out"
-    return f"<h3>{head}</h3><dl>{rows}</dl>"
+    return f'<h3>{head}</h3><dl class="facts">{rows}</dl>'
 
 
 def _html(words: str, **params: Any) -> pn.pane.HTML:

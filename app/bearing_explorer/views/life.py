@@ -201,7 +201,10 @@ def answers_html(groups: list[dict[str, Any]]) -> str:
             for fact in group["facts"]
         )
         words = html.escape(group["words"])
-        parts.append(f"<section><h3>{group['title']}</h3><dl>{facts}</dl><p>{words}</p></section>")
+        parts.append(
+            f"<section><h3>{group['title']}</h3>"
+            f'<dl class="facts">{facts}</dl><p>{words}</p></section>'
+        )
     return "".join(parts)
 
 

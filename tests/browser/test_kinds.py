@@ -175,4 +175,4 @@ def test_life_follows_the_rating_that_is_typed(watch: tuple[Page, Watch], explor
     expect(life).to_contain_text("not a promise")
     rating.fill("nothing")
     rating.press("Enter")
-    expect(life.locator(".refusal").first).to_contain_text("goes from")
+    expect(life.locator(".refused").first).to_contain_text("goes from")

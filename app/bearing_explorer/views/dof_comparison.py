@@ -47,7 +47,7 @@ class DofDifferences(View):
     _parts: SessionParts | None = None
 
     def build(self, packed: PackedSource) -> Any:
-        self._fields = Fields(lambda _: self.choose(self._fields.values["dofs"]))
+        self._fields = Fields(lambda _: self.force(self._fields.values["dofs"]))
         boxes = pn.widgets.CheckBoxGroup(
             options={words: name for name, words in _WORDS.items()},
             css_classes=["dofs"],
@@ -68,7 +68,7 @@ class DofDifferences(View):
         super().attach(parts)
         self._parts = parts
 
-    def choose(self, dofs: Sequence[str]) -> None:
+    def force(self, dofs: Sequence[str]) -> None:
         """Force directions on the scene."""
         free = [name for name in DOF_NAMES if name in dofs]
         if free:

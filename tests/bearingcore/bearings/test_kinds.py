@@ -1,0 +1,54 @@
+"""Kinds of bearing: stored, recognized in files that do not name them, and asked for as data."""
+
+from __future__ import annotations
+
+import dataclasses
+import pickle
+
+import pytest
+
+from bearingcore import Scene, equilibrium, presets
+from bearingcore.bearings import KINDS
+from bearingcore.bearings.kind import kind_named
+from bearingcore.errors import FieldError
+
+every_preset = pytest.mark.parametrize("name", list(presets))
+ROLLERS = presets["nu208"]
+
+
+@every_preset
+def test_a_kind_is_recognized_in_files_without_its_name(name: str) -> None:
+    bearing = presets[name].bearing
+    assert "kind" not in presets[name].to_data()["bearing"]
+    assert Scene.from_toml(presets[name].to_toml()).bearing.kind is bearing.kind
+    assert dataclasses.replace(bearing, kind=bearing.kind.name) == bearing
+    assert pickle.loads(pickle.dumps(bearing)).kind is bearing.kind
+
+
+@every_preset
+def test_each_variant_is_made_of_any_bearing(name: str) -> None:
+    for kind in KINDS.values():
+        for variant in kind.variants:
+            made = kind.nearest(presets[name].bearing, variant.name)
+            assert made.kind is kind
+            assert kind.variant(made) == variant.name
+
+
+def test_a_name_or_numbers_of_another_kind_are_refused() -> None:
+    with pytest.raises(FieldError, match="kind is 'thrust'"):
+        kind_named("thrust")
+    for name, field in (("rows", "rows"), ("self-aligning", "rows"), ("roller", "roller_length")):
+        with pytest.raises(FieldError) as refused:
+            dataclasses.replace(presets["6205"].bearing, kind=name)
+        assert refused.value.field == field
+
+
+def test_directions_that_a_kind_cannot_have_are_refused_in_words() -> None:
+    said = "x and y, as cylindrical rollers carry radial loads only"
+    for ask in (
+        lambda: ROLLERS.replace(dofs=("x", "y", "z")),
+        lambda: equilibrium(ROLLERS, dofs=("x", "y", "z")),
+    ):
+        with pytest.raises(FieldError, match=said) as refused:
+            ask()
+        assert refused.value.field == "dofs"

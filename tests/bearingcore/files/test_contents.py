@@ -10,22 +10,17 @@ import pytest
 from scipy.io import savemat
 
 from bearingcore import read_table
-from bearingcore.files import formats
-from bearingcore.files.child import MOST_COLUMNS, MOST_NUMBERS
+from tests.helpers.reading import read_in_this_process
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
-pytestmark = pytest.mark.filterwarnings("ignore:The 'float_precision' argument")
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
 """A folder with real records in folders `cwru`, `mfpt` and `femto`."""
 
 
 @pytest.fixture(autouse=True)
-def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is read, and how files become that in a process of their own, is tested elsewhere."""
-    monkeypatch.setattr(
-        "bearingcore.files.table.read_file",
-        lambda name, content: formats.read(name, content, MOST_NUMBERS, MOST_COLUMNS),
-    )
+def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How files are read in a process of their own is tested elsewhere."""
+    read_in_this_process(monkeypatch)
 
 
 def matlab(**variables: object) -> bytes:
@@ -231,7 +226,8 @@ def test_a_level_that_no_bearing_gives_is_doubted() -> None:
 
 
 def _real() -> list[Path]:
-    return sorted(Path(MEASURED).glob("*/*.*")) if MEASURED else []
+    kinds = ("cwru", "mfpt", "femto") if MEASURED else ()
+    return sorted(path for kind in kinds for path in Path(MEASURED, kind).glob("*.*"))
 
 
 @pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder of real records")

@@ -10,11 +10,18 @@ import pytest
 from bearingcore import EDGES, RACES, Defect, MeasuredFloor, RoughFloor, equilibrium, presets
 from bearingcore.scene.defect import drop_into, edge_drop, path_tables
 from bearingcore.scene.floor import read_floor
+from tests.helpers.reading import read_in_this_process
 
 BEARING = presets["fan-rig"].bearing
 ANGLES = np.linspace(-0.4, 0.5, 3001)
 # a tabulated path cuts the corner where the ball reaches the floor by at most this much [m]
 TABLE_ERROR = 3e-8
+
+
+@pytest.fixture(autouse=True)
+def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How files are read in a process of their own is tested elsewhere."""
+    read_in_this_process(monkeypatch)
 
 
 @pytest.mark.parametrize("race", RACES)

@@ -1,0 +1,635 @@
+"""What a person does with the page, from end to end, by what is seen."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
+from scipy.io import wavfile
+
+from bearingcore import Scene, equilibrium, modes, presets, simulate
+from tests.browser.helpers import ROOT, Server, Watch
+from tests.browser.visitor import FAN_RIG, Visitor
+
+FAN = presets["fan-rig"]
+_LINKS = ROOT / "tests" / "bearing_explorer" / "state" / "frozen_links.toml"
+_NOTHING = re.compile("could not be computed|Traceback|undefined|\\bNaN\\b")
+
+
+@pytest.fixture
+def visitor(watch: tuple[Page, Watch]) -> Visitor:
+    return Visitor(watch[0])
+
+
+# --- every tab ------------------------------------------------------------------------------------
+
+
+def _passes(scene: Scene) -> np.ndarray:
+    return np.linspace(0.0, 2.0 * math.pi / scene.bearing.n_balls, 361)
+
+
+def _frequency(scene: Scene) -> str:
+    """The highest natural frequency of the second band."""
+    return f"{np.sort(modes(scene, _passes(scene)).frequency, axis=1)[:, 1].max():.0f}"
+
+
+def _most_loaded(scene: Scene) -> str:
+    return f"{np.max(equilibrium(scene, [0.0]).ball_load):.3g} N"
+
+
+def _stiffest(scene: Scene) -> str:
+    return f"{equilibrium(scene, _passes(scene)).term('k_yy').max() / 1e6:.3g} MN/m"
+
+
+def _now_stiff(scene: Scene) -> str:
+    return f"{equilibrium(scene, [0.0]).term('k_yy')[0] / 1e6:.3g} MN/m"
+
+
+def _outer_race(scene: Scene) -> str:
+    return f"{scene.bearing.bpfo(scene.shaft_speed):.2f} Hz"
+
+
+#: of each tab: cards, figures at least, a number of the core that it says, and what moves it
+TABS = {
+    "Overview": (5, 3, _frequency, "Extent"),
+    "Load": (3, 3, _most_loaded, "Extent"),
+    "Life": (1, 0, None, None),
+    "Stiffness": (1, 1, _stiffest, "Extent"),
+    "Maps": (1, 1, _now_stiff, "Extent"),
+    "Explore": (1, 4, None, "Depth"),
+    "Frequencies": (1, 1, _frequency, "Extent"),
+    "Vibration": (2, 2, _outer_race, "Extent"),
+    "Ball mass": (3, 2, None, "Extent"),
+    "Orbits": (2, 1, None, "Extent"),
+    "Speed run": (1, 1, None, None),
+    "Bearing": (2, 0, _outer_race, None),
+    "Model": (2, 0, None, None),
+    "Diagnosis": (5, 0, None, None),
+    "Accuracy": (1, 0, None, None),
+}
+
+
+@pytest.fixture(scope="module")
+def walk(browser: BrowserContext, explorer: Server) -> Iterator[tuple[Visitor, Watch]]:
+    """One page for a walk through all tabs."""
+    page, watching = browser.new_page(), Watch()
+    watching.follow(page)
+    visitor = Visitor(page)
+    visitor.open(explorer)
+    yield visitor, watching
+    page.close()
+
+
+def test_the_tabs_are_those_that_there_have_been(walk: tuple[Visitor, Watch]) -> None:
+    names = walk[0].page.get_by_role("tab").all_inner_texts()
+    assert [name.strip() for name in names] == list(TABS)
+
+
+@pytest.mark.parametrize("tab", TABS)
+def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch], tab: str) -> None:
+    visitor, watching = walk
+    cards, figures, known, moved = TABS[tab]
+    visitor.go_to(tab)
+    headings = visitor.main.get_by_role("heading", level=2)
+    visitor.wait(lambda: headings.count() >= cards and len(visitor.figures()) >= figures)
+    visitor.steady()
+    assert "blank" not in visitor.figures()
+    assert not _NOTHING.search(" ".join(visitor.sentences()))
+    if known is not None:
+        visitor.reads(re.compile(re.escape(known(FAN))))
+    if moved is not None:
+        visitor.sees_change(lambda: visitor.slider(moved).press("PageUp"))
+        visitor.press("Reset", visitor.scene)
+        expect(visitor.box("Extent")).to_have_value("12.9")
+    watching.assert_clean()
+
+
+# --- the scene ------------------------------------------------------------------------------------
+
+
+def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    undo, redo = (visitor.scene.get_by_role("button", name=name) for name in ("Undo", "Redo"))
+    expect(undo).to_be_disabled()
+    track = visitor.slider("Extent").bounding_box()
+    assert track is not None
+    y = track["y"] + track["height"] / 2
+    visitor.page.mouse.move(track["x"] + 0.12 * track["width"], y)
+    visitor.page.mouse.down()
+    visitor.page.mouse.move(track["x"] + 0.5 * track["width"], y, steps=10)
+    visitor.page.mouse.up()
+    visitor.steady()
+    dragged = visitor.number("Extent")
+    assert dragged > 40
+    scene = FAN.replace(extent=math.radians(dragged))
+    visitor.reads(re.compile(re.escape(_most_loaded(scene))))
+    visitor.type("Depth", "20")
+    visitor.press("Undo")
+    expect(visitor.box("Depth")).to_have_value("50")
+    visitor.page.keyboard.press("Control+z")
+    expect(visitor.box("Extent")).to_have_value("12.9")
+    visitor.reads(re.compile(re.escape(_most_loaded(FAN))))
+    expect(undo).to_be_disabled()
+    redo.click()
+    expect(visitor.box("Extent")).to_have_value(f"{dragged:g}")
+
+
+def test_what_cannot_be_is_refused_and_what_is_drawn_stays(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    before = visitor.figures()
+    for text in ("400", "a lot"):
+        visitor.type("Extent", text)
+        visitor.reads(re.compile("from 0 to 360"), visitor.scene)
+        visitor.box("Extent").press("Escape")
+    visitor.steady()
+    assert visitor.figures() == before
+    visitor.type("Force, up", "0")  # nothing presses the balls
+    visitor.reads("No answer", visitor.page.get_by_role("contentinfo"))
+    visitor.type("Extent", "33,25")
+    expect(visitor.box("Extent")).to_have_value("33.25")
+
+
+@pytest.mark.parametrize("bearing", ["7208 pair, back to back (O)", "NU 208, cylindrical rollers"])
+def test_another_kind_of_bearing_is_shown(visitor: Visitor, explorer: Server, bearing: str) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    visitor.sees_change(lambda: visitor.choose("Bearing", bearing))
+    for tab in ("Life", "Stiffness", "Frequencies", "Bearing"):
+        visitor.go_to(tab)
+        assert "blank" not in visitor.figures()
+        assert not _NOTHING.search(" ".join(visitor.sentences()))
+
+
+def test_defects_are_added_chosen_and_removed(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    before = visitor.figures()
+    visitor.press("Add a defect")
+    visitor.wait(lambda: visitor.figures() != before)
+    expect(visitor.box("Centre")).to_have_value("90")
+    visitor.choose("Floor", "Rough")
+    expect(visitor.box("Roughness, RMS")).to_be_visible()
+    visitor.press(re.compile("^Defect 1"))
+    expect(visitor.box("Centre")).to_have_value("270")
+    visitor.press("Remove defect 2")
+    expect(visitor.scene.get_by_role("button", name="Remove defect 1")).to_be_disabled()
+
+
+def test_the_bearing_turns_and_stops(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    visitor.press("Turn the bearing")
+    visitor.wait(lambda: visitor.number("Cage angle") > 5)
+    visitor.press("Stop turning")
+    visitor.steady()
+    stopped = visitor.number("Cage angle")
+    found = equilibrium(FAN, [math.radians(stopped)])
+    visitor.reads(re.compile(rf"\b{found.loaded_balls[0]} of 14 balls"))
+
+
+# --- what is special to a tab ---------------------------------------------------------------------
+
+
+def test_life_is_computed_from_what_is_known_of_oil_and_rating(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, "?v=1&preset=6205&tab=life")
+    visitor.reads(re.compile("GPa"))
+    visitor.main.get_by_label("Dynamic load rating of the catalogue").fill("14")
+    visitor.page.keyboard.press("Enter")
+    visitor.reads(re.compile("14 kN"))
+    visitor.main.get_by_label("Viscosity of the oil").fill("much")
+    visitor.page.keyboard.press("Enter")
+    visitor.reads(re.compile("goes from|not a number"))
+
+
+def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "explore")
+    visitor.wait(lambda: len(visitor.figures()) >= 4)
+    visitor.sees_change(lambda: visitor.choose("Upwards", "Radial clearance (µm)"))
+    visitor.reads(re.compile("clearance"))
+    canvas = visitor.main.locator("canvas").locator("visible=true").first
+    box = canvas.bounding_box()
+    assert box is not None
+    canvas.click(position={"x": 0.5 * box["width"], "y": 0.5 * box["height"]})
+    visitor.wait(lambda: visitor.number("Extent") != 12.9)
+    _, table = visitor.download(lambda: visitor.export("CSV"))
+    assert len(table.decode().strip().splitlines()) >= 63
+
+
+def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, FAN_RIG + "vibration")
+    for act in (
+        lambda: visitor.main.get_by_role("checkbox").first.check(),
+        lambda: visitor.main.get_by_text(re.compile(r"\blog")).click(),
+    ):
+        before = visitor.figures()
+        act()
+        visitor.wait(lambda before=before: visitor.figures() != before)  # type: ignore[misc]
+        visitor.steady()
+    visitor.choose("Balls", "With mass")
+    visitor.steady()
+    visitor.press("Undo")
+    expect(visitor.page.get_by_label("Balls", exact=True)).to_have_value("massless")
+
+
+def test_orbits_are_mapped_and_a_long_map_is_cancelled(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "orbits")
+    visitor.reads(re.compile("Stable orbit"))
+    visitor.type("Shaft speed", "30")
+    visitor.reads(re.compile("Unstable"))
+    visitor.press("Undo")
+    visitor.choose("Points", "13 × 13")
+    visitor.press("Compute the map")
+    visitor.reads(re.compile("13 × 13 points after"))
+    visitor.steady()
+    assert len(visitor.figures()) >= 2
+    visitor.choose("Points", "97 × 97")
+    visitor.press("Compute the map")
+    cancel = visitor.main.get_by_role("button", name="Cancel")
+    expect(visitor.main.get_by_role("progressbar")).to_be_visible()
+    cancel.click()
+    visitor.reads(re.compile("Cancelled"))
+    expect(cancel).to_be_disabled()
+
+
+def test_a_run_up_is_drawn(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "speed-run")
+    visitor.choose("Speeds", "25")
+    visitor.press("Run up")
+    visitor.reads(re.compile("25 speeds after"))
+    visitor.steady()
+    before = visitor.figures()
+    assert before
+    assert "blank" not in before
+    visitor.press("Along x")
+    visitor.wait(lambda: visitor.figures() != before)
+
+
+def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, FAN_RIG + "bearing")
+    visitor.type("Number of balls", "10")
+    visitor.reads(_outer_race(FAN.replace(n_balls=10)))
+    visitor.main.get_by_role("searchbox").fill("harris 209")
+    visitor.press("Use 209, Harris")
+    expect(visitor.box("Pitch diameter")).to_have_value("65")
+    head = "name;balls;ball_diameter_mm;pitch_diameter_mm\n"
+    visitor.bring(visitor.main, "ours.csv", f"{head}Ours;9;x;39\n".encode())
+    visitor.reads(re.compile("line 2"))
+    visitor.bring(visitor.main, "ours.csv", f"{head}Ours;8;7,94;39,04\n".encode())
+    visitor.main.get_by_role("searchbox").fill("ours")
+    visitor.press("Use Ours")
+    expect(visitor.box("Number of balls")).to_have_value("8")
+    visitor.choose("Kind of bearing", "Cylindrical rollers")
+    visitor.steady()
+    assert visitor.main.get_by_role("img").first.is_visible()
+
+
+def test_rotor_support_and_directions_are_changed(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "model")
+    visitor.type("Mass of the rotor", "4")
+    visitor.reads(re.compile("rotor of 4 kg"))
+    visitor.choose("Contact law", "Without tension")
+    tilt = visitor.main.get_by_role("checkbox", name=re.compile("^z"))
+    tilt.click()
+    expect(tilt).to_be_checked()
+    visitor.steady()
+    visitor.press("As the scene needs")
+    expect(tilt).not_to_be_checked()
+    visitor.go_to("Frequencies")
+    expected = _frequency(FAN.replace(inner_mass=4.0, contact_law="no-tension"))
+    visitor.reads(re.compile(rf"\b{expected} Hz"))
+
+
+def _recording(extent_deg: float, rate: float = 48_000.0) -> bytes:
+    """A WAV file of 3 s of the fan rig's housing along y, with noise."""
+    scene = FAN.replace(extent=math.radians(extent_deg))
+    signal = simulate(scene, 3.2, rate).outer_acceleration[round(0.2 * rate) :, 1]
+    rng = np.random.default_rng(1)
+    signal = signal + 0.1 * signal.std() * rng.standard_normal(len(signal))
+    file = io.BytesIO()
+    wavfile.write(file, round(rate), signal.astype(np.float32))
+    return file.getvalue()
+
+
+def test_a_measurement_is_brought_its_part_named_and_its_size_found(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, FAN_RIG + "diagnosis")
+    visitor.bring(visitor.main, "broken.csv", b"x,y\n1,2\nhello,3")
+    visitor.reads(re.compile("broken.csv cannot be used"))
+    visitor.bring(visitor.main, "fan.wav", _recording(38.6))
+    visitor.reads(re.compile("fan.wav: 3 s"))
+    visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    visitor.reads(re.compile("outer race is (probably )?damaged"))
+    visitor.press("Find the size")
+    visitor.reads(re.compile(r"38\.[4-8]°"))
+    visitor.steady()
+    assert len(visitor.figures()) >= 3
+    assert "blank" not in visitor.figures()
+    visitor.press(re.compile(r"38\.\d° into the scene"))
+    visitor.wait(lambda: abs(visitor.number("Extent") - 38.6) < 0.3)
+
+
+def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, "?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
+    visitor.press("Simulate a signal")
+    visitor.reads(re.compile("The inner race is damaged"))
+    visitor.page.goto(f"{explorer.url}?v=1&preset=6205&extent_deg=0&tab=diagnosis")
+    visitor.press("Simulate a signal")
+    visitor.reads(re.compile("No damage seen"))
+
+
+def test_accuracy_is_measured_and_the_measuring_cancelled(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, FAN_RIG + "accuracy")
+    visitor.choose("What to measure", "Cage angles")
+    visitor.press("Measure")
+    visitor.reads(re.compile(r"\d+ points after"))
+    visitor.wait(lambda: "blank" not in visitor.figures() and bool(visitor.figures()))
+    visitor.choose("What to measure", "Motion: methods")
+    visitor.press("Measure")
+    visitor.press("Cancel", visitor.main)
+    visitor.reads(re.compile("Cancelled"))
+
+
+# --- lessons, classes, looks ----------------------------------------------------------------------
+
+
+def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer)
+    visitor.press("Lessons")
+    lesson = visitor.page.get_by_role("region", name="Lesson")
+    entries = lesson.get_by_role("listitem")
+    assert entries.count() >= 12
+    entries.first.get_by_role("button").click()
+    title = lesson.get_by_role("heading", level=2)
+    first = title.inner_text()
+    expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
+    lesson.get_by_role("button", name="500 N").click()
+    expect(visitor.box("Force, up")).to_have_value("−500")
+    lesson.get_by_role("textbox").fill("7")
+    lesson.get_by_role("button", name="Predict").click()
+    visitor.reads(re.compile("7 N"), lesson)
+    before = lesson.inner_text()
+    lesson.get_by_role("button", name=re.compile("answer")).click()
+    visitor.wait(lambda: len(lesson.inner_text()) > len(before))
+    lesson.get_by_role("button", name="Next lesson").click()
+    expect(title).not_to_have_text(first)
+    visitor.steady()
+    second = title.inner_text()
+    visitor.page.reload()
+    expect(title).to_have_text(second)
+    visitor.press("Close the lessons")
+    expect(lesson).to_be_hidden()
+
+
+def test_the_projector_shows_larger_letters(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, "?lesson=what-a-ball-carries")
+    question = visitor.page.get_by_role("region", name="Lesson").get_by_role("paragraph").first
+    small, drawn = question.bounding_box(), visitor.figures()
+    visitor.press("Projector")
+    undo = visitor.scene.get_by_role("button", name="Undo")
+    expect(undo).to_be_hidden()
+    visitor.steady()
+    large = question.bounding_box()
+    assert small is not None
+    assert large is not None
+    assert large["height"] > small["height"]
+    assert visitor.figures() != drawn
+    visitor.press("Projector")
+    expect(undo).to_be_visible()
+
+
+def _brightness(page: Page) -> float:
+    """Mean brightness of a figure, from 0 to 255."""
+    canvas = page.get_by_role("main").locator("canvas").locator("visible=true").first
+    return float(
+        canvas.evaluate(
+            """canvas => {
+              const {width, height} = canvas
+              const {data} = canvas.getContext("2d").getImageData(0, 0, width, height)
+              return data.reduce((sum, value) => sum + value, 0) / data.length
+            }"""
+        )
+    )
+
+
+def test_dark_colours_are_chosen_and_remembered(visitor: Visitor, explorer: Server) -> None:
+    visitor.page.emulate_media(color_scheme="light")
+    visitor.open(explorer, FAN_RIG + "frequencies")
+    light = _brightness(visitor.page)
+    visitor.press("Dark colours")
+    visitor.steady()
+    dark = _brightness(visitor.page)
+    assert dark < light - 50
+    visitor.open(explorer, FAN_RIG + "stiffness")
+    assert _brightness(visitor.page) < light - 50
+    visitor.press("Dark colours")
+    visitor.steady()
+    assert _brightness(visitor.page) > dark + 50
+
+
+def test_two_people_do_not_disturb_each_other_and_share_a_link(
+    visitor: Visitor, explorer: Server, browser: BrowserContext
+) -> None:
+    other_page = browser.new_page()
+    other = Visitor(other_page)
+    visitor.open(explorer, FAN_RIG + "stiffness")
+    other.open(explorer, FAN_RIG + "load")
+    before = other.sentences(), other.figures()
+    visitor.sees_change(lambda: visitor.type("Extent", "38.6"))
+    other.steady()
+    assert (other.sentences(), other.figures()) == before
+    browser.grant_permissions(["clipboard-read", "clipboard-write"])
+    visitor.page.bring_to_front()
+    share = visitor.menu("Share")
+    link = share.get_by_role("textbox").input_value()
+    visitor.press("Copy link")
+    visitor.wait(lambda: visitor.page.evaluate("navigator.clipboard.readText()") == link)
+    other_page.bring_to_front()
+    other_page.goto(link)
+    other.reads(re.compile(re.escape(_stiffest(FAN.replace(extent=math.radians(38.6))))))
+    assert other.number("Extent") == 38.6
+    other_page.close()
+
+
+def test_a_scene_is_pinned_and_kept(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "stiffness")
+    keep = visitor.menu("Keep")
+    keep.get_by_role("textbox").fill("Monday")
+    keep.get_by_role("button", name="Keep", exact=True).click()
+    visitor.reads("Monday", keep)
+    keep.get_by_role("button", name="Pin as grey").click()
+    visitor.page.keyboard.press("Escape")
+    visitor.sees_change(lambda: visitor.type("Extent", "60"))
+    visitor.reads(re.compile("^Grey"))
+    pinned = visitor.figures()
+    visitor.menu("Keep").get_by_role("button", name="Monday", exact=True).click()
+    expect(visitor.box("Extent")).to_have_value("12.9")
+    visitor.menu("Keep").get_by_role("button", name="Unpin").click()
+    visitor.wait(lambda: visitor.figures() != pinned)
+
+
+# --- links and files ------------------------------------------------------------------------------
+
+
+def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
+    links = tomllib.loads(_LINKS.read_text(encoding="utf-8"))["link"]
+    for link in links[8::4]:
+        visitor.page.goto(f"{explorer.url}?{link['text']}")
+        scene, defects = link["scene"], link["scene"].get("defect", [])
+        speed = scene["shaft_speed"] / (2.0 * math.pi)
+        visitor.wait(lambda: any(visitor.sentences()))
+        expect(visitor.box("Shaft speed")).to_have_value(f"{speed:.6g}")
+        assert visitor.number("Force, up") == pytest.approx(scene["load"]["fy"])
+        extents = [math.degrees(defect["extent"]) for defect in defects]
+        assert not extents or any(
+            visitor.number("Extent") == pytest.approx(extent, rel=1e-6) for extent in extents
+        )
+        assert not _NOTHING.search(" ".join(visitor.sentences()))
+
+
+@pytest.mark.parametrize(
+    ("link", "words"),
+    [("?v=9&extent_deg=3", "version"), ("?v=1&preset=none-such", "no bearing “none-such”")],
+)
+def test_a_link_that_cannot_be_read_says_so(
+    visitor: Visitor, explorer: Server, link: str, words: str
+) -> None:
+    visitor.open(explorer, link)
+    visitor.reads(re.compile(words), visitor.page.locator("body"))
+    assert visitor.number("Extent") == 12.9
+
+
+def test_a_scene_is_saved_changed_opened_and_swept(
+    visitor: Visitor, explorer: Server, tmp_path: Path
+) -> None:
+    visitor.open(explorer, FAN_RIG + "load&extent_deg=38.6")
+    dialog = visitor.menu("Download")
+    name, text = visitor.download(lambda: visitor.press(re.compile("^Scene"), dialog))
+    assert name.endswith(".toml")
+    assert Scene.from_toml(text.decode()) == FAN.replace(extent=math.radians(38.6))
+    visitor.page.keyboard.press("Escape")
+    visitor.press("Reset", visitor.scene)
+    expect(visitor.box("Extent")).to_have_value("12.9")
+    dialog = visitor.menu("Download")
+    visitor.bring(dialog, "bad.toml", b"extent = [")
+    visitor.reads(re.compile("not TOML"), visitor.scene)
+    visitor.bring(visitor.scene, "mine.toml", text)
+    expect(visitor.box("Extent")).to_have_value("38.6")
+
+    file, out = tmp_path / "sweep.toml", tmp_path / "out.zarr"
+    wanted = '\n[sweep]\noutputs = ["k_yy_mean"]\n[sweep.over]\nfy = [-50.0, -100.0]\n'
+    file.write_text(text.decode() + wanted, encoding="utf-8")
+    scripts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    module, function = scripts["scripts"]["bearing-sweep"].split(":")
+    start = f"import sys; from {module} import {function} as main; sys.exit(main())"
+    command = [sys.executable, "-c", start, str(file), "--out", str(out), "--workers", "1"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    import zarr
+
+    swept = zarr.open_group(out, mode="r")["k_yy_mean"][:]
+    assert swept[1] > swept[0] > 0.0
+
+
+def test_a_floor_is_brought_in_a_file(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    visitor.choose("Floor", "From a file")
+    rows = "\n".join(f"{260 + i / 4}, {20 + 15 * math.sin(i / 3):.3f}" for i in range(81))
+    before = visitor.figures()
+    defect = visitor.scene.get_by_role("group", name="Defect", exact=True)
+    visitor.bring(defect, "wear.csv", f"angle, depth\n{rows}".encode())
+    visitor.reads(re.compile("81 points"), visitor.scene)
+    expect(visitor.box("Extent")).to_have_value("20")
+    visitor.wait(lambda: visitor.figures() != before)
+    visitor.bring(defect, "bad.csv", b"1, 2\nthree, 4\nfive, 6\n")
+    visitor.reads(re.compile("line 2"), visitor.scene)
+
+
+def test_a_report_is_saved_and_read(
+    visitor: Visitor, explorer: Server, browser: BrowserContext, tmp_path: Path
+) -> None:
+    visitor.open(explorer, FAN_RIG + "load&extent_deg=20")
+    dialog = visitor.menu("Download")
+    name, text = visitor.download(lambda: visitor.press(re.compile("^Report"), dialog))
+    assert name.endswith(".html")
+    (tmp_path / name).write_bytes(text)
+    page, watching = browser.new_page(), Watch()
+    watching.follow(page)
+    page.goto((tmp_path / name).as_uri())
+    assert page.locator("svg").count() >= 10
+    wide = page.locator("svg").evaluate_all("all => all.map(e => e.getBoundingClientRect().width)")
+    assert max(wide) > 300
+    scene = FAN.replace(extent=math.radians(20))
+    expect(page.get_by_text(re.compile(re.escape(_most_loaded(scene)))).first).to_be_visible()
+    page.close()
+    watching.assert_clean()
+
+
+@pytest.mark.parametrize(("tab", "card"), [("load", 1), ("stiffness", 0)])
+def test_a_figure_is_taken_along(
+    visitor: Visitor, explorer: Server, tmp_path: Path, tab: str, card: int
+) -> None:
+    visitor.open(explorer, FAN_RIG + tab)
+    name, picture = visitor.download(lambda: visitor.export("PNG", card))
+    assert name.endswith(".png")
+    assert picture.startswith(b"\x89PNG")
+    assert len(picture) > 5000
+    name, drawing = visitor.download(lambda: visitor.export("SVG", card))
+    assert name.endswith(".svg")
+    assert drawing.count(b"<path") > 12
+    name, table = visitor.download(lambda: visitor.export("CSV", card))
+    assert name.endswith(".csv")
+    rows = list(csv.reader(io.StringIO(table.decode())))
+    assert len(rows) > 60
+    assert {len(row) for row in rows} == {len(rows[0])}
+    visitor.export("as a table", card)
+    dialog = visitor.main.get_by_role("dialog")
+    expect(dialog.get_by_role("row").nth(20)).to_be_visible()
+    visitor.page.keyboard.press("Escape")
+    visitor.export("Python", card)
+    lines = dialog.locator("pre").inner_text()
+    script = tmp_path / "lines.py"
+    script.write_text(lines, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, timeout=300, check=False,
+        cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+
+
+def test_first_visits_are_shown_in(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer)
+    what = visitor.page.get_by_role("button", name="What this is")
+    welcome = visitor.page.get_by_role("region", name="What this is")
+    if not welcome.is_visible():
+        what.click()
+    welcome.get_by_role("button", name=re.compile("^Python")).click()
+    expect(visitor.page.get_by_role("dialog")).to_contain_text("from bearingcore import")
+    visitor.page.keyboard.press("Escape")
+    welcome.get_by_role("button", name=re.compile("^My machine")).click()
+    expect(visitor.page.get_by_role("tab", name="Bearing", selected=True)).to_be_visible()
+    what.click()
+    welcome.get_by_role("button", name=re.compile("^Learn")).click()
+    expect(visitor.page.get_by_role("region", name="Lesson")).to_be_visible()

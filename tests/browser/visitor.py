@@ -1,0 +1,157 @@
+"""The page as a person uses it: visible text, roles, labels and painted figures, and nothing else.
+
+Journeys go through this, so that they hold however the page is built.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.helpers import Server
+
+FAN_RIG = "?v=1&preset=fan-rig&tab="
+_SOON = 120.0
+"""How long a person who is very patient waits [s]."""
+
+#: of each visible figure, top to bottom: a hash of its pixels, and how many differ from the paper
+_FIGURES = """canvases => {
+  const figures = new Map()
+  for (const canvas of canvases) {
+    if (!canvas.width || !canvas.height || !canvas.getClientRects().length) continue
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+    const pixels = new Uint32Array(data.buffer)
+    let hash = 0, drawn = 0
+    for (const pixel of pixels) {
+      hash = (Math.imul(hash, 31) + pixel) | 0
+      drawn += pixel !== pixels[0]
+    }
+    // layers of one figure have the same parent
+    const figure = canvas.parentElement ?? canvas.getRootNode()
+    const [hashes, most] = figures.get(figure) ?? ["", 0]
+    figures.set(figure, [`${hashes} ${hash}`, Math.max(most, drawn)])
+  }
+  return [...figures.values()]
+}"""
+
+
+class Visitor:
+    """Somebody at the page."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.main = page.get_by_role("main")
+        self.scene = page.get_by_role("complementary", name="Scene")
+
+    # --- getting about ----------------------------------------------------------------------------
+
+    def open(self, server: Server, address: str = "") -> None:
+        """Open an address of the page and wait until it shows something."""
+        self.page.goto(server.url + address)
+        expect(self.page.get_by_role("tab", selected=True)).to_be_visible()
+        self.wait(lambda: any(self.sentences()))
+        self.steady()
+
+    def go_to(self, tab: str) -> None:
+        """Choose a tab and wait until its views are there."""
+        self.page.get_by_role("tab", name=tab, exact=True).click()
+        expect(self.page.get_by_role("tab", name=tab, exact=True, selected=True)).to_be_visible()
+        self.steady()
+
+    def press(self, name: str | re.Pattern[str], where: Locator | None = None) -> None:
+        """Click the button of that name."""
+        exact = isinstance(name, str)
+        (where or self.page).get_by_role("button", name=name, exact=exact).first.click()
+
+    def menu(self, name: str) -> Locator:
+        """Open one of the menus above the scene."""
+        self.press(name, self.scene)
+        return self.page.get_by_role("dialog").first
+
+    def export(self, what: str, card: int = 0) -> None:
+        """Ask for something in the Export menu of a card: the first is 0."""
+        opener = self.main.get_by_role("button", name=re.compile("^Export"))
+        opener.nth(card).click()
+        self.main.get_by_role("menuitem", name=re.compile(what)).click()
+
+    # --- the controls -----------------------------------------------------------------------------
+
+    def box(self, label: str) -> Locator:
+        """The field in which the number of a quantity is typed."""
+        return self.page.get_by_role("textbox", name=re.compile(rf"^{label}( in |, type|$)")).first
+
+    def number(self, label: str) -> float:
+        """The number in that field."""
+        return float(self.box(label).input_value().replace("−", "-"))
+
+    def type(self, label: str, text: str) -> None:
+        """Type a number and confirm it."""
+        self.box(label).fill(text)
+        self.box(label).press("Enter")
+
+    def slider(self, label: str) -> Locator:
+        """The slider of a quantity."""
+        return self.page.get_by_role("slider", name=label, exact=True)
+
+    def choose(self, label: str, option: str) -> None:
+        """Choose from a list."""
+        self.page.get_by_label(label, exact=True).locator("visible=true").select_option(
+            label=option
+        )
+
+    def bring(self, where: Locator, name: str, content: bytes) -> None:
+        """Choose a file from the disk."""
+        where.locator("input[type=file]").first.set_input_files(
+            {"name": name, "mimeType": "application/octet-stream", "buffer": content}
+        )
+
+    def download(self, ask: Callable[[], None]) -> tuple[str, bytes]:
+        """What the browser saves: its name and content."""
+        with self.page.expect_download() as saving:
+            ask()
+        return saving.value.suggested_filename, Path(saving.value.path()).read_bytes()
+
+    # --- what is seen -----------------------------------------------------------------------------
+
+    def reads(self, words: str | re.Pattern[str], where: Locator | None = None) -> None:
+        """Wait until these words are to be seen, in the figures' part unless said otherwise."""
+        expect(
+            (where or self.main).get_by_text(words).locator("visible=true").first
+        ).to_be_visible()
+
+    def sentences(self) -> list[str]:
+        """What the views say about themselves."""
+        return self.main.get_by_role("status").all_inner_texts()
+
+    def figures(self) -> list[str]:
+        """What each visible figure shows; all of them must show something."""
+        found = self.main.locator("canvas").evaluate_all(_FIGURES)
+        return [pixels if drawn > 300 else "blank" for pixels, drawn in found]
+
+    def wait(self, done: Callable[[], bool], seconds: float = _SOON) -> None:
+        """Wait until it is so."""
+        end = time.monotonic() + seconds
+        while not done():
+            assert time.monotonic() < end, "it did not happen"
+            self.page.wait_for_timeout(100)
+
+    def steady(self) -> None:
+        """Wait until sentences and figures have stopped changing."""
+        seen: list[object] = []
+
+        def still() -> bool:
+            seen.append((self.sentences(), self.figures()))
+            return len(seen) > 2 and seen[-1] == seen[-2] == seen[-3]
+
+        self.wait(still)
+
+    def sees_change(self, act: Callable[[], object]) -> None:
+        """Do something; a sentence and a figure are different then."""
+        said, drawn = self.sentences(), self.figures()
+        act()
+        self.wait(lambda: self.sentences() != said and self.figures() != drawn)
+        self.steady()

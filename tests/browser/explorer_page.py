@@ -9,19 +9,6 @@ from playwright.sync_api import Locator, Page
 
 from tests.browser.helpers import Server, choose_tab
 
-#: every view, and the tab it stands on
-VIEWS = {
-    "bearing": "load",
-    "load-distribution": "load",
-    "depth-profile": "load",
-    "stiffness": "stiffness",
-    "maps": "maps",
-    "modes": "modes",
-    "vibration-time": "vibration",
-    "vibration-spectrum": "vibration",
-    "orbit": "orbits",
-}
-
 
 #: all that a hand asked for is sent and drawn
 DRAWN = "!window.__waiting?.size && (window.__mark || 0) >= (window.__asked || 0)"
@@ -79,25 +66,6 @@ def number(page: Page, name: str):
     return page.locator(f".control-{name} .number")
 
 
-def pixels(page: Page, view: str) -> tuple[tuple[int, int], ...]:
-    """What the canvases of a view show: of each a hash, and how many pixels are drawn."""
-    shown: list[tuple[int, int]] = page.locator(f".view-{view} canvas").evaluate_all(
-        """canvases => canvases.filter(canvas => canvas.width && canvas.height).map(canvas => {
-             const {width, height} = canvas
-             const {data} = canvas.getContext("2d").getImageData(0, 0, width, height)
-             const pixels = new Uint32Array(data.buffer)
-             let hash = 0, drawn = 0
-             for (const pixel of pixels) {
-               hash = (Math.imul(hash, 31) + pixel) | 0
-               drawn += pixel !== pixels[0]
-             }
-             return [hash, drawn]
-           })"""
-    )
-    assert sum(drawn for _, drawn in shown) > 1000, f"the view {view} shows nothing"
-    return tuple((code, drawn) for code, drawn in shown)
-
-
 def source(page: Page, name: str) -> dict[str, list[float]]:
     """The numbers in the browser behind a figure."""
     return page.evaluate(
@@ -120,10 +88,6 @@ def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
         [drawing, x, y],
     )
     return float(found[0]), float(found[1])
-
-
-def words(page: Page, view: str) -> Locator:
-    return page.locator(f".view-{view} .job .words p")
 
 
 def status(page: Page) -> Locator:

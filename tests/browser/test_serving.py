@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import signal
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -121,3 +122,14 @@ def test_a_connection_that_is_over_is_told_on_the_page(
     assert box is not None
     assert box["y"] + box["height"] <= page.viewport_size["height"] + 1  # type: ignore[index]
     page.close()
+
+
+@pytest.mark.proof
+def test_the_server_says_what_it_does_and_ends_cleanly() -> None:
+    for number_ in (signal.SIGTERM, signal.SIGINT):
+        server = explorer_server()
+        server.wait()
+        assert server.stop(number_) == 0, server.log
+        for words in ("Compiling", "Ready after", str(server.port), "Stopped."):
+            assert words in server.log
+        assert "Traceback" not in server.log

@@ -17,13 +17,6 @@ def open_explorer(page: Page, explorer: Server) -> None:
     page.wait_for_function("window.__frames > 0")
 
 
-def load_labels(page: Page) -> list[str]:
-    """Labels of all axes and colour bars that show the load of a ball."""
-    return page.evaluate(
-        f"{MODELS}.map(m => m.axis_label || m.title).filter(t => String(t).startsWith('Ball load'))"
-    )
-
-
 def test_numbers_are_written_alike_in_sentences_and_in_figures(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -34,19 +27,6 @@ def test_numbers_are_written_alike_in_sentences_and_in_figures(
     code = f"(values) => {{ {style.JS_PREFIX}; return values.map(v => si(v, 'N')) }}"
     written = [text.replace("\u00a0", " ") for text in page.evaluate(code, values)]
     assert written == [style.with_prefix(value, "N") for value in values]
-
-
-def test_units_of_axes_follow_their_ranges(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
-    open_explorer(page, explorer)
-    choice = page.locator("#choice-preset")
-    for preset, unit in (("liew-lim", "kN"), ("fan-rig", "N")):
-        choice.select_option(preset)
-        page.wait_for_function(
-            f"{MODELS}.map(m => m.axis_label || m.title)"
-            f".filter(t => String(t).startsWith('Ball load')).every(t => t.endsWith('({unit})'))"
-        )
-        assert len(load_labels(page)) >= 2
 
 
 def shape_of_the_bearing(page: Page) -> dict[str, float]:
@@ -75,25 +55,3 @@ def test_the_bearing_is_round(watch: tuple[Page, Watch], explorer: Server, width
     assert plot["w"] / plot["x"] == pytest.approx(plot["h"] / plot["y"], rel=1e-3)
     assert min(plot["x"], plot["y"]) == pytest.approx(2 * 1.56, rel=1e-6)
     assert math.isfinite(plot["w"])
-
-
-@pytest.mark.proof
-def test_harmonics_are_marked_on_demand_without_the_server(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, watching = watch
-    open_explorer(page, explorer)
-    page.get_by_text("Vibration", exact=True).first.click()
-    box = page.get_by_label("Mark the ball-pass frequency and its harmonics")
-    box.wait_for()
-    hidden = f"{MODELS}.filter(m => m.type == 'GlyphRenderer' && !m.visible).length"
-    assert page.evaluate(hidden) == 4
-    page.wait_for_function("window.__tab == 'vibration'")
-    rest(page)  # the motion is simulated and drawn
-    told = watching.frames_sent
-    box.check()
-    page.wait_for_function(f"{hidden} == 0")
-    page.wait_for_timeout(300)
-    assert watching.frames_sent == told
-    box.uncheck()
-    page.wait_for_function(f"{hidden} == 4")

@@ -1,20 +1,17 @@
-"""Lessons on the page; keyboard, screen readers, contrast, light and dark, small screens."""
+"""Keyboard, screen readers, contrast in light and dark, and small screens."""
 
 from __future__ import annotations
 
-import re
 import time
 from importlib.resources import files
 from typing import Any
 
 import pytest
-from bearing_explorer.page import SECTIONS, TABS
-from bearing_explorer.state.lessons import Lesson, lessons_in, own_folder
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.page import SECTIONS
 from bearing_explorer.views.theme import DARK_COLORS
 from playwright.sync_api import Page, ViewportSize, expect
 
-from tests.browser.explorer_page import export, painted, rest, settle, slider, status, value
+from tests.browser.explorer_page import export, settle, slider, status, value
 from tests.browser.helpers import Server, Watch, choose_tab
 
 NAMES = [section.name for section in SECTIONS]
@@ -282,233 +279,50 @@ def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) ->
     assert missing == []
 
 
-def test_the_numbers_of_a_figure_as_a_table(watch: tuple[Page, Watch], explorer: Server) -> None:
+def test_menus_are_gone_through_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
+    page.set_viewport_size(LAPTOP)
     open_page(page, explorer)
-    show(page, "load")
-    settle(page)
-    view = page.locator(".view-bearing")
-    export(view, "table").click()
-    dialog = view.get_by_role("dialog", name="Numbers of “The bearing”")
-    expect(dialog).to_be_visible()
-    expect(dialog.locator("thead th")).to_have_text(
-        ["row", "ball", "ball angle (°)", "ball load (N)", "contact angle (°)",
-         "drop into outer race (µm)", "drop into inner race (µm)"]
-    )  # fmt: skip
-    expect(dialog.locator("tbody tr")).to_have_count(14)
-    expect(dialog.locator("tbody tr").nth(10).locator("td").nth(3)).to_have_text("36.4914")
-    expect(dialog.locator(".bar span")).to_have_text("14 rows")
+    show(page, "stiffness")
+    view = page.locator(".view-stiffness")
+    line = view.locator("header .line").bounding_box()
+    assert line is not None
+    assert line["height"] < 24
+    more = view.get_by_role("button", name="More about")
+    rest_of_it = view.locator("header .rest")
+    expect(rest_of_it).to_be_hidden()
+    more.press("Enter")
+    expect(rest_of_it).to_be_visible()
+    expect(more).to_have_attribute("aria-expanded", "true")
+    more.press("Enter")
+    expect(rest_of_it).to_be_hidden()
+
+    opener = view.get_by_role("button", name="Export")
+    expect(opener).to_have_attribute("aria-expanded", "false")
+    opener.press("Enter")
+    expect(opener).to_have_attribute("aria-expanded", "true")
+    items = view.get_by_role("menuitem")
+    expect(items).to_have_count(5)
+    expect(items.nth(0)).to_be_focused()
+    for key, index in (("ArrowDown", 1), ("End", 4), ("ArrowDown", 0), ("ArrowUp", 4)):
+        page.keyboard.press(key)
+        expect(items.nth(index)).to_be_focused()
     page.keyboard.press("Escape")
-    expect(dialog).to_be_hidden()
-    long = page.locator(".view-load-distribution")
-    export(long, "table").click()
-    expect(long.get_by_role("dialog").locator(".bar span")).to_contain_text("Rows 1 to 300 of")
+    expect(items.nth(0)).to_be_hidden()
+    expect(opener).to_be_focused()
+    expect(opener).to_have_attribute("aria-expanded", "false")
+    export(view, "table").click()
+    dialog = view.get_by_role("dialog")
+    expect(dialog).to_be_visible()
+    expect(items.nth(0)).to_be_hidden()
+    page.keyboard.press("Escape")
 
-
-# --- light and dark -------------------------------------------------------------------------------
-
-
-#: the darkest pixel in the corners of all figures; nothing is drawn there but paper
-DARKEST_CORNER = """() => {
-  let least = 255
-  const look = (where) => {
-    for (const element of where.querySelectorAll("*")) {
-      if (element.shadowRoot) look(element.shadowRoot)
-      if (element.localName !== "canvas" || !element.width) continue
-      const [r, g, b, alpha] = element.getContext("2d").getImageData(0, 0, 1, 1).data
-      if (alpha) least = Math.min(least, r, g, b)
-    }
-  }
-  look(document.querySelector("main"))
-  return least
-}"""
-
-
-@pytest.mark.proof
-def test_dark_follows_the_system_until_somebody_chooses(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, watching = watch
-    page.emulate_media(color_scheme="dark")
-    open_page(page, explorer)
-    page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
-    page.reload()
-    page.wait_for_function("window.__frames >= 1")
-    page.evaluate(DEEP)
-    settle(page)
-    root, button = page.locator("html"), page.get_by_role("button", name="Dark colours")
-    dark = PAPERS["dark"]
-    assert colors(page) == dark
-    rest(page)
-    sent = watching.frames_sent
-    page.emulate_media(color_scheme="light")
-    expect(root).to_have_attribute("data-theme", "light")
-    assert colors(page) <= PAPERS["light"]
-    painted(page)
-    assert page.evaluate(DARKEST_CORNER) > 200, "nothing of the old paper stays along the edges"
-    button.click()
-    expect(root).to_have_attribute("data-theme", "dark")
-    page.emulate_media(color_scheme="dark")
-    page.emulate_media(color_scheme="light")
-    expect(root).to_have_attribute("data-theme", "dark")
-    assert watching.frames_sent == sent, "colours are the browser's business alone"
-    show(page, "modes")  # a figure that comes later comes dark
-    assert colors(page) == dark
-    page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
-
-
-# --- lessons --------------------------------------------------------------------------------------
-
-
-#: whether the head of a figure, by the name of its view, lies inside the part that scrolls
-IN_SIGHT = """name => {
-  const inside = function* (where) {
-    for (const element of where.querySelectorAll("*")) {
-      yield element
-      if (element.shadowRoot) yield* inside(element.shadowRoot)
-    }
-  }
-  const room = document.querySelector("main").getBoundingClientRect()
-  for (const element of inside(document.querySelector("main")))
-    if (element.classList.contains(`view-${name}`)) {
-      const box = element.getBoundingClientRect()
-      return box.height > 0 && box.top >= room.top - 1 && box.top < room.bottom - 60
-    }
-  return false
-}"""
-
-
-@pytest.mark.proof
-@pytest.mark.parametrize("size", [(1366, 768), (390, 844)], ids=str)
-def test_a_lesson_is_where_one_left_it(
-    watch: tuple[Page, Watch], explorer: Server, size: tuple[int, int]
-) -> None:
-    """Its address opens it; reload and “Lessons” come back, and no scene is replaced unasked."""
-    page, _ = watch
-    page.set_viewport_size({"width": size[0], "height": size[1]})
-    page.goto(f"{explorer.url}?lesson=two-defects-alike")
-    page.wait_for_function("window.__frames >= 1")
-    settle(page)
-    panel = page.locator(".lesson")
-    expect(panel.locator("h2")).to_have_text("Two defects that look alike")
-    page.wait_for_function(IN_SIGHT, arg="vibration-time")
-    panel.get_by_role("button", name="38.6°").click()
-    settle(page)
-    panel.locator(".prediction input").first.check()
-    panel.locator(".reveal").click()
-    page.reload()
-    page.wait_for_function("window.__frames >= 1")
-    settle(page)
-    expect(panel.locator("h2")).to_have_text("Two defects that look alike")
-    expect(panel.locator(".answer")).to_be_visible()
-    expect(panel.locator(".verdict")).to_contain_text("differently")
-    assert "extent_deg=38.6" in page.evaluate("location.search")
-    page.get_by_role("button", name="Close the lessons").click()
-    expect(panel).to_be_hidden()
-    page.wait_for_function("!location.search.includes('lesson=')")
-    page.reload()
-    page.wait_for_function("window.__frames >= 1")
-    settle(page)
-    expect(panel).to_be_hidden()
-    page.get_by_role("button", name="Lessons", exact=True).click()
-    expect(panel.locator("h2")).to_have_text("Two defects that look alike")
-    settle(page)
-    assert "extent_deg=38.6" in page.evaluate("location.search")
-
-
-def test_the_projector_has_large_type_and_fewer_controls(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
-    page.goto(f"{explorer.url}?lesson=what-a-ball-carries")
-    page.wait_for_function("window.__frames >= 1")
-    settle(page)
-    size = """() => getComputedStyle(document.querySelector(".lesson-place"))
-      .getPropertyValue("--lesson-type")"""
-    assert page.evaluate(size) == ""
-    labels = """() => [...Bokeh.documents[0]._all_models.values()]
-      .filter(m => m.type == "LinearAxis")
-      .map(m => parseFloat(m.axis_label_text_font_size))"""
-    before = page.evaluate(labels)
-    page.get_by_role("button", name="Projector").click()
-    assert page.evaluate(size).strip() == "20px"
-    assert page.evaluate(labels) == pytest.approx([1.3 * size for size in before], abs=0.01)
-    expect(page.get_by_role("button", name="Undo", exact=True)).to_be_hidden()
-    page.get_by_role("button", name="Projector").click()
-    assert page.evaluate(labels) == before
-
-
-@pytest.mark.proof
-def test_a_walk_through_all_lessons(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
-    open_page(page, explorer)
-    page.get_by_role("button", name="Lessons").click()
-    panel = page.locator(".lesson")
-    expect(panel.locator(".entry")).to_have_count(len(lessons_in(own_folder(), TABS)))
-    before = page.evaluate("location.search")
-    panel.locator(".entry").first.click()
-    lessons = lessons_in(own_folder(), TABS)
-    for number, lesson in enumerate(lessons):
-        assert isinstance(lesson, Lesson)
-        expect(panel.locator("h2")).to_have_text(lesson.title)
-        expect(page.locator(f".section-{lesson.tab}.on-screen")).to_be_visible()
-        settle(page)
-        assert sideways(page) == []
-        # the scene
-        editor = SceneEditor("6205")
-        lesson.begin(editor)
-        for name in lesson.drag:
-            if name in editor.values:
-                assert value(page, name) == pytest.approx(editor.values[name], abs=0.5), name
-            else:
-                expect(page.locator(f"#choice-{name}")).to_be_visible()
-        # the controls it speaks of and no others
-        shown = page.locator("aside .control:visible, aside .choice:visible")
-        assert shown.count() == len(lesson.drag), lesson.title
-        for view in lesson.watch:
-            expect(page.locator(f".view-{view}")).to_have_class(re.compile("watched"))
-        # what is to be looked at is in sight, and no warning hides it
-        first = page.locator(f".view-{lesson.watch[0]}")
-        page.wait_for_function(IN_SIGHT, arg=lesson.watch[0])
-        expect(first).to_be_visible()
-        # the prediction, and the answer
-        asked = lesson.predict
-        assert asked is not None
-        form = panel.locator(".prediction")
-        if asked.choices:
-            form.locator("input").nth(int(asked.right)).check()
-        else:
-            form.locator("input").fill(f"{asked.right:g}".replace(".", ","))
-            form.get_by_role("button", name="Predict").click()
-        expect(form.locator(".verdict")).to_contain_text("right.")
-        answer = panel.locator(".answer")
-        expect(answer).to_be_hidden()
-        panel.locator(".reveal").click()
-        expect(answer).to_be_visible()
-        for formula in panel.locator("math").all():
-            box = formula.bounding_box()
-            assert box is not None
-            assert box["height"] > 5
-        if number == 5:
-            panel.get_by_role("button", name="chord").click()
-            settle(page)
-            expect(page.locator("#choice-edge")).to_have_value("chord")
-            sentence = page.locator(".view-maps p[role=status]")
-            expect(sentence).to_contain_text("Fewest balls carry load at an extent of 62°")
-            panel.get_by_role("button", name="published").click()
-            settle(page)
-            expect(sentence).to_contain_text("Fewest balls carry load at an extent of 63°")
-        if number == 8:
-            panel.get_by_role("button", name="No load at all").click()
-            expect(status(page)).to_contain_text("No answer")
-        if number < len(lessons) - 1:
-            panel.get_by_role("button", name="Next lesson").click()
-    expect(panel.get_by_role("button", name="Next lesson")).to_be_disabled()
-    page.get_by_role("button", name="All controls").click()
-    expect(slider(page, "fx_n")).to_be_visible()
-    page.get_by_role("button", name="Close the lessons").click()
-    expect(panel).to_be_hidden()
-    assert before == ""
-    assert "lesson=" not in page.evaluate("location.search")
-    expect(page.locator(".watched")).to_have_count(0)
-    expect(slider(page, "center_deg")).to_be_visible()
+    details = page.locator("footer .status").get_by_role("button", name="Details")
+    listed = status(page).locator(".list")
+    expect(listed).to_be_hidden()
+    expect(page.locator("footer .status [role=status]")).to_have_text("Converged")
+    details.press("Enter")
+    expect(listed).to_contain_text("residual at most")
+    page.keyboard.press("Escape")
+    expect(listed).to_be_hidden()
+    expect(details).to_be_focused()

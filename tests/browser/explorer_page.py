@@ -9,7 +9,6 @@ from playwright.sync_api import Locator, Page
 
 from tests.browser.helpers import Server, choose_tab
 
-
 #: all that a hand asked for is sent and drawn
 DRAWN = "!window.__waiting?.size && (window.__mark || 0) >= (window.__asked || 0)"
 

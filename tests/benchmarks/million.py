@@ -3,7 +3,7 @@
     python -m tests.benchmarks.million [--scenes 1000000] [--seed 1] [--processes 2]
 
 Every scene is solved at four cage angles in order. Each answer is judged in extended precision by
-`helpers.independent`, which shares no code with the solver: a converged state must balance, be held
+`helpers.judge`, which shares no code with the solver: a converged state must balance, be held
 in every direction and have the right symmetric, positive semidefinite stiffness; a reason given
 instead must be true. Points of the box where an answer is wrong or missing are printed, and the
 exit code is then 1.
@@ -24,7 +24,7 @@ import numpy as np
 from bearingcore import DOF_NAMES, equilibrium, kernels, warm
 from tests.benchmarks.machine import pace
 from tests.helpers.box import Point, cage_angles_at, draw, scene_at
-from tests.helpers.independent import verdict
+from tests.helpers.judge import verdict
 
 CHUNK = 2000
 NAMES = {

@@ -24,7 +24,7 @@ from bearingcore import Bearing, Defect, Load, Scene, kernels, presets, simulate
 from bearingcore.scene.scene import WITH_MASS
 from bearingcore.statics.ball_positions import BallPositions, ball_positions
 from tests.benchmarks.machine import pace
-from tests.two_contacts import TwoContacts
+from tests.helpers.contact_law import TwoContacts
 
 TOLERANCE = 1e-7
 """Unbalanced load over the greatest load, from which on an answer counts as wrong."""

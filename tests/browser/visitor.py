@@ -132,6 +132,15 @@ class Visitor:
         found = self.main.locator("canvas").evaluate_all(_FIGURES)
         return [pixels if drawn > 300 else "blank" for pixels, drawn in found]
 
+    def point(self, figure: int, across: float, down: float) -> None:
+        """Move the pointer to a part of a figure, 0 to 1 from its left and from its top."""
+        canvas = self.main.locator("canvas").locator("visible=true").nth(figure)
+        canvas.scroll_into_view_if_needed()
+        box = canvas.bounding_box()
+        assert box is not None
+        x, y = box["x"] + across * box["width"], box["y"] + down * box["height"]
+        self.page.mouse.move(x, y, steps=4)
+
     def wait(self, done: Callable[[], bool], seconds: float = _SOON) -> None:
         """Wait until it is so."""
         end = time.monotonic() + seconds

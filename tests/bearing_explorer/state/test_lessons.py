@@ -53,7 +53,7 @@ from bearingcore import (
     spectrum,
 )
 from bearingcore.experiments import motion_experiment
-from tests.helpers import naive
+from tests.helpers.contact_law import Balls, newton
 
 FILES = sorted(own_folder().glob("*.md"))
 FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -210,8 +210,9 @@ def crushed(scene: Scene) -> float:
     lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
     greatest = 0.0
     for angle, moved in zip(angles[::4], ours.displacement[::4], strict=True):
-        q = naive.newton(scene, angle, moved * lever).q
-        greatest = max(greatest, float(naive.printed(scene, angle, q).ball_load.max()))
+        balls = Balls(scene, angle, as_printed=True)
+        q = newton(balls, moved * lever).q
+        greatest = max(greatest, float(balls.ball_load(q).max()))
     return 1e-3 * greatest
 
 
@@ -507,7 +508,7 @@ def test_what_lessons_say_in_words() -> None:
     assert orbit(FAN.replace(shaft_speed=2.0 * math.pi * 30.0)).residual < 1e-9
     nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
     assert not nothing.converged.any()
-    assert naive.newton(HEALTHY, 0.0, np.zeros(5)).failure == "singular matrix"
+    assert newton(Balls(HEALTHY, 0.0), np.zeros(5)).failure == "singular matrix"
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])

@@ -39,8 +39,8 @@ from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.film import rolling_speed
 from bearingcore.statics.life import race_ratings
 from bearingcore.statics.passes import ball_drop, crossings, drops_now
+from tests.helpers.contact_law import TwoContacts
 from tests.helpers.random_rows import Contacts, Long
-from tests.two_contacts import TwoContacts
 
 ONE = presets["7208-25deg"]
 STEEP = math.radians(40.0)

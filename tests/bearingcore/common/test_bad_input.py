@@ -26,7 +26,8 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from tests.helpers.independent import Balls, verdict
+from tests.helpers.contact_law import Balls
+from tests.helpers.judge import verdict
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 NAN, INF = math.nan, math.inf

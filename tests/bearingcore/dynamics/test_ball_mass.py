@@ -19,7 +19,7 @@ from bearingcore.dynamics.ball_motion import (
     heaviest_load,
 )
 from bearingcore.scene import packing
-from tests.two_contacts import GRAVITY, TwoContacts
+from tests.helpers.contact_law import GRAVITY, TwoContacts
 
 RATE = 65536.0
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0, density=7850.0, balls="with mass")

@@ -16,7 +16,7 @@ from bearingcore.statics.ball_positions import (
     static_state,
 )
 from tests.benchmarks.random_balls import faults, random_scene
-from tests.two_contacts import TwoContacts
+from tests.helpers.contact_law import TwoContacts
 
 SINGLE_ROWS = [
     name

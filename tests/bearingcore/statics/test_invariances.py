@@ -21,7 +21,7 @@ from bearingcore import (
     presets,
     simulate,
 )
-from tests.helpers.independent import Balls
+from tests.helpers.contact_law import Balls
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 TILTED = LIEW_LIM.replace(fx=300.0, mx=4.0, my=-3.0, extent=math.radians(50.0))

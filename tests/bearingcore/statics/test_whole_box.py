@@ -2,7 +2,7 @@
 
 Every cage angle is either converged, with a relative residual of 1e-9 and a symmetric, positive
 semidefinite stiffness that holds the ring, or has a reason that is true: nothing touches, a
-direction is free, the load cannot be carried. `helpers.independent` judges, in extended precision
+direction is free, the load cannot be carried. `helpers.judge` decides, in extended precision
 and without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
 """
 
@@ -32,7 +32,8 @@ from tests.helpers.box import (
     draw,
     scene_at,
 )
-from tests.helpers.independent import Balls, verdict
+from tests.helpers.contact_law import Balls
+from tests.helpers.judge import verdict
 
 TURN = 2.0 * math.pi
 

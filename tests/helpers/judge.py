@@ -1,35 +1,17 @@
-"""The contact written a second time, slowly and in extended precision, and a judge of answers.
-
-Nothing here is shared with the compiled code but the drop of a ball's centre, which has tests of
-its own. Tilts are carried as r_d θ and moments as M/r_d, so that q is five lengths and F five
-forces.
-
-Quantity                                           | Symbol   | Unit
--------------------------------------------------- | -------- | ----
-vector between the groove centres                  | δr*, δz* | m
-its part along the unloaded line of contact        | p        | m
-its length, and the compression                    | A, δ     | m
-gradients in q of the ball's motion along and across the unloaded line | along, across |
-"""
+"""A judge of static answers, by the independent contact law."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import cached_property, wraps
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from bearingcore import DOF_NAMES, Equilibrium, Scene, kernels
+from bearingcore import DOF_NAMES, Equilibrium, kernels
 from bearingcore.statics.load_capacity import way_out
-
-Long = np.longdouble
-Array = NDArray[np.floating]
+from tests.helpers.contact_law import Array, Balls, Long
 
 RESIDUAL = 1e-9
 """What every answer has to meet, relative to the load."""
@@ -44,148 +26,6 @@ NO_STIFFNESS = 1e-13
 FAINT, TOO_FAINT = 1e-8, 1e-13
 """Parts of the load. Where only balls that carry less hold a direction, it may be called free,
 and below the second it must: what a residual cannot see holds nothing."""
-
-
-def remembered(method: Callable[..., Any]) -> Callable[..., Any]:
-    """A method of `Balls` and q that is computed once for each q."""
-
-    @wraps(method)
-    def recall(self: Balls, q: Array) -> Any:
-        key = (method.__name__, np.asarray(q, dtype=Long).tobytes())
-        if key not in self.memory:
-            self.memory[key] = method(self, q)
-        return self.memory[key]
-
-    return recall
-
-
-@dataclass(frozen=True)
-class Balls:
-    """The balls of a scene at one cage angle [rad], and the energy of the inner ring on them."""
-
-    scene: Scene
-    cage_angle: float
-    memory: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False, compare=False)
-
-    @cached_property
-    def angle(self) -> NDArray[np.float64]:
-        """(N_b,) [rad]"""
-        n = self.scene.bearing.n_balls
-        return self.cage_angle + 2.0 * math.pi / n * np.arange(n)
-
-    @cached_property
-    def drop(self) -> Array:
-        """(N_b,) [m] into all defects."""
-        bearing = self.scene.bearing
-        total = np.zeros(bearing.n_balls, dtype=Long)
-        for defect in self.scene.defects:
-            total += defect.path(self.angle, bearing, self.cage_angle)
-        return total
-
-    @cached_property
-    def load(self) -> Array:
-        """(5,) [N], moments over r_d."""
-        return self.scene.load.vector.astype(Long) / self.units
-
-    @cached_property
-    def units(self) -> Array:
-        """(5,) what a scaled displacement is divided by to give metres and radians."""
-        return np.array([1.0, 1.0, 1.0, *[self.scene.bearing.groove_center_radius] * 2], dtype=Long)
-
-    @cached_property
-    def radial_axial(self) -> tuple[Array, Array]:
-        """Gradients (N_b, 5) of a ball's radial and axial displacement (Eqs. 11, 12)."""
-        c, s = np.cos(self.angle.astype(Long)), np.sin(self.angle.astype(Long))
-        zero, one = np.zeros_like(c), np.ones_like(c)
-        return np.stack([c, s, zero, zero, zero], 1), np.stack([zero, zero, one, s, -c], 1)
-
-    @cached_property
-    def along_across(self) -> tuple[Array, Array]:
-        """Gradients (N_b, 5) of a ball's motion along and across the unloaded line of contact."""
-        radial, axial = self.radial_axial
-        ca, sa = self._line
-        return radial * ca + axial * sa, axial * ca - radial * sa
-
-    @property
-    def _line(self) -> tuple[Array, Array]:
-        alpha = Long(self.scene.bearing.contact_angle)
-        return np.cos(alpha), np.sin(alpha)
-
-    @remembered
-    def vector(self, q: Array) -> tuple[Array, Array, Array]:
-        """δr*, δz* (N_b,) [m] (Eqs. 9, 10) with a negative p taken off, and p over A0."""
-        bearing = self.scene.bearing
-        ca, sa = self._line
-        radial, axial = self.radial_axial
-        A0, clearance = Long(bearing.groove_center_distance), Long(bearing.radial_clearance)
-        dr = A0 * ca + radial @ q.astype(Long) - clearance - self.drop * ca
-        dz = A0 * sa + axial @ q.astype(Long) - self.drop * sa
-        p = dr * ca + dz * sa
-        back = np.minimum(p, 0.0)
-        return dr - back * ca, dz - back * sa, p / A0
-
-    @remembered
-    def compression(self, q: Array) -> Array:
-        """δ (N_b,) [m], negative for gaps."""
-        dr, dz, _ = self.vector(q)
-        return np.hypot(dr, dz) - Long(self.scene.bearing.groove_center_distance)
-
-    @remembered
-    def ball_load(self, q: Array) -> Array:
-        """Q (N_b,) [N] (Eq. 13)."""
-        K = Long(self.scene.bearing.load_deflection_factor)
-        return K * np.maximum(self.compression(q), 0.0) ** Long(1.5)
-
-    def energy(self, q: Array) -> float:
-        """V(q) [N·m]: what the contacts store, less the work of the load."""
-        K = Long(self.scene.bearing.load_deflection_factor)
-        stored = K / Long(2.5) * np.sum(np.maximum(self.compression(q), 0.0) ** Long(2.5))
-        return stored - self.load @ q.astype(Long)
-
-    def rounding(self, q: Array) -> float:
-        """What rounding does to the energy [N·m]: to its lengths, and to the work of the load."""
-        lengths = self.drop + self.scene.bearing.groove_center_distance + np.linalg.norm(q)
-        size = float(self.ball_load(q) @ lengths + np.abs(self.load * q).sum())
-        return float(np.finfo(Long).eps) * size
-
-    @remembered
-    def directions(self, q: Array) -> tuple[Array, Array]:
-        """Gradients (N_b, 5) in q along each contact and across it."""
-        dr, dz, _ = self.vector(q)
-        A = np.maximum(np.hypot(dr, dz), Long(1e-300))[:, None]
-        er, ez = dr[:, None] / A, dz[:, None] / A
-        radial, axial = self.radial_axial
-        return er * radial + ez * axial, er * axial - ez * radial
-
-    @remembered
-    def contact_force(self, q: Array) -> Array:
-        """(5,) [N] with which the contacts resist the load (Eq. 15)."""
-        return self.ball_load(q) @ self.directions(q)[0]
-
-    def stiffness(self, q: Array, passed: float = 0.0, faint: float = 0.0) -> Array:
-        """(5, 5) [N/m] (Eq. 17), from directions along and across each contact.
-
-        `passed` is the p, over A0, up to which the centres of a ball count as passed, `faint` the
-        load [N] from which on a ball counts.
-        """
-        K = Long(self.scene.bearing.load_deflection_factor)
-        dr, dz, p = self.vector(q)
-        along, across = self.directions(q)
-        load = self.ball_load(q)
-        load = np.where(load > faint, load, 0.0)
-        push = Long(1.5) * np.cbrt(K) ** 2 * np.cbrt(load)
-        turn = np.where(p > passed, load / np.maximum(np.hypot(dr, dz), Long(1e-300)), 0.0)
-        return (along.T * push) @ along + (across.T * turn) @ across
-
-    def unbalanced(self, q: Array, active: list[int]) -> float:
-        """Size of the unbalanced load along `active` [N]."""
-        return float(np.linalg.norm((self.contact_force(q) - self.load)[active].astype(float)))
-
-    def whole_load(self, q: Array, active: list[int]) -> float:
-        """Size of the load along `active` and of what the other directions take [N]."""
-        whole = self.contact_force(q).copy()
-        whole[active] = self.load[active]
-        return float(np.linalg.norm(whole.astype(float)))
 
 
 def rounding_of_residual(balls: Balls, q: Array) -> float:

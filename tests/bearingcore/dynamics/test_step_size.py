@@ -1,0 +1,62 @@
+"""Steps that the program takes see what longer ones miss, and steps that are too long say so."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import presets, simulate
+
+FAN_RIG = presets["fan-rig"]
+RATE = 65536.0
+
+
+def test_a_step_longer_than_the_passage_misses_the_defect() -> None:
+    """1° at 70 Hz is passed in 96 µs; ten steps a ball pass, 248 µs each, step right over it.
+
+    The defect lies between the angles at which balls are looked at, so the march gives the healthy
+    bearing's motion to the last digit, and says nothing. The steps taken by default are told by the
+    passage: they see the defect, and finer ones see the same.
+    """
+    scene = FAN_RIG.replace(
+        shaft_speed=2.0 * math.pi * 70.0,
+        extent=math.radians(1.0),
+        edge="exact",
+        center=1.5 * math.pi + 0.25 * FAN_RIG.bearing.ball_spacing / 10.0,
+    )
+    # a ball stands at 270° whenever the cage has turned a multiple of half a step
+    assert 1.5 * math.pi / scene.bearing.ball_spacing * 2 % 1 == pytest.approx(0.0, abs=1e-9)
+    rate = 10.0 * scene.bearing.bpfo(scene.shaft_speed)
+    passage = scene.defect.extent / scene.cage_speed
+    assert 1.0 / rate > 2.5 * passage
+    blind = simulate(scene, 0.1, rate, step_rate=rate).outer_acceleration
+    healthy = simulate(scene.healthy(), 0.1, rate, step_rate=rate).outer_acceleration
+    assert np.array_equal(blind, healthy)
+    seen = simulate(scene, 0.1, RATE)
+    healthy = simulate(scene.healthy(), 0.1, RATE)
+    assert seen.step_rate > 20.0 / passage
+    assert np.ptp(seen.outer_acceleration[:, 1]) > 3.0 * np.ptp(healthy.outer_acceleration[:, 1])
+    finer = simulate(scene, 0.1, RATE, step_rate=4.0 * seen.step_rate).outer_acceleration
+    level = np.sqrt(np.mean(finer**2))
+    assert np.sqrt(np.mean((seen.outer_acceleration - finer) ** 2)) < 0.05 * level
+
+
+def test_a_step_that_rings_can_take_is_too_long_for_the_ball() -> None:
+    """At 65,536 steps a second, twice what the rings ask for, a ball between its contacts blows up.
+
+    Its motion there decays 232,000 times a second, 3.5 times a step, of which RK4 takes 2.785.
+    Nothing shows in the rings' own frequencies. Ours takes more steps by itself; made to take these
+    it says that it diverged, and gives no number from there on.
+    """
+    scene = FAN_RIG.replace(balls="with mass", contact_damping=122.0)
+    made_to = simulate(scene, 0.1, RATE, step_rate=RATE)
+    assert simulate(scene.replace(balls="massless"), 0.01, RATE).step_rate < RATE
+    assert not made_to.completed
+    assert "too few" in made_to.status
+    assert np.isnan(made_to.outer_acceleration[-1]).all()
+    assert np.isnan(made_to.race_loads(6000, 6010)).all()
+    by_itself = simulate(scene, 0.1, RATE)
+    assert by_itself.completed
+    assert by_itself.step_rate > 2.0 * RATE

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.kernels import path as paths
+from tests.helpers.contact_law import straightened
 
 Array = NDArray[np.float64]
 
@@ -80,9 +81,7 @@ def touching(contacts: kernels.Contacts, q: Array, cage_angle: float, drop: Arra
     u = np.stack([contacts.line_r, contacts.line_z], axis=1)
     vector = np.stack([R @ q - contacts.clearance, Z @ q + contacts.offset], axis=1)
     vector += (contacts.distance - drop)[:, None] * u
-    beyond = (vector * u).sum(axis=1)
-    crossed = beyond <= 0.0
-    vector[crossed] -= (beyond[:, None] * u)[crossed]
+    vector, beyond = straightened(vector, u)
     A = np.maximum(np.linalg.norm(vector, axis=1), 1e-300)
     er, ez = (vector / A[:, None]).T
     return Touching(
@@ -90,7 +89,7 @@ def touching(contacts: kernels.Contacts, q: Array, cage_angle: float, drop: Arra
         along=er[:, None] * R + ez[:, None] * Z,
         across=-ez[:, None] * R + er[:, None] * Z,
         distance=A,
-        crossed=crossed,
+        crossed=beyond <= 0.0,
     )
 
 

@@ -1,4 +1,7 @@
-"""The statics meet 40-digit answers to 1e-10 (see tests/reference/README.md)."""
+"""Statics of one row and of several meet 40-digit answers to 1e-10.
+
+See tests/reference/README.md.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +14,15 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
+from bearingcore.bearings.rows import Row
+from bearingcore.statics.passes import drops_now
 
-REFERENCE = Path(__file__).parents[2] / "reference" / "static_reference.json"
-CASES: list[dict[str, Any]] = json.loads(REFERENCE.read_text(encoding="utf-8"))
+REFERENCE = Path(__file__).parents[2] / "reference"
+SINGLE, ROWS = (
+    json.loads((REFERENCE / f"{name}_reference.json").read_text(encoding="utf-8"))
+    for name in ("static", "rows")
+)
+CASES: list[dict[str, Any]] = SINGLE + ROWS
 TOLERANCE = 1e-10
 PITCH = "groove_center_radius"
 
@@ -22,8 +31,9 @@ every_case = pytest.mark.parametrize("case", CASES, ids=[case["name"] for case i
 
 def scene_of(case: dict[str, Any]) -> Scene:
     """The case as a Scene; support and speed do not enter the statics."""
+    rows = tuple(Row(**row) for row in case.get("rows", ()))
     return Scene(
-        bearing=Bearing(**case["bearing"]),
+        bearing=Bearing(**case["bearing"], rows=() if rows == (Row(),) else rows),
         defect=Defect(**case["defect"]),
         load=Load(**case["load"]),
         shaft_speed=2.0 * math.pi * 7.0,
@@ -38,7 +48,8 @@ def numbers(values: Any) -> np.ndarray:
 
 def test_the_reference_is_proven_and_covers_what_it_should() -> None:
     """Guards against a reference regenerated with fewer or easier cases."""
-    assert len(CASES) >= 40
+    assert len(SINGLE) >= 68
+    assert len(ROWS) >= 20
     assert all(float(case["proof"]["relative_residual"]) < 1e-30 for case in CASES)
     assert all(
         float(case["proof"]["stiffness_against_difference_quotient"]) < 1e-30 for case in CASES
@@ -47,7 +58,7 @@ def test_the_reference_is_proven_and_covers_what_it_should() -> None:
     # a ball that carries while it is on an edge, for each edge model on each race
     on_an_edge = {
         (case["defect"]["race"], case["defect"]["edge"])
-        for case in CASES
+        for case in SINGLE
         for drop, load in zip(numbers(case["drop"]), numbers(case["ball_load"]), strict=True)
         if 0.0 < drop < case["defect"]["depth"] and load > 0.0
     }
@@ -57,14 +68,16 @@ def test_the_reference_is_proven_and_covers_what_it_should() -> None:
         ("x", "y", "z"),
         ("x", "y", "z", "rx", "ry"),
     }
-    assert sum(case["proof"]["guarded_and_loaded_balls"] > 0 for case in CASES) >= 3
+    assert sum(case["proof"]["guarded_and_loaded_balls"] > 0 for case in SINGLE) >= 3
+    assert {case["defect"]["row"] for case in ROWS} == {None, 0, 1}
+    kinds = ("back to back", "face to face", "tandem", "double row", "rollers", "unlike rows")
+    for kind in (*kinds, "self-aligning"):
+        assert any(case["name"].startswith(kind) for case in ROWS), kind
 
 
 @every_case
 def test_drop_of_the_ball_centres(case: dict[str, Any]) -> None:
-    scene = scene_of(case)
-    balls = case["cage_angle"] + scene.bearing.ball_spacing * np.arange(scene.bearing.n_balls)
-    drop = Defect(**case["defect"]).path(balls, scene.bearing, cage_angle=case["cage_angle"])
+    drop = drops_now(scene_of(case), case["cage_angle"])
     expected = numbers(case["drop"])
     # The angle of a ball has rounding of 1e-16 per radian turned; the edge slopes by 1e-2 m/rad.
     assert drop == pytest.approx(expected, rel=TOLERANCE, abs=1e-16)
@@ -104,7 +117,7 @@ def test_stiffness(case: dict[str, Any]) -> None:
     assert error.max() < TOLERANCE, f"stiffness off by {error.max():.1e}"
 
 
-@every_case
+@pytest.mark.parametrize("case", SINGLE, ids=[case["name"] for case in SINGLE])
 def test_the_way_to_an_angle_does_not_matter(case: dict[str, Any]) -> None:
     """Come upon from afar, in coarse steps and in fine ones, forwards or back."""
     end = case["cage_angle"]
@@ -116,3 +129,10 @@ def test_the_way_to_an_angle_does_not_matter(case: dict[str, Any]) -> None:
         answer = equilibrium(scene_of(case), angles, dofs=tuple(case["dofs"]))
         error = np.abs(answer.displacement[-1] * unit - expected).max()
         assert error < TOLERANCE * np.linalg.norm(expected)
+
+
+def test_the_self_aligning_reference_is_one() -> None:
+    """Its numbers were written out from the sphere: the program knows it by them."""
+    aligning = [scene_of(case).bearing for case in ROWS if "self-aligning" in case["name"]]
+    assert all(bearing.kind.name == "self-aligning" for bearing in aligning)
+    assert math.isclose(aligning[0].groove_radius("inner"), 4.6275e-3, rel_tol=1e-9)

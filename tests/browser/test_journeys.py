@@ -301,7 +301,7 @@ def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(
     visitor.open(explorer, FAN_RIG + "vibration")
     for act in (
         lambda: visitor.main.get_by_role("checkbox").first.check(),
-        lambda: visitor.main.get_by_text(re.compile(r"\blog")).click(),
+        lambda: visitor.main.get_by_label("Frequency", exact=True).select_option(index=1),
     ):
         before = visitor.figures()
         act()
@@ -419,7 +419,7 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer
     visitor.reads(re.compile("The inner race is damaged"))
     visitor.steady()
     before = visitor.figures()
-    visitor.main.get_by_role("table").get_by_role("button").nth(1).click()  # a line of the part
+    visitor.choose("Zoom to", "inner race, 2×")
     visitor.wait(lambda: visitor.figures() != before)
     visitor.page.goto(f"{explorer.url}?v=1&preset=6205&extent_deg=0&tab=diagnosis")
     visitor.press("Simulate a signal")

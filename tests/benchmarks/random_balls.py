@@ -1,9 +1,9 @@
 """Random scenes of balls with mass: ``python -m tests.benchmarks.random_balls [--motions N]``.
 
 None may be wrong silently. Each answer is judged by sums that share nothing with the solver
-(`tests.helpers.contact_law`): what is left on every ball and on the ring. Prints how many converged, how
-many said why not, and every answer that is wrong without saying so; ends with status 1 where there
-is one.
+(`tests.helpers.contact_law`): what is left on every ball and on the ring. Prints how many
+converged, how many said why not, and every answer that is wrong without saying so; ends with
+status 1 where there is one.
 
 First static states with centrifugal load, then motions, without damping of the contacts: at random
 samples the accelerations of both rings are held against the loads that the same sums make of the

@@ -44,7 +44,6 @@ from bearing_explorer.views.overview.bearing import OverviewBearing
 from bearing_explorer.views.overview.change import LastChange
 from bearing_explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.views.overview.stiffness import OverviewStiffness
-from bearing_explorer.views.plan import PlanInFull
 from bearing_explorer.views.sizing import DefectSize
 from bearing_explorer.views.speed_run import SpeedRunSpectra
 from bearing_explorer.views.stability_map import OrbitStability
@@ -79,7 +78,7 @@ SECTIONS = (
         "Diagnosis",
         (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
     ),
-    Section("accuracy", "Accuracy", (PlanInFull, Accuracy), "How sure"),
+    Section("accuracy", "Accuracy", (Accuracy,), "How sure"),
 )
 """The tabs; a group goes on until the next begins.
 
@@ -140,7 +139,6 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("controls", side)
     template.add_panel("main", explorer.main)
     template.add_panel("status", explorer.status)
-    template.add_panel("plan", explorer.plan)
     template.add_panel("limits", explorer.limits)
     template.add_panel("packed", pn.pane.Bokeh(explorer.packed.anchor, margin=0))
     doc = pn.state.curdoc

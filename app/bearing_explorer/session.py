@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import dataclasses
 import logging
 import math
 import time
-from collections.abc import Callable, Coroutine, Hashable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -18,21 +17,17 @@ from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.results import compiling
+from bearing_explorer.results.cache import Overtaken
+from bearing_explorer.results.drawing_loop import DrawingLoop
 from bearing_explorer.results.endurance import Asked
 from bearing_explorer.results.executors import in_thread
-from bearing_explorer.results.idle_task import IdleTask
 from bearing_explorer.results.jobs import Jobs
-from bearing_explorer.results.latest_wins import LatestWins
-from bearing_explorer.results.planning import with_choices
 from bearing_explorer.results.results import Results
-from bearing_explorer.results.scheduler import Scheduler
-from bearing_explorer.results.single_flight import WouldWait
 from bearing_explorer.serve import log as write
 from bearing_explorer.serve.live import one_message, send_at_once
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
-from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.state.last_state import LastState
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.quantities import Values, in_page_words
@@ -44,12 +39,10 @@ from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.controls import Controls, Rows
 from bearing_explorer.widgets.lesson import LessonPanel
 from bearing_explorer.widgets.limits import LimitsStrip, rows_of
-from bearing_explorer.widgets.plan_choice import PlanChoice
 from bearing_explorer.widgets.share import ShareBar
 from bearing_explorer.widgets.status import StatusLine, Tabs, status_of
 from bearingcore import Limit, Scene
 from bearingcore.bearings.catalogue import MOST_BYTES
-from bearingcore.plan import CURVES
 from bearingcore.statics.limit import summary
 
 log = logging.getLogger(__name__)
@@ -81,31 +74,29 @@ class Section:
     views: tuple[type[View], ...]
     group: str = ""
 
-    @property
-    def plans(self) -> tuple[str, ...]:
-        """What is planned for its views when the hand rests."""
-        return tuple(dict.fromkeys(view for shown in self.views for view in shown.plans))
-
-    @property
-    def has_motion(self) -> bool:
-        """Whether it shows a simulated motion, in which balls may have mass."""
-        return any(view.needs & {"ball_mass", "late_spectra"} for view in self.views)
-
-    @property
-    def has_orbit(self) -> bool:
-        """Whether it shows the orbit, which can take long to find."""
-        return any("orbit" in view.needs for view in self.views)
-
 
 @dataclass(frozen=True)
 class Inputs:
-    """What is to be drawn; `mark` is the number of the newest change it holds.
+    """What is to be drawn.
 
-    `focus` is the one of the scene's defects that the sliders move, `settings` how finely it is
-    computed. When the hand has `rested` it is drawn by the plans of what is `planned`, after a long
-    search where it `seeks_orbit`, and once more after it `compares_balls` with and without mass.
-    Until all is `compiled` some of it cannot be drawn. `before` is the scene before the last
-    change, `asked` what somebody says of steel, oil and surfaces.
+    Parameters
+    ----------
+    scene, cage_angle
+        cage angle in [rad].
+    mark
+        number of the newest change of the browser that it holds.
+    focus
+        which of the scene's defects the sliders move.
+    settings
+        how finely it is computed.
+    rested
+        whether the slider is at rest, and it is drawn as finely as can be.
+    pinned
+        a scene that is drawn in grey, instead of the one without the defect.
+    before
+        the scene before the last change.
+    asked
+        steel, oil and surfaces as a person has entered them.
     """
 
     scene: Scene
@@ -114,55 +105,23 @@ class Inputs:
     focus: int = 0
     settings: Settings = field(default_factory=Settings)
     rested: bool = False
-    planned: tuple[str, ...] = ()
     pinned: Reference | None = None
-    seeks_orbit: bool = False
-    compares_balls: bool = False
-    compiled: bool = True
     before: Scene | None = None
     asked: Asked = field(default_factory=Asked)
 
-    @property
-    def kind(self) -> Hashable:
-        """What inputs share that cost about the same: all but loads and sizes of defects."""
-        scene = self.scene
-        return (
-            scene.bearing,
-            scene.active_dofs,
-            tuple(choice.name_of(scene) for choice in OF_SCENE),
-            tuple(
-                (defect.floor, *(choice.name_of(defect) for choice in OF_DEFECT))
-                for defect in scene.defects
-            ),
-            scene.shaft_speed > 0.0,
-            self.settings,
-            self.rested,
-            self.planned,
-            self.pinned is not None,
-        )
-
-    @property
-    def results(self) -> Results:
-        """What there is to be known about them."""
+    def results(self, give_up: Callable[[], bool] | None = None) -> Results:
+        """What is known about them; `give_up` may end long searches."""
         return Results(
             self.scene,
             self.cage_angle,
             self.settings,
             self.focus,
             moving=not self.rested,
-            planned=self.planned,
             pinned=self.pinned,
             before=self.before,
             asked=self.asked,
+            give_up=give_up,
         )
-
-
-@dataclass(frozen=True)
-class Planned:
-    """What could be planned for some inputs, and whether all that it needs was compiled."""
-
-    views: tuple[str, ...]
-    compiled: bool
 
 
 @dataclass(frozen=True)
@@ -176,11 +135,13 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Picture:
-    """What some views have to say, and how the computation went."""
+    """What some views have to say, how the computation went, and how long it took [s]."""
 
+    results: Results
     drawings: list[Drawing]
     status: dict[str, Any]
     limits: tuple[Limit, ...] | None
+    seconds: float
 
 
 class Explorer:
@@ -207,12 +168,10 @@ class Explorer:
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
-        self._scheduler = Scheduler()
-        self._worker: LatestWins[Inputs] = LatestWins(self._work, self._failed)
-        self._idle_task: IdleTask[Inputs, Planned] = IdleTask(
-            _planned, self._draw_by_plan, self._worker.finished, self._scheduler, _kind_of_idle_work
+        self._loop: DrawingLoop[Inputs, Picture] = DrawingLoop(
+            self._draw_newest, self._fine_picture, self._draw_fine, self._failed
         )
-        self._rested: Inputs | None = None
+        self._refined: tuple[object, ...] = ()  # what is drawn as finely as can be
         self.jobs = Jobs(lambda change: one_message(self._doc, change))
 
         self.editor = SceneEditor(preset)
@@ -235,7 +194,6 @@ class Explorer:
         self.status = StatusLine(
             folded=True, sizing_mode="stretch_width", margin=0, css_classes=["one-line"]
         )
-        self.plan = PlanChoice(self._plan_asked)
         self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
         self._on_screen = ""
         self.tabs = Tabs(
@@ -285,11 +243,12 @@ class Explorer:
         """The page is up: draw."""
         send_at_once(self._doc)
         self.draw()
+        if not compiling.ready():
+            self._keep(self._draw_when_compiled())
 
     def stop(self) -> None:
         """The session is over: nothing is begun any longer, and what waits for its turn is not."""
-        self._worker.stop()
-        self._idle_task.end()
+        self._loop.stop()
         self.jobs.stop()
         self.measurement.stop()
         for task in self._tasks:
@@ -298,54 +257,23 @@ class Explorer:
             view.end()
 
     def draw(self) -> None:
-        """Bring what is on screen up to date: at once, and by plan when the hand rests."""
+        """Bring what is on screen up to date."""
         self._last_state.follow(self.scene, self.bookmarks.moving)
-        inputs, section = self.inputs, self._sections[self._shown]
-        rested = dataclasses.replace(
-            inputs, rested=True, planned=section.plans, seeks_orbit=section.has_orbit
-        )
-        self._idle_task.end()
-        if self._nothing_new(rested):
-            self._worker.submit(rested)
-            return
-        self._rested = None
-        self._worker.submit(inputs)
-        self._idle_task.begin(rested)
+        inputs = self.inputs
+        # turning the bearing leaves a fine picture fine
+        fine = self._refined == self._what_is_fine(inputs)
+        self._loop.submit(dataclasses.replace(inputs, rested=fine))
 
-    def _nothing_new(self, rested: Inputs) -> bool:
-        """Whether all that these inputs would have planned is planned already."""
-        last = self._rested
-        return (
-            last is not None
-            and compiling.ready()
-            and (last.scene, last.settings) == (rested.scene, rested.settings)
-            and set(rested.planned) <= set(last.planned)
-            and rested.seeks_orbit <= last.seeks_orbit
-            and last.compiled
-            and self._compared(rested)
-        )
+    def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
+        """What a fine picture is of; another needs a fine one of its own."""
+        return self._shown, inputs.scene, inputs.settings, inputs.pinned
 
-    def _compared(self, rested: Inputs) -> bool:
-        """Whether there is nothing to be found out about the balls' mass, or it is known."""
-        wanted = self._sections[self._shown].has_motion and rested.scene.shaft_speed > 0.0
-        return not wanted or (self._rested is not None and self._rested.compares_balls)
-
-    def _draw_by_plan(self, inputs: Inputs, found: Planned) -> None:
-        """Draw finer or cheaper, by what was planned while the hand rested."""
-        rested = dataclasses.replace(
-            inputs,
-            planned=found.views,
-            seeks_orbit=inputs.seeks_orbit and found.compiled,
-            compiled=found.compiled,
-        )
-        # the last time also where nothing new was planned: the page says that kernels are compiled
-        if rested != self._rested or (found.compiled and self.plan.says_compiling):
-            self._rested = rested
-            self._worker.submit(rested)
-        if not found.compiled:
-            self._idle_task.begin(inputs)  # there will be more to say
-        elif not inputs.compares_balls and not self._compared(rested):
-            self._idle_task.begin(dataclasses.replace(inputs, compares_balls=True))
+    async def _draw_when_compiled(self) -> None:
+        """Some views have to wait until their kernels are compiled, once a computer."""
+        while not compiling.ready():
+            await asyncio.sleep(0.5)
+        self._refined = ()
+        self.draw()
 
     # What the browser asks for. Its messages are not to be trusted.
 
@@ -480,10 +408,7 @@ class Explorer:
             str(words.get(name, ""))[:most]
             for name, most in (("title", 120), ("machine", 200), ("remarks", 4000))
         )
-        inputs = self.inputs
-        results = Results(
-            inputs.scene, inputs.cage_angle, inputs.settings, inputs.focus, pinned=inputs.pinned
-        )
+        results = dataclasses.replace(self.inputs, rested=True).results()
         kinds = [view for section in self._sections.values() for view in section.views]
         made = [view for views in self._views.values() for view in views]
         found = {view.name: view.found for view in made if view.found is not None}
@@ -518,12 +443,6 @@ class Explorer:
         """Judge life and film by what somebody says of steel, oil and surfaces."""
         self._asked_endurance = asked
         self.draw()
-
-    def _plan_asked(self, message: Any) -> None:
-        """The program's choices overruled by hand, or given back to it."""
-        if isinstance(message, dict):
-            self._settings = with_choices(self._settings, message)
-            self.draw()
 
     def _show_controls(self, **news: Any) -> None:
         """Show news on all panels of controls; each shows what is its own.
@@ -585,7 +504,7 @@ class Explorer:
         """The views of a section. For any thread: they are in no document yet."""
         return [view(self.packed) for view in self._sections[name].views]
 
-    async def _bring(self, name: str) -> None:
+    async def _open_tab(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first asked for.
 
         Done by the worker, in the same order of messages as what is drawn on them: the browser
@@ -593,11 +512,11 @@ class Explorer:
         into the document: figures, models and the message are made in threads.
         """
         if name not in self._views:
-            self._views[name] = await in_thread(self._make, name, slow=True)
+            self._views[name] = await in_thread(self._make, name)
         if name not in self._containers:
             self._containers[name] = self._container(self._views[name])
         new = self._containers[name] not in self.main
-        await one_message(self._doc, lambda: self._put_up(name), new_models=new)
+        await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
 
     def _container(self, views: Sequence[View]) -> pn.Column:
         """What holds the views of a section."""
@@ -630,7 +549,7 @@ class Explorer:
 
         return self._keep(fill())
 
-    def _put_up(self, name: str) -> None:
+    def _attach_tab(self, name: str) -> None:
         if self._containers[name] not in self.main:
             self.main.append(self._containers[name])
         for other, container in self._containers.items():
@@ -644,53 +563,52 @@ class Explorer:
 
     # Drawing: off the event loop to compute, on it to assign.
 
-    async def _work(self, inputs: Inputs) -> None:
+    async def _draw_newest(self, inputs: Inputs) -> Inputs:
         started = time.perf_counter()
-        self._scheduler.worked = 0.0
         if self._on_screen != self._shown:
-            await self._bring(self._shown)
-            self._slow_cost = math.inf  # nobody knows yet
+            await self._open_tab(self._shown)
+            self._slow_cost = math.inf  # not known yet
         views = self._views[self._on_screen]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
-        # where nothing else follows the hand there is nothing to hold up
-        held_up = any(view.needs for view in quick)
-        heavy = held_up and self._slow_cost > _HEAVY
+        # where nothing else follows the slider there is nothing to delay
+        heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
         if slow and not heavy and math.isfinite(self._slow_cost) and not inputs.rested:
             quick, slow = [], views
-        if heavy and self._worker.waiting:
+        if heavy and self._loop.waiting:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
-            inputs, results, picture = await self._scheduler.run(
-                (self._on_screen, inputs.kind), self._quick_picture, inputs, quick
-            )
-            await self._assign(results, picture, None if slow else inputs.mark)
-        else:
-            results = inputs.results
+            inputs, picture = await in_thread(self._newest_picture, inputs, quick)
+            await self._assign(picture, None if slow else inputs.mark)
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await self._scheduler.run_slow(_picture, results, slow, limits)
+            picture = await in_thread(_picture, inputs.results(), slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
-            await self._assign(results, picture, inputs.mark)
+            await self._assign(picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
         if self._on_screen != self._shown:
             # asked for meanwhile, and these inputs may have been the newest
-            self._worker.submit(self.inputs)
+            self.draw()
+        return inputs
 
-    def _quick_picture(
-        self, inputs: Inputs, views: Sequence[View]
-    ) -> tuple[Inputs, Results, Picture]:
-        """A picture of the newest inputs: others may have waited for their turn too."""
-        inputs = self._worker.newest(inputs)
-        results = inputs.results
-        try:
-            return inputs, results, _picture(results, views, self._limits_due(inputs))
-        except WouldWait:  # it is tried again in a thread
-            self._worker.put_back(inputs)
-            raise
+    def _newest_picture(self, inputs: Inputs, views: Sequence[View]) -> tuple[Inputs, Picture]:
+        """A picture of the newest inputs: others may have waited for a thread too."""
+        inputs = self._loop.newest(inputs)
+        return inputs, _picture(inputs.results(), views, self._limits_due(inputs))
+
+    def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
+        """What is on screen as finely as can be; None where it is drawn so already."""
+        if inputs.rested:
+            return None
+        results = dataclasses.replace(inputs, rested=True).results(give_up)
+        return _picture(results, self._views[self._on_screen], limits=True)
+
+    async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
+        await self._assign(picture, inputs.mark)
+        self._refined = self._what_is_fine(inputs)
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()
@@ -701,7 +619,7 @@ class Explorer:
             self._limits_at, self._pictures = now, 0
         return due
 
-    async def _assign(self, results: Results, picture: Picture, mark: int | None) -> None:
+    async def _assign(self, picture: Picture, mark: int | None) -> None:
         """Send a picture; `mark` where with it all of these inputs is drawn."""
         sources: Sources = {}
         ranges: Ranges = {}
@@ -712,11 +630,10 @@ class Explorer:
         self._drawn_mark = self._drawn_mark if mark is None else mark
 
         def change() -> None:
-            self.packed.send(sources, ranges, self._drawn_mark, self._scheduler.worked)
+            self.packed.send(sources, ranges, self._drawn_mark, picture.seconds)
             for drawing in picture.drawings:
-                drawing.view.say(results if drawing.data else None, drawing.sentence)
+                drawing.view.say(picture.results if drawing.data else None, drawing.sentence)
             self.status.put(line=picture.status)
-            self.plan.show(results, self.tabs.active)
             if picture.limits is not None:
                 self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 
@@ -736,59 +653,20 @@ class Explorer:
 
 def _picture(results: Results, views: Sequence[View], limits: bool = False) -> Picture:
     """Compute what the views need and have them say it, and what `limits` of the model say."""
+    started, worked = time.perf_counter(), time.thread_time()  # of this thread: waiting is no cost
     shown = frozenset[str]().union(*(view.needs for view in views))
-    before = time.thread_time()  # of this thread alone: waiting is no cost
-    results.begin(shown)
+    results.prefetch(shown)
     drawings = [_drawing(results, view) for view in views]
     checked = results.limits if limits else None
-    results.costs.append(time.thread_time() - before)
-    return Picture(drawings, status_of(results, sum(results.costs), shown), checked)
-
-
-def _kind_of_idle_work(inputs: Inputs) -> Hashable | None:
-    """What plans share that cost about the same. Those of motions may take seconds: no kind."""
-    curves = all(view in CURVES for view in inputs.planned)
-    takes_long = inputs.seeks_orbit or inputs.compares_balls
-    return inputs.kind if curves and not takes_long else None
-
-
-def _planned(inputs: Inputs, overtaken: Callable[[], bool]) -> Planned:
-    """Plan what `inputs.planned` says; in a thread, or in turn where that is light.
-
-    The plans stay known, and so does an orbit that is looked for.
-    """
-    results = inputs.results
-    made = []
-    compiled = compiling.ready()  # once: it may come while this is at work
-    for view in inputs.planned:
-        if overtaken():
-            break
-        if view not in CURVES and not compiled:
-            continue
-        try:
-            results.plan_of(view)
-        except ValueError:
-            continue  # the view itself says why there is nothing to plan
-        except Exception:
-            log.exception("planning %s failed", view)
-            continue
-        made.append(view)
-    if inputs.compares_balls and not overtaken():
-        with contextlib.suppress(ValueError):  # there is no motion to compare
-            results.compare_balls()
-    if inputs.seeks_orbit and compiled and not overtaken():
-        try:
-            results.seek_orbit(overtaken)
-        except ValueError:
-            pass  # again the view says why
-        except Exception:
-            log.exception("looking for an orbit failed")
-    return Planned(tuple(made), compiled)
+    status = status_of(results, time.thread_time() - worked, shown)
+    return Picture(results, drawings, status, checked, time.perf_counter() - started)
 
 
 def _drawing(results: Results, view: View) -> Drawing:
     try:
         return Drawing(view, view.data(results), view.sentence(results))
+    except Overtaken:
+        raise
     except compiling.StillCompiling as wait:
         words = str(wait)
         return Drawing(view, None, f"{words[0].upper()}{words[1:]}. {_DRAWN_LATER}")

@@ -20,8 +20,8 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.dynamics.curves import CURVES, curve_errors, curves_of, swings
 from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
-from bearingcore.plan.cage_angles import CURVES, curves_of, place, swings
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
@@ -368,7 +368,7 @@ def _measured(
 # --- number and placing of cage angles ------------------------------------------------------------
 
 
-PLACINGS = ("equally spaced", "equally spaced and edges", "placed at events")
+PLACINGS = ("equally spaced", "equally spaced and edges")
 """Ways to choose cage angles."""
 
 
@@ -379,14 +379,14 @@ def angles_experiment(
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> Experiment:
-    """Error against cost of cage angles: equally spaced, with nodes at edges, and placed.
+    """Error against cost of cage angles: equally spaced, and with those where a ball meets an edge.
 
     Parameters
     ----------
     scene
         whose curves are drawn.
     curves
-        "load", "stiffness" or "modes": see `plan.cage_angles`. The mean is that of the
+        "load", "stiffness" or "modes": see `dynamics.curves`. The mean is that of the
         same curves.
     progress, cancelled
         see `points`.
@@ -406,16 +406,12 @@ def angles_experiment(
         angles = np.unique(np.concatenate([np.linspace(first, last, round(n)), kinks]))
         return angles, len(angles)
 
-    def placed(budget: float) -> tuple[Array, int]:
-        nodes = place(scene, curves, budget)
-        return nodes.angles, nodes.solved
-
     counts = tuple(float(2**k + 1) for k in range(4, 12))
-    budgets = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
-    choices: tuple[tuple[str, Callable[[float], tuple[Array, int]], tuple[float, ...]], ...] = (
-        tuple(zip(PLACINGS, (equal, with_edges, placed), (counts, counts, budgets), strict=True))
-    )
-    tasks = [(name, choose, value) for name, choose, values in choices for value in values]
+    tasks = [
+        (name, choose, value)
+        for name, choose in zip(PLACINGS, (equal, with_edges), strict=True)
+        for value in counts
+    ]
     points = []
     for name, choose, value in in_turn(
         tasks, lambda task: f"{task[0]}, {task[2]:g}", progress, cancelled, begin=0.2
@@ -428,9 +424,7 @@ def angles_experiment(
             return angles, curves_of(equilibrium(scene, angles), curves), solved
 
         (angles, values, solved), seconds, runs = least_time(work)
-        words = f"budget {value:g}" if name.startswith("placed") else f"{len(angles)} angles"
-        if name.startswith("placed"):
-            words += f", {len(angles)} angles"
+        words = f"{len(angles)} angles"
         points.append(
             Point(name, words, value, truth.errors(angles, values), seconds, runs, solved)
         )
@@ -452,10 +446,7 @@ class _DenseTruth:
     def __init__(self, scene: Scene, curves: str, first: float, last: float) -> None:
         # the compiled solver's curves against contacts in NumPy: the same model, other code
         began = default_cage_angles(scene, 1001)
-        dense = place(scene, curves, 3e-4).angles
-        self.angles = np.unique(
-            np.concatenate([np.linspace(first, last, 16001), dense, 0.5 * (dense[1:] + dense[:-1])])
-        )
+        self.angles = np.union1d(np.linspace(first, last, 16001), path_kinks(scene, first, last))
         self.values = curves_of(equilibrium(scene, self.angles), curves)
         self.scale = swings(self.values)
         self.size = np.nanmax(np.abs(self.values), axis=0)
@@ -495,10 +486,7 @@ class _DenseTruth:
 
     def errors(self, angles: Array, values: Array) -> dict[str, float]:
         """Of lines between the angles, and of the trapezoidal rule's mean."""
-        lines = np.stack(
-            [np.interp(self.angles, angles, values[:, i]) for i in range(values.shape[1])], axis=1
-        )
-        with np.errstate(invalid="ignore"):
-            trace = float(np.nanmax(np.abs(lines - self.values) / self.scale))
+        errors = curve_errors(angles, values, self.angles, self.values)
+        trace = float(errors.max(initial=0.0))
         mean = trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
         return {"trace": trace, "mean": float((np.abs(mean - self.mean) / self.size).max())}

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.modes import undamped_bands
 from bearingcore.dynamics.motion import TOO_MANY_STEPS, simulate
 from bearingcore.dynamics.orbit import (
@@ -24,7 +25,6 @@ from bearingcore.dynamics.orbit import (
     orbit,
 )
 from bearingcore.dynamics.speed_run import SETTLING
-from bearingcore.plan.balls import mass_share
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,

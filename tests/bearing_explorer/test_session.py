@@ -4,12 +4,10 @@ import asyncio
 import math
 import threading
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import pytest
 from bearing_explorer.results.results import Results
-from bearing_explorer.results.single_flight import WouldWait
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 
@@ -38,13 +36,13 @@ def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
         for act in acts:
             act(explorer)
             await idle(explorer)
-        while rest and not explorer._idle_task.idle:
+        while rest and not explorer._loop.idle:
             await asyncio.sleep(0.002)
-        await idle(explorer)
+        explorer._loop.stop()
         return explorer
 
     async def idle(explorer: Explorer) -> None:
-        while not explorer._worker.idle:
+        while not explorer._loop.drawn:
             await asyncio.sleep(0.002)
 
     return run(live())
@@ -133,14 +131,14 @@ def test_the_tab_that_was_asked_for_last_is_shown(
     async def live() -> Explorer:
         explorer = Explorer(SECTIONS)
         explorer.draw()
-        while not explorer._worker.idle:
+        while not explorer._loop.drawn:
             await asyncio.sleep(0.002)
         explorer._tab_asked({"show": "two"})
         while not making.is_set():
             await asyncio.sleep(0.002)
         explorer._tab_asked({"show": "one"})
         go_on.set()
-        while not explorer._worker.idle:
+        while not explorer._loop.drawn:
             await asyncio.sleep(0.002)
         return explorer
 
@@ -251,7 +249,7 @@ def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> No
     async def live(text: str) -> Explorer:
         explorer = Explorer(SECTIONS)
         explorer._asked({"mark": 2, "floor": {"name": "wear.txt", "text": text}})
-        while explorer._tasks or not explorer._worker.idle:
+        while explorer._tasks or not explorer._loop.drawn:
             await asyncio.sleep(0.002)
         return explorer
 
@@ -269,29 +267,6 @@ def test_what_is_shown_names_the_change_it_answers(news: list[dict]) -> None:
     """The browser passes over it where a hand has moved on meanwhile."""
     session(lambda e: e._asked({"mark": 7, "typed": {"extent_deg": "20"}}))
     assert news[-1]["state"]["mark"] == 7
-
-
-def test_a_picture_that_would_wait_is_of_the_newest_inputs_all_the_same(
-    news: list[dict], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """On the event loop nobody waits: it is tried again in a thread, and nothing is lost."""
-    explorer = session()
-    views = explorer._views["one"]
-    before = explorer.inputs
-    newest = replace(before, scene=before.scene.healthy())
-    explorer._worker.put_back(newest)
-
-    def waits(*_: object) -> None:
-        raise WouldWait
-
-    with monkeypatch.context() as patched:
-        patched.setattr("bearing_explorer.session._picture", waits)
-        with pytest.raises(WouldWait):
-            explorer._quick_picture(before, views)
-    inputs, results, _ = explorer._quick_picture(before, views)
-    assert inputs is newest
-    assert results.scene == before.scene.healthy()
-    assert not explorer._worker.waiting
 
 
 def test_limits_are_looked_at_when_the_hand_rests(

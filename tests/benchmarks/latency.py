@@ -7,8 +7,8 @@ every packet carries the number of the newest change, and the browser's paint is
 which number and which view it painted. Views without figures count as drawn in the first frame
 after the packet. A drag moves the mouse for some seconds; it gives frames a second and the tail,
 the time from the release to the last repaint of the picture that follows the hand. When the hand
-rests, the program plans and draws anew: "planned" is when that is on screen, after the event.
-"Disturbed" is a step that comes while a plan is being made. "Median" stands also as a multiple of
+rests, the program draws finely: "planned" is when that is on screen, after the event.
+"Disturbed" is a step that comes while that is being computed. "Median" stands also as a multiple of
 what the C loop of 1.4 s of motion takes just before (`machine`).
 
 The mouse moves 60 times a second, as often as a screen shows it. "Work" is what browser and server

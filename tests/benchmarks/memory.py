@@ -27,7 +27,7 @@ from pathlib import Path
 
 import numpy as np
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.results.budget import SHARED
+from bearing_explorer.results.cache import cached_bytes
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import _picture
@@ -54,7 +54,7 @@ from bearingcore import (
     stiffness_maps,
 )
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.plan import plan
+from bearingcore.experiments.alternatives import alternatives
 from bearingcore.statics.ball_positions import ball_positions
 from tests.benchmarks.machine import pace
 from tests.helpers.box import cage_angles_at, draw, scene_at
@@ -160,7 +160,7 @@ _QUESTIONS: dict[int, tuple[Callable[[Scene, np.ndarray], object], ...]] = {
         lambda scene, angles: ball_positions(scene.replace(balls="with mass", density=7850.0)),
         _diagnosis,
     ),
-    500: (lambda scene, angles: plan(scene, "load"), _page),
+    500: (lambda scene, angles: alternatives(scene), _page),
 }
 """What is asked of every so many scenes."""
 
@@ -199,7 +199,7 @@ def main() -> int:
             gc.collect()
             after = resident()
             used, free = heap()
-            kept = SHARED.total / 1e6
+            kept = cached_bytes() / 1e6
             held.append((after if math.isnan(used) else used) - kept)
             print(
                 f"{done:>10,}{before:>9.0f}{after:>20.0f}{used:>9.0f}{free:>9.0f}{kept:>9.0f}"

@@ -13,7 +13,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.results.executors import DIAGNOSES
+from bearing_explorer.results.executors import JOBS
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.state.quantities import refusal
 from bearingcore import Bearing, Diagnosis, diagnose
@@ -141,7 +141,7 @@ class Diagnoses:
     async def _work(self) -> None:
         loop = asyncio.get_running_loop()
         while (question := self._wanted) is not None and question not in self._known:
-            answer = await loop.run_in_executor(DIAGNOSES, answered, question)
+            answer = await loop.run_in_executor(JOBS, answered, question)
             if self._wanted is None:
                 return
             if self._wanted.measured is question.measured:

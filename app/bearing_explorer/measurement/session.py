@@ -36,7 +36,7 @@ from bearing_explorer.measurement.form import (
 )
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
-from bearing_explorer.results.executors import READERS
+from bearing_explorer.results.executors import in_thread
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.quantities import refusal
@@ -340,7 +340,7 @@ class Measurement:
 
         async def run() -> None:
             try:
-                found = await asyncio.get_running_loop().run_in_executor(READERS, compute)
+                found = await in_thread(compute)
             except ValueError as error:
                 sentence = str(error)
                 change = lambda: self._refuse(sentence)  # noqa: E731

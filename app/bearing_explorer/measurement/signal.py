@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
+from bearing_explorer.results.cache import cached
 from bearing_explorer.results.results import Results
-from bearing_explorer.results.single_flight import SingleFlightCache
 from bearing_explorer.state.settings import Settings
 from bearingcore.common.lazy import cached_property
 from bearingcore.signals.envelope_band import PIECES
@@ -171,13 +171,13 @@ class Simulated:
 
     def spectrum(self, direction: str, resolution: float) -> Spectrum | None:
         """Spectrum along a direction; None where the housing cannot move along it."""
-        return simulated_spectra(
+        return simulated_spectrum(
             self.scene, self.results.settings, self._moving, direction, resolution
         )
 
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum | None:
         """Envelope spectrum of a band [Hz], up to `top` [Hz]."""
-        return simulated_envelopes(
+        return simulated_envelope(
             self.scene, self.results.settings, self._moving, direction, *band, top
         )
 
@@ -192,7 +192,8 @@ def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
     return signal
 
 
-def _spectrum(
+@cached
+def simulated_spectrum(
     scene: Scene, settings: Settings, moving: bool, direction: str, resolution: float
 ) -> Spectrum | None:
     motion = Results(scene, 0.0, settings, moving=moving).motion
@@ -203,7 +204,8 @@ def _spectrum(
     return core.spectrum(signal, motion.sample_rate, max(resolution, 1.01 * finest))
 
 
-def _envelope(
+@cached
+def simulated_envelope(
     scene: Scene,
     settings: Settings,
     moving: bool,
@@ -218,7 +220,3 @@ def _envelope(
         return None
     resolution = max(motion.sample_rate / len(signal), top / ENVELOPE_LINES)
     return core.envelope_spectrum(signal, motion.sample_rate, (low, high), resolution)
-
-
-simulated_spectra = SingleFlightCache(_spectrum, 64)
-simulated_envelopes = SingleFlightCache(_envelope, 64)

@@ -11,11 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.results.excerpt import Event, acceleration_columns, excerpt
+from bearing_explorer.results.excerpt import Event, acceleration_columns, excerpt_of
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.ball_comparison import (
+    QUIET,
+    SETTLING,
+    BallComparison,
+    compared_directions,
+)
+from bearingcore.dynamics.ball_comparison import compare_motions as compare_bands
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, flights, strikes
-from bearingcore.plan.balls import QUIET, compared_directions
 from bearingcore.scene.defect import RACES
 from bearingcore.statics.passes import path_kinks
 
@@ -81,6 +87,8 @@ class BallMass:
         its standard error over parts of the motion, NaN where that is too short for it.
     added : (m,) [dB]
         the same as a ratio of powers.
+    comparison
+        up to which frequency massless balls will do; None where the motions are too short for it.
     quiet : (m,)
         True where there is next to no power against the loudest octave.
     """
@@ -109,6 +117,7 @@ class BallMass:
     spread: Array
     added: Array
     quiet: NDArray[np.bool_]
+    comparison: BallComparison | None
 
     def table(self) -> ResultTable:
         """A row a time: acceleration without and with mass, loads of the balls at both races."""
@@ -164,11 +173,11 @@ class BallMass:
         return float((self.loads <= 0.0).all(axis=0).mean())
 
 
-def ball_mass(massless: Motion, heavy: Motion, since: float) -> BallMass:
+def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     """Compare two motions of equal duration and sample rate, settled `since` [s]."""
     scene, rate = heavy.scene, heavy.sample_rate
     for passes in ENOUGH_PASSES:
-        whole = excerpt(scene, heavy, since, n_passes=passes)
+        whole = excerpt_of(scene, heavy, since, n_passes=passes)
         if _entry(whole.events) is not None:
             break
     start, end = _look(whole.events, whole.time)
@@ -227,7 +236,16 @@ def ball_mass(massless: Motion, heavy: Motion, since: float) -> BallMass:
         spread=_spread(late, rate, octaves) if finite and dofs else np.full_like(share, math.nan),
         added=added,
         quiet=power[1] < QUIET * np.max(power[1], initial=0.0),
+        comparison=_comparison(massless, heavy),
     )
+
+
+def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
+    """Up to which frequency massless balls will do, where motions are long enough to tell."""
+    enough = len(heavy.time) > 2.0 * SETTLING * heavy.sample_rate
+    if not (enough and massless.completed and heavy.completed):
+        return None
+    return compare_bands(massless, heavy)
 
 
 def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:

@@ -14,9 +14,8 @@ from collections.abc import Callable
 
 from numba.core.compiler_lock import global_compiler_lock
 
-from bearingcore import kernels, presets, warm
+from bearingcore import kernels, orbit, presets, warm
 from bearingcore.experiments.balls import balls_experiment
-from bearingcore.plan import SETTLED, plan
 from bearingcore.warm_up import motions_with_mass
 
 log = logging.getLogger(__name__)
@@ -121,11 +120,11 @@ def all_on_disk() -> bool:
 
 
 def compile_rest() -> None:
-    """Move balls with mass, and plan what calls every kernel that planning and orbits need."""
+    """Move balls with mass, and look for orbits."""
     motions_with_mass()
     for name in ("fan-rig", "liew-lim"):
         for law in ("published", "no tension"):
-            plan(presets[name].replace(contact_law=law), SETTLED, duration=0.1)
+            orbit(presets[name].replace(contact_law=law))
     balls_experiment(presets["fan-rig"], duration=0.05, steps=(2,))
 
 

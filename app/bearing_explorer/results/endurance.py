@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from bearing_explorer.results.single_flight import SingleFlightCache
+from bearing_explorer.results.cache import cached
 from bearingcore import contact_pressures, dynamic_load_rating, equilibrium, film, life
+from bearingcore import limits as limits_of
 from bearingcore.statics.validity import looked_at
 
 if TYPE_CHECKING:
-    from bearingcore import ContactPressures, Equilibrium, Film, Life, Scene
+    from bearingcore import ContactPressures, Equilibrium, Film, Life, Limit, Scene
 
 
 ASSUMED_VISCOSITY = 0.02
@@ -58,7 +59,9 @@ class Endurance:
     no_film: str
 
 
-def _endurance(scene: Scene, asked: Asked) -> Endurance:
+@cached
+def endurance(scene: Scene, asked: Asked) -> Endurance:
+    """Life, contact pressures and film of a scene."""
     rating, rating_words = asked.dynamic_load_rating, "given"
     no_life = ""
     if rating is None:
@@ -103,13 +106,25 @@ def film_of(scene: Scene, asked: Asked, state: Equilibrium) -> Film:
     )
 
 
+@cached
+def limits(
+    scene: Scene, step_rate: float | None, dynamic_load: float | None, asked: Asked
+) -> tuple[Limit, ...]:
+    """What the model leaves out of a scene, each with its number and its limit.
+
+    `step_rate` [Hz] and `dynamic_load` [N], the greatest of a ball, are those of a simulated
+    motion; None: there is none.
+    """
+    state = equilibrium(scene, looked_at(scene))
+    oil = None
+    if asked.viscosity is not None and scene.bearing.knows_contacts:
+        oil = film_of(scene, asked, state)
+    return limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
+
+
 def _why(error: ValueError) -> str:
     if "groove_radius is None" in str(error):
         return (
             "The groove radii of this bearing are not known: give its drawing on the tab Bearing."
         )
     return f"Not possible: {error}."
-
-
-endurance = SingleFlightCache(_endurance, 256)
-"""What there is to say of a scene and what was asked, kept."""

@@ -95,7 +95,7 @@ def why_ended(status: str) -> str:
     return f"there is {status}" if status.startswith("no ") else f"the simulated motion {status}"
 
 
-def excerpt(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
+def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
     """A stretch of `n_passes` ball passes, beginning a quarter pass before an entry.
 
     `since` [s] is when the motion has settled: the stretch lies after it.

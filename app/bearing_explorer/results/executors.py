@@ -1,8 +1,7 @@
-"""The threads that compute, all in one place: who computes what, and how many at a time.
+"""The threads that compute, shared by all sessions of a process.
 
-Kernels release the interpreter lock, so threads do run together. The pools are shared by all
-sessions of a process. They are kept apart so that what takes long never stands before what a hand
-waits for.
+Kernels release the interpreter lock, so threads do run at the same time. Two pools, so that what
+takes long never delays what follows a slider.
 """
 
 from __future__ import annotations
@@ -16,25 +15,14 @@ from typing import TypeVar
 Result = TypeVar("Result")
 
 _CORES = os.cpu_count() or 2
-_HALF = max(1, _CORES // 2)
 
-PICTURES = Pool(_CORES, "compute")
-"""Pictures that are not light, and what a message asks for."""
-SLOW_PICTURES = Pool(_HALF, "compute-slow")
-"""Pictures of motions: or a few sessions that simulate would keep all others from dragging."""
-BESIDE = Pool(_HALF, "beside")
-"""What goes on beside a picture that needs it later."""
-PLANS = Pool(_HALF, "plan")
-"""Plans of all sessions: half of the machine stays with what moves."""
-JOBS = Pool(_HALF, "job")
-"""Long computations that somebody started: half of the machine, drawing has the other half."""
-DIAGNOSES = Pool(_HALF, "diagnose")
-"""Which part is damaged, of all sessions: half of the machine, drawing has the other half."""
-READERS = Pool(2, "read")
-"""Files that are read: two at a time, whoever brings them, as reading takes memory."""
+PICTURES = Pool(2 * _CORES, "compute")
+"""Pictures, and what a message of the browser needs. More threads than processors, so that a quick
+picture need not wait for a motion."""
+JOBS = Pool(max(2, _CORES // 2), "job")
+"""Long computations that a person has started: maps, sweeps, diagnoses and files."""
 
 
-async def in_thread(function: Callable[..., Result], *args: object, slow: bool = False) -> Result:
-    """Run `function` off the event loop, with the pictures or with the `slow` ones."""
-    threads = SLOW_PICTURES if slow else PICTURES
-    return await asyncio.get_running_loop().run_in_executor(threads, function, *args)
+async def in_thread(function: Callable[..., Result], *args: object) -> Result:
+    """Run `function` off the event loop."""
+    return await asyncio.get_running_loop().run_in_executor(PICTURES, function, *args)

@@ -20,9 +20,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.results.motion_cost import MOST_STEPS, step_rates
+from bearing_explorer.results.cache import cached
+from bearing_explorer.results.motions import MOST_STEPS, step_rate_of
 from bearing_explorer.results.results import LONGEST_ORBIT
-from bearing_explorer.results.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.quantity_list import DEGREE
 from bearing_explorer.state.value_range import Sweep
@@ -481,7 +481,7 @@ class Survey:
                 return _TOO_LONG_ORBIT if (common_ball_passes(scene) or 0) > LONGEST_ORBIT else ""
             if self.question.output.needs == MASS:
                 scene = scene.replace(balls=WITH_MASS)
-            rate = step_rates(scene, _SETTINGS.sample_rate)
+            rate = step_rate_of(scene, _SETTINGS.sample_rate)
         except ValueError:
             return ""  # whoever computes it says why not
         with_mass = scene.balls == WITH_MASS
@@ -505,15 +505,12 @@ class Survey:
         return missed, "" if math.isfinite(missed) else found.sizing.status
 
 
+@cached
 def coarse(question: Question) -> Plane:
     """The first level of a map, for a slider that is dragged. ValueError where none can be."""
     survey = Survey(question)
     survey.compute(question.first_stride)
     return survey.plane(question.first_stride)
-
-
-planes: SingleFlightCache[Plane] = SingleFlightCache(coarse, 64)
-"""First levels by their question, shared by all sessions."""
 
 
 def refine(job: Job, question: Question, finest: int, start: Plane | None = None) -> str:

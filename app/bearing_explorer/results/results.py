@@ -1,14 +1,13 @@
 """Results: what is known about one scene, computed when first asked for.
 
-Everything that is drawn passes through here. The core's answers come from `compute.answers`, where
-all sessions share them.
+Everything that is drawn passes through here. What is costly is
+computed by the functions of `statics`, `motion` and `endurance`, whose results all sessions share.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-import time
 from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, TypeVar
 
@@ -16,8 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import bearingcore as core
-from bearing_explorer.results import answers
+from bearing_explorer.results import endurance, motions, statics
 from bearing_explorer.results.ball_mass import BallMass
+from bearing_explorer.results.cache import cached
 from bearing_explorer.results.chain import Chain, chain
 from bearing_explorer.results.dof_comparison import (
     DofComparison,
@@ -25,29 +25,28 @@ from bearing_explorer.results.dof_comparison import (
     spectrum_differences,
     static_differences,
 )
-from bearing_explorer.results.endurance import Asked, Endurance, endurance
+from bearing_explorer.results.endurance import Asked, Endurance
 from bearing_explorer.results.excerpt import Excerpt
-from bearing_explorer.results.executors import BESIDE
+from bearing_explorer.results.executors import PICTURES
 from bearing_explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.results.motion_cost import is_costly, quick_duration, step_rates
 from bearing_explorer.results.profile import Profile, profile
-from bearing_explorer.results.single_flight import SingleFlightCache
 from bearing_explorer.state.quantities import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
-from bearing_explorer.state.settings import Marching, MotionPlanning, Settings
+from bearing_explorer.state.settings import Marching, Settings
 from bearingcore.common.lazy import cached_property
 from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
-from bearingcore.plan import CURVES, SETTLED
-from bearingcore.plan.balls import BallComparison
 from bearingcore.scene.defect import RACES
 from bearingcore.scene.scene import MASSLESS, WITH_MASS
 from bearingcore.statics.ball_positions import EquilibriumWithMass
-from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
+from bearingcore.statics.equilibrium import (
+    ANGLES_A_PERIOD,
+    default_cage_angles,
+    has_long_period,
+)
 from bearingcore.statics.passes import drops_now
 
 if TYPE_CHECKING:
     from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
-    from bearingcore.plan import Plan
 Answer = TypeVar("Answer")
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
@@ -57,11 +56,10 @@ LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
 
 
+@cached
 def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool) -> Chain:
+    """The chain of another scene: a whole drag is compared with the one where it began."""
     return Results(scene, cage_angle, settings, moving=moving).chain
-
-
-_chains = SingleFlightCache(_chain_of, 128)  # a drag is told against one scene all the while
 
 
 def _load_curves(found: Equilibrium) -> list[Curve]:
@@ -77,25 +75,21 @@ class Results:
     equilibrium, healthy_equilibrium: over the stretch of the curves, with the defect and without
     now, healthy_now: at `cage_angle` alone (arrays of length 1)
     modes, healthy_modes: over the same cage angles
-    band_modes: the modes where few cage angles will do while a hand moves
     bands, healthy_bands: {label: (least, greatest)} of the natural frequencies [Hz]
     extent: of the defect looked at [rad]
     healthy_all_around: like healthy_equilibrium, over all that a pinned scene does
     maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
-    plan: what the scene's curves or motion are drawn by, where they are drawn by a plan
     motion, healthy_motion: simulated motion
     settled_since: [s] of the motion, when its start is forgotten
     excerpt: some ball passes of the settled motion
     spectra: {dof: Spectrum} of the housing's acceleration from rest on
     late_spectra, healthy_late_spectra: the same of the settled motion
     ball_mass: the motions without and with the balls' mass, compared
-    ball_comparison: up to which frequency massless balls will do; None until it was looked for
     ball_passes: after how many of them the scene is as before; None where it never is
     orbit: the motion that repeats itself; None where it takes too many ball passes to look for
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
-    plans: {view: Plan} of what is to be planned; without those that cannot be
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
     endurance: life, contact pressure and film, with the oil and steel of `asked`
     limits: what the model leaves out, each with its number and its limit
@@ -144,28 +138,27 @@ class Results:
         focus: int = 0,
         *,
         moving: bool = False,
-        planned: tuple[str, ...] = (),
         pinned: Reference | None = None,
         before: Scene | None = None,
         asked: Asked | None = None,
+        give_up: Callable[[], bool] | None = None,
     ) -> None:
-        """`moving`: a hand moves, be quick. `planned`: views that have plans, see `plans`.
+        """`moving`: a slider moves, be quick.
 
         `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
         without its defect. `before`: the scene before the last change, where there was one.
-        `asked`: what somebody says of steel, oil and surfaces.
+        `asked`: steel, oil and surfaces as a person has entered them. `give_up` is asked in long
+        searches whether the results are still wanted.
         """
         self.scene = scene
         self.cage_angle = cage_angle
         self.settings = settings or Settings()
         self.focus = focus
         self.moving = moving
-        self.planned = planned
         self.pinned = pinned
         self.before = before
         self.asked = asked or Asked()
-        #: times [s] that processors have worked on it, in any thread: waiting is no cost
-        self.costs: list[float] = []
+        self._give_up = give_up
 
     @property
     def beside(self) -> Scene:
@@ -202,8 +195,11 @@ class Results:
         have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
         soon: then the turn of the shaft that the cage angle shown lies in.
         """
-        by_hand = self.settings.cage_angles
-        angles = default_cage_angles(self.scene, by_hand or self.settings.n_cage_angles)
+        settings = self.settings
+        n = settings.n_cage_angles
+        if has_long_period(self.scene):
+            n = min(n, settings.n_long_period)
+        angles = default_cage_angles(self.scene, n)
         length = float(angles[-1])
         turn = math.floor(self.cage_angle / length + 1e-9) if self.over_shaft else 0
         return turn * length, (turn + 1) * length, angles.size
@@ -221,67 +217,14 @@ class Results:
         return np.degrees(inside)
 
     @cached_property
-    def plans(self) -> dict[str, Plan]:
-        """Plans of the views in `planned`, made when first asked for."""
-        return {view: self.plan_of(view) for view in self.planned}
-
-    def plan_of(self, view: str) -> Plan:
-        """The plan for a view; what is drawn beside it is planned too. ValueError without one."""
-        how = self.settings.planning(view)
-        if view not in CURVES:
-            return answers.motion_plans(self.scene, view, how)
-        if self.scene.defects:
-            answers.plans(self.scene.healthy(), view, how)
-        return answers.plans(self.scene, view, how)
-
-    @cached_property
-    def plan(self) -> Plan | None:
-        """The plan that is drawn by; None where there is none, or a hand has overruled it.
-
-        Planned cage angles are those of a first turn: in later ones, balls meet a defect of the
-        inner race elsewhere.
-        """
-        if len(self.planned) != 1:
-            return None
-        (view,) = self.planned
-        over_angles = view in CURVES
-        if over_angles and (self.settings.cage_angles is not None or self.stretch[0] != 0.0):
-            return None
-        return self.plans[view]
-
-    def _nodes(self, healthy: bool) -> bytes | None:
-        """Cage angles that a plan has chosen, those of the healthy bearing by a plan of its own."""
-        if self.plan is None or self.plan.cage_angles is None:
-            return None
-        plan = self.plan
-        if healthy and self.scene.defects:
-            view = plan.view
-            plan = answers.plans(self.scene.healthy(), view, self.settings.planning(view))
-        angles = plan.cage_angles
-        assert angles is not None
-        # without a defect of the inner race curves are shorter
-        last = self.stretch[1]
-        if abs(float(angles[-1]) - last) > 1e-9 * last:
-            return None
-        return angles.tobytes()
-
-    def _static(self, scene: Scene, healthy: bool = False) -> Equilibrium:
-        nodes = self._nodes(healthy)
-        if nodes is None:
-            return answers.equilibria(scene, *self.stretch)
-        return answers.planned_equilibria(scene, nodes)
-
-    @cached_property
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
-        return self._static(self.scene)
+        return statics.curves(self.scene, *self.stretch)
 
     @cached_property
     def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
-        if self.pinned is not None:
-            return answers.equilibria(self.pinned.scene, *self.stretch)
-        return self._static(self.scene.healthy(), healthy=True)
+        return statics.curves(self.beside, *self.stretch)
 
     @cached_property
     def healthy_all_around(self) -> Equilibrium:
@@ -289,7 +232,7 @@ class Results:
         if self.pinned is None:
             return self.healthy_equilibrium
         own = Results(self.pinned.scene, self.cage_angle, self.settings)
-        return answers.equilibria(self.pinned.scene, *own.stretch)
+        return statics.curves(self.pinned.scene, *own.stretch)
 
     @cached_property
     def load_curves(self) -> list[Curve]:
@@ -323,76 +266,53 @@ class Results:
     @cached_property
     def now(self) -> Equilibrium:
         """Static answer at the cage angle shown; arrays of length 1."""
-        return answers.single_equilibria(self.scene, self.cage_angle)
+        return statics.equilibrium_at(self.scene, self.cage_angle)
 
     @property
     def massless_now(self) -> Equilibrium:
         """The same as maps have it: without the mass of the balls."""
-        return answers.single_equilibria(self.scene.replace(balls=MASSLESS), self.cage_angle)
+        return statics.equilibrium_at(self.scene.replace(balls=MASSLESS), self.cage_angle)
 
     @cached_property
     def healthy_now(self) -> Equilibrium:
         """The same without the defect."""
-        return answers.single_equilibria(self.beside, self.cage_angle)
+        return statics.equilibrium_at(self.beside, self.cage_angle)
 
     @cached_property
     def modes(self) -> Modes:
-        """Natural frequencies over the same cage angles."""
+        """Natural frequencies over the stretch; at every third cage angle while a slider moves."""
         return self._modes(self.scene)
 
     @cached_property
-    def band_modes(self) -> Modes:
-        """`modes`, but at every third cage angle while a hand moves."""
-        return self._few_modes(self.scene) if self._takes_few("modes") else self.modes
+    def healthy_modes(self) -> Modes:
+        """The same without the defect."""
+        return self._of_pinned(self._modes, self.beside)
 
-    @property
-    def _healthy_band_modes(self) -> Modes:
-        if self._takes_few("healthy_modes"):
-            return self._of_pinned(self._few_modes, self.beside)
-        return self.healthy_modes
-
-    def _takes_few(self, modes: str) -> bool:
-        """Whether bands are to be taken from few cage angles: not where all of them are known."""
-        return self.moving and modes not in vars(self)
-
-    def _few_modes(self, scene: Scene) -> Modes:
+    def _modes(self, scene: Scene) -> Modes:
         first, last, n = self.stretch
-        return answers.modes(scene, first, last, n // 3 + 1)
+        return statics.modes(scene, first, last, (n - 1) // 3 + 1 if self.moving else n)
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
         """Between which frequencies [Hz] each mode moves over the stretch.
 
-        Looked for between the cage angles too: the same on every tab, by whatever plan its curves
-        are drawn. While a hand moves it is what few cage angles give.
+        Looked for between the cage angles too: the same however finely curves are drawn. While a
+        slider moves it is what `modes` give.
         """
-        return self.band_modes.bands() if self.moving else self._bands(self.scene)
+        return self.modes.bands() if self.moving else self._bands(self.scene)
 
     @cached_property
     def healthy_bands(self) -> dict[str, tuple[float, float]]:
         """The same without the defect."""
         if self.moving:
-            return self._healthy_band_modes.bands()
+            return self.healthy_modes.bands()
         return self._of_pinned(self._bands, self.beside)
 
     def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
         first, last, _ = self.stretch
-        n = self.settings.n_cage_angles
+        n = ANGLES_A_PERIOD
         samples = default_cage_angles(self.scene, n if self.over_shaft else 3 * n - 2)
-        return answers.bands(scene, first, last, samples.size)
-
-    @cached_property
-    def healthy_modes(self) -> Modes:
-        """The same without the defect."""
-        if self.pinned is not None:
-            return self._of_pinned(answers.modes, self.pinned.scene, *self.stretch)
-        return self._modes(self.scene.healthy(), healthy=True)
-
-    def _modes(self, scene: Scene, healthy: bool = False) -> Modes:
-        nodes = self._nodes(healthy)
-        if nodes is None:
-            return answers.modes(scene, *self.stretch)
-        return answers.planned_modes(scene, nodes)
+        return statics.bands(scene, first, last, samples.size)
 
     @property
     def extent(self) -> float:
@@ -411,9 +331,9 @@ class Results:
         scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
         reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
         # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
-        n = self.settings.n_cage_angles
+        n = self.settings.n_map_angles
         columns = 2 * n - 1 if has_long_period(self.scene) else n
-        return answers.maps(scene, reach, self.settings.n_extents, first, last, columns)
+        return statics.maps(scene, reach, self.settings.n_extents, first, last, columns)
 
     @cached_property
     def drop(self) -> dict[str, np.ndarray]:
@@ -435,20 +355,12 @@ class Results:
         """The same of `dof_comparison`, whose motions are marched alike."""
         return self.coarse or self._is_coarse(self.scene.replace(dofs=other_dofs(self.scene)))
 
-    def begin(self, needed: frozenset[str]) -> None:
-        """Begin what of these attributes can be computed beside the others, in another thread."""
+    def prefetch(self, needed: frozenset[str]) -> None:
+        """Begin in another thread what of these attributes can be computed at the same time."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
             asked = self.beside, self._marching
-            if not answers.late_spectra.knows(*asked):  # whoever asks for it waits for this one
-                BESIDE.submit(lambda: self._costing(answers.late_spectra, *asked))
-
-    def _costing(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
-        """Compute something in another thread than that of the picture, at its cost."""
-        before = time.thread_time()
-        try:
-            return compute(*key)
-        finally:
-            self.costs.append(time.thread_time() - before)
+            if not motions.late_spectra.knows(*asked):  # the picture waits for this one
+                PICTURES.submit(motions.late_spectra, *asked)
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
@@ -464,7 +376,7 @@ class Results:
         if scene.balls == MASSLESS:
             part = "a quarter of" if "dof_comparison" in shown else "half"
             return f"coarse while it moves: {part} the motion in half the steps"
-        seconds = quick_duration(scene, self.settings.coarse_marching)
+        seconds = motions.quick_duration(scene, self.settings.coarse_marching)
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
     def _is_coarse(self, scene: Scene) -> bool:
@@ -472,7 +384,7 @@ class Results:
         return (
             self.moving
             and settings.step_rate is None
-            and is_costly(scene, settings.sample_rate, settings.duration)
+            and motions.is_costly(scene, settings.sample_rate, settings.duration)
         )
 
     @cached_property
@@ -480,53 +392,44 @@ class Results:
         return self.settings.coarse_marching if self.coarse else self.settings.marching
 
     @cached_property
-    def _how(self) -> answers.How:
-        """How the scene's motion comes about."""
-        if self.plan is None or self.plan.cage_angles is not None:
-            return self._marching
-        how = self.settings.planning(self.plan.view)
-        assert isinstance(how, MotionPlanning)
-        return how
-
-    @cached_property
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
-        return answers.motions(self.scene, self._how).motion
+        return motions.motion(self.scene, self._marching).motion
 
     @property
     def settled_since(self) -> float:
         """When [s] of the motion its start is forgotten."""
-        return answers.motions(self.scene, self._how).since
+        return motions.motion(self.scene, self._marching).since
 
     @cached_property
     def healthy_motion(self) -> Motion:
-        """The same without the defect, always marched."""
-        return self._of_pinned(answers.motions, self.beside, self._marching).motion
+        """The same without the defect."""
+        return self._of_pinned(motions.motion, self.beside, self._marching).motion
 
     @cached_property
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads beside the moving ones."""
-        return answers.excerpts(self.scene, self._how)
+        return motions.excerpt(self.scene, self._marching)
 
     @cached_property
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
-        return answers.spectra(self.scene, self._marching)
+        return motions.spectra(self.scene, self._marching)
 
     @cached_property
     def late_spectra(self) -> dict[str, Spectrum]:
         """The same of the settled motion; empty where it did not stay finite."""
-        return answers.late_spectra(self.scene, self._how)
+        return motions.late_spectra(self.scene, self._marching)
 
     @property
     def healthy_settled_since(self) -> float:
         """When [s] of that motion its start is forgotten."""
-        return answers.motions(self.beside, self._marching).since
+        return motions.motion(self.beside, self._marching).since
 
     @cached_property
     def healthy_late_spectra(self) -> dict[str, Spectrum]:
-        """The same without the defect, always marched."""
-        return self._of_pinned(answers.late_spectra, self.beside, self._marching)
+        """The same without the defect."""
+        return self._of_pinned(motions.late_spectra, self.beside, self._marching)
 
     def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
         """Compute something of what is drawn in grey; refused, it says that it is not the scene."""
@@ -547,23 +450,7 @@ class Results:
     @cached_property
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
-        return answers.ball_masses(self.scene.replace(balls=MASSLESS), self._ball_marching)
-
-    @property
-    def ball_comparison(self) -> BallComparison | None:
-        """Up to which frequency massless balls will do, where `compare_balls` has found it."""
-        key = self._compared_balls
-        return answers.ball_comparisons(*key) if answers.ball_comparisons.knows(*key) else None
-
-    @property
-    def _compared_balls(self) -> tuple[Scene, float]:
-        how = self.settings.planning(SETTLED)
-        assert isinstance(how, MotionPlanning)
-        return self.scene.replace(balls=MASSLESS), how.budget
-
-    def compare_balls(self) -> BallComparison:
-        """Find `ball_comparison`; ValueError where there is no motion to compare."""
-        return answers.ball_comparisons(*self._compared_balls)
+        return motions.ball_mass(self.scene.replace(balls=MASSLESS), self._ball_marching)
 
     @property
     def ball_passes(self) -> int | None:
@@ -576,31 +463,14 @@ class Results:
 
         The search is short while a hand moves.
         """
-        found = self._quick_orbit
-        if found is None or self.moving or found.status != NOT_CONVERGED:
-            return found
-        return answers.orbits(*self._orbital)
-
-    @cached_property
-    def _quick_orbit(self) -> Orbit | None:
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
-        return answers.quick_orbits(*self._orbital)
-
-    @property
-    def _orbital(self) -> tuple[Scene, Marching]:
-        """What an orbit is looked for with: balls without mass, whatever the scene has."""
-        return self.scene.replace(balls=MASSLESS), self._marching
-
-    def seek_orbit(self, give_up: Callable[[], bool]) -> None:
-        """Look for the orbit so that it is known afterwards, unless `give_up` says so before."""
-        key = self._orbital
-        found = self._quick_orbit
-        if found is None or found.status != NOT_CONVERGED or answers.orbits.knows(*key):
-            return
-        longer = answers.find_orbit(*key, give_up)
-        if not give_up():
-            answers.orbits.keep(longer, *key)
+        # balls without mass, whatever the scene has
+        key = self.scene.replace(balls=MASSLESS), self._marching
+        found = motions.quick_orbit(*key)
+        if self.moving or found.status != NOT_CONVERGED:
+            return found
+        return motions.orbit(*key, give_up=self._give_up)
 
     @cached_property
     def orbit_spectra(self) -> dict[str, Spectrum]:
@@ -628,28 +498,25 @@ class Results:
         step_rate = self.settings.step_rate
         if step_rate is None:
             try:
-                step_rate = step_rates(self.scene, self.settings.sample_rate)
+                step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return answers.limits_of(self.scene, step_rate, self._dynamic_load, self.asked)
+        return endurance.limits(self.scene, step_rate, self._dynamic_load, self.asked)
 
     @property
     def endurance(self) -> Endurance:
         """Life, pressure and film of the scene, with the oil and steel that were asked for."""
-        return endurance(self.scene, self.asked)
+        return endurance.endurance(self.scene, self.asked)
 
     @property
     def _dynamic_load(self) -> float | None:
         """Greatest ball load [N] of the settled motion, where one has been simulated."""
-        planning = self.settings.planning(SETTLED)
-        assert isinstance(planning, MotionPlanning)
-        for how in (planning, self.settings.marching):
-            key = self.scene, how
-            moved = not self.moving and answers.motions.knows(*key)
-            if moved or answers.dynamic_loads.knows(*key):
-                load = answers.dynamic_loads(*key)
-                return load if math.isfinite(load) else None
-        return None
+        key = self.scene, self.settings.marching
+        simulated = not self.moving and motions.motion.knows(*key)
+        if not simulated and not motions.dynamic_load.knows(*key):
+            return None
+        load = motions.dynamic_load(*key)
+        return load if math.isfinite(load) else None
 
     @cached_property
     def chain(self) -> Chain:
@@ -662,7 +529,7 @@ class Results:
         scene = self.beside if self.before is None else self.before
         if scene == self.scene:
             return self.chain
-        return _chains(scene, self.cage_angle, self.settings, self.moving)
+        return _chain_of(scene, self.cage_angle, self.settings, self.moving)
 
     @cached_property
     def dof_comparison(self) -> DofComparison:
@@ -677,7 +544,7 @@ class Results:
             how = self.settings.coarse_marching
             how = dataclasses.replace(how, duration=0.5 * how.duration)
         try:
-            pair = [answers.spectra(one, how) for one in (self.scene, against.scene)]
+            pair = [motions.spectra(one, how) for one in (self.scene, against.scene)]
             moving = spectrum_differences(*pair)
         except ValueError as error:
             return DofComparison(chosen, other, static, {}, str(error))

@@ -26,7 +26,6 @@ from bokeh.plotting import figure
 from bearing_explorer.plots import style
 from bearing_explorer.results.accuracy import TRIALS, Found, compute
 from bearing_explorer.results.jobs import Work
-from bearing_explorer.results.planning import steps_by_hand
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
@@ -392,9 +391,9 @@ class Accuracy(JobView[Found]):
         self._steps.values["steps"] = chosen
         self._steps.widgets["steps"].param.update(**choices(options), value=chosen)
         self._reset.disabled = not chosen
-        note = f"S{steps_by_hand(step_rate)[1:]}." if step_rate is not None else (
-            "The program chooses the steps of the scene's motion."
-        )  # fmt: skip
+        note = "The program chooses the steps of the scene's motion."
+        if step_rate is not None:
+            note = f"Steps set by hand: {step_rate:.0f} Hz."
         self._step_words.text = self._note or note
 
 

@@ -147,8 +147,6 @@ class View:
     picture: ClassVar[bool] = False
     #: whether its figures are drawings, in which circles are round
     equal_aspect: ClassVar[bool] = False
-    #: what is planned for it when the hand rests, out of `bearingcore.plan.VIEWS`
-    plans: ClassVar[tuple[str, ...]] = ()
     #: whether it stands in a report; one without `needs` only with what its job has found
     in_report: ClassVar[bool] = True
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full

@@ -29,7 +29,7 @@ from bearing_explorer.results.explore import (
     MapOutput,
     Plane,
     Question,
-    planes,
+    coarse,
     refine,
 )
 from bearing_explorer.results.jobs import JobState, Work
@@ -289,7 +289,7 @@ class ExplorePlane(JobView[Plane]):
         if not question.at_once:
             return None, ""
         try:
-            return planes(question), ""
+            return coarse(question), ""
         except ValueError as error:
             return None, refusal(error)
 

@@ -66,7 +66,6 @@ class LoadDistribution(View):
         "dashed one that at the inner race."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
-    plans = ("load",)
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)

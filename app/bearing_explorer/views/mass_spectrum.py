@@ -54,9 +54,9 @@ class MassInSpectrum(View):
                 f"Loaded balls resonate between their contacts at {style.with_prefix(low, 'Hz')} "
                 f"to {style.with_prefix(high, 'Hz')}{above}. "
             )
-        comparison = results.ball_comparison
+        comparison = found.comparison
         if comparison is None:
-            return resonance + "Up to which frequency massless balls will do is being looked for."
+            return f"{resonance}The motion is too short to say up to where massless balls will do."
         return f"{resonance}{comparison.sentence[0].upper()}{comparison.sentence[1:]}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -81,7 +81,6 @@ class NaturalFrequencies(View):
         "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now."
     )
     needs = frozenset({"modes", "healthy_modes", "bands", "healthy_bands"})
-    plans = ("modes",)
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0, room=ROOM)

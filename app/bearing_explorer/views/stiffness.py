@@ -84,7 +84,6 @@ class Stiffness(View):
         "loads the rows. Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
-    plans = ("stiffness",)
 
     def build(self, packed: PackedSource) -> Any:
         """One canvas for all traces."""

@@ -20,7 +20,6 @@ from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.plan import SETTLED
 from bearingcore.scene.scene import WITH_MASS
 
 if TYPE_CHECKING:
@@ -59,7 +58,6 @@ class VibrationSpectra(View):
         "frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
-    plans = (SETTLED,)
     #: whether it goes up to half the sample rate, on a logarithmic frequency axis
     wide = False
     _draw: Callable[[], None] | None = None
@@ -239,10 +237,8 @@ class VibrationSpectra(View):
             ]
         )
         text += f"; balls pass a point {passing}"
-        if (plan := results.plan) is None:
+        if results.moving:
             return f"{text}."
-        if plan.orbit is not None:
-            return f"{text}. The spectrum is that of the stable orbit, which repeats itself."
         start = style.with_prefix(results.settled_since, "s")
         return f"{text}. The spectrum is that of a marched motion without its first {start}."
 

@@ -24,7 +24,6 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest, why_ended
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearingcore.plan import SETTLED
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -104,7 +103,6 @@ class VibrationInTime(View):
         "or leave the defect; thin: what they would carry at rest."
     )
     needs = frozenset({"excerpt"})
-    plans = (SETTLED,)
 
     def build(self, packed: PackedSource) -> Any:
         self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)

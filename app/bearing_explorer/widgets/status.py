@@ -9,7 +9,6 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.results.planning import by_hand
 from bearing_explorer.results.results import Results
 from bearing_explorer.results.verdict import verdict
 from bearing_explorer.serve.live_component import LiveComponent
@@ -18,10 +17,12 @@ from bearingcore.scene.scene import DOF_SYMBOLS
 
 
 class StatusLine(LiveComponent):
-    """Converged or not, residual, degrees of freedom, time taken, or what was planned."""
+    """Converged or not, residual, degrees of freedom and time taken."""
 
-    #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
-    line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
+    #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...], "resting": bool}
+    line = param.Dict(
+        default={"mood": "busy", "words": "Computing", "details": [], "resting": False}
+    )
     #: whether the details are behind a button, in a list that opens above the line
     folded = param.Boolean(default=False)
 
@@ -61,24 +62,12 @@ def status_of(
     finite = found.residual[found.converged & np.isfinite(found.residual)]
     if finite.size:
         details.append(f"residual at most {scientific(float(finite.max()))}")
-    if "ball_mass" in shown or "late_spectra" in shown:
-        details += about_mass(results)
-    overruled = by_hand(results.settings)
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
-    if (plan := results.plan) is not None:
-        planned = plan.sentence().replace(" DOF", f" DOF ({symbols})", 1)
-        return {"mood": mood, "words": words, "details": [*overruled, planned, *details]}
     freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
     details.append(f"{freedom}: {symbols}")
     details.append(count(n_angles, "cage angle"))
     if results.is_coarse(shown):
         details.append(results.coarse_words(shown))
-    details = [*overruled, *details, f"{1e3 * seconds:.1f} ms of computing"]
-    return {"mood": mood, "words": words, "details": details}
-
-
-def about_mass(results: Results) -> list[str]:
-    """Up to which frequency massless balls will do, and what mass costs, where that is known."""
-    comparison = results.ball_comparison
-    said = results.plan is not None and "massless:" in results.plan.note
-    return [] if comparison is None or said else [comparison.sentence]
+    by_hand = results.settings.changed_by_hand()
+    details = [*by_hand, *details, f"{1e3 * seconds:.1f} ms of computing"]
+    return {"mood": mood, "words": words, "details": details, "resting": not results.moving}

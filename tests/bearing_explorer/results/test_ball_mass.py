@@ -6,14 +6,12 @@ import asyncio
 
 import pytest
 from bearing_explorer.results import compiling
-from bearing_explorer.results.motion_cost import quick_duration
+from bearing_explorer.results.motions import quick_duration
 from bearing_explorer.results.results import Results
 from bearing_explorer.session import Explorer, Section
-from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mechanism import WhichMechanism
 
 from bearingcore import presets
-from bearingcore.plan import SETTLED
 from bearingcore.scene.packing import is_planar
 from tests.helpers.loops import run
 
@@ -28,7 +26,6 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
     )
     ready = [False]
     monkeypatch.setattr(compiling, "ready", lambda: ready[0])
-    details: list[str] = []
 
     async def until(done) -> None:
         for _ in range(20_000):
@@ -39,8 +36,7 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
 
     async def live() -> tuple[str, str]:
         explorer = Explorer((Section("one", "One", (WhichMechanism,)),))
-        explorer._idle_task._after = 0.02
-        explorer.status.param.watch(lambda e: details.append(str(e.new["details"])), "line")
+        explorer.start()
         explorer._asked({"typed": {"fy_n": "-103"}})
         sentence = lambda: explorer._views["one"][0]._sentence.text  # noqa: E731
         await until(lambda: "one" in explorer._views and sentence())
@@ -53,8 +49,7 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
         await until(lambda: "mass" in sentence() and "compiled" not in sentence())
         drawn = sentence()
         assert explorer._views["one"][0]._picture.visible, drawn
-        await until(lambda: details and "massless: " in details[-1])
-        await until(lambda: explorer._worker.idle and explorer._idle_task.idle)
+        await until(lambda: explorer._loop.idle)
         explorer.stop()
         return waiting, drawn
 
@@ -89,13 +84,3 @@ def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: st
             assert found.exit is not None  # else it is a longer way than is shown
         assert not found.broke_off
         assert found.spectra
-
-
-def test_what_the_choice_of_balls_by_the_plan_draws() -> None:
-    """Where the plan chose mass the motion has it, though the scene says massless."""
-    settings = Settings(duration=0.6, balls_up_to=20e3, steady="march")
-    results = Results(FAN_RIG, settings=settings, planned=(SETTLED,))
-    assert results.plan is not None
-    assert results.plan.scene.balls == "with mass"
-    assert results.motion.scene.balls == "with mass"
-    assert results.motion.completed

@@ -1,4 +1,4 @@
-"""What plans need is compiled elsewhere, once, and nobody waits for it."""
+"""What takes long to compile is compiled elsewhere, once, and no page waits for it."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ import threading
 import pytest
 from bearing_explorer.results import compiling
 from bearing_explorer.results.compiling import Compilation
-from bearing_explorer.session import Explorer, Inputs, Planned, _planned
+from bearing_explorer.session import Explorer
 
-from bearingcore import kernels, presets
-from bearingcore.plan import SETTLED
+from bearingcore import kernels
 from tests.helpers.compiled import compile_once
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
@@ -44,12 +43,8 @@ def test_a_sentence_stands_for_the_page_until_the_first_part_is_compiled(
     assert compilation.startup_message() == ""
     assert said == ["True", "loaded"]
     assert not compilation.ready(), "the rest is being compiled"
-    inputs = Inputs(presets["fan-rig"], 0.0, 1, rested=True, planned=("load", SETTLED))
-    assert _planned(inputs, lambda: False) == Planned(("load",), compiled=False)
     rest.set()
     wait_until(compilation.ready)
-    assert _planned(inputs, lambda: False) == Planned(("load", SETTLED), compiled=True)
-    assert _planned(inputs, lambda: True).views == (), "overtaken"
 
 
 def test_an_error_of_the_first_part_is_kept(
@@ -66,30 +61,27 @@ def test_an_error_of_the_first_part_is_kept(
     assert compilation.startup_message() == ""
 
 
-@pytest.mark.parametrize(
-    "last", [1, *(pytest.param(last, marks=pytest.mark.proof) for last in range(2, 8))]
-)
-def test_the_page_stops_saying_that_it_compiles(monkeypatch: pytest.MonkeyPatch, last: int) -> None:
-    """Whoever is the first to hear it, a picture or a plan, and where nothing new is planned."""
-    looks = [0]
+def test_the_page_draws_anew_once_all_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    looks, drawn = [0], [0]
 
     def ready() -> bool:
         looks[0] += 1
-        return looks[0] > last
+        return looks[0] > 2
 
     monkeypatch.setattr(compiling, "ready", ready)
 
-    async def live() -> Explorer:
+    async def live() -> None:
         explorer = Explorer(SECTIONS)
-        explorer.draw()
+        draw = explorer.draw
+        monkeypatch.setattr(explorer, "draw", lambda: (draw(), drawn.append(looks[0])))
+        explorer.start()
         async with asyncio.timeout(20.0):
-            while not (explorer._idle_task.idle and explorer._worker.idle):
+            while len(drawn) < 3 or not explorer._loop.idle:
                 await asyncio.sleep(0.01)
-        return explorer
+        explorer.stop()
 
-    explorer = run(live())
-    assert looks[0] > last, "it was looked at until it was done"
-    assert not explorer.plan.state["compiling"]
+    run(live())
+    assert drawn[-1] > 2, "drawn once more when it was done"
 
 
 def test_where_compiling_is_switched_off_nothing_is_missing() -> None:

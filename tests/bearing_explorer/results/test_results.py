@@ -5,10 +5,10 @@ import threading
 
 import numpy as np
 import pytest
-from bearing_explorer.results.answers import orbits
-from bearing_explorer.results.motion_cost import MOST_STEPS, SHORTEST
+from bearing_explorer.results import motions
+from bearing_explorer.results.cache import Overtaken, cached
+from bearing_explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.results.results import Results
-from bearing_explorer.results.single_flight import SingleFlightCache
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Settings
 
@@ -78,16 +78,16 @@ def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(
         together.wait()
         return {}
 
-    monkeypatch.setattr("bearing_explorer.results.answers.late_spectra", SingleFlightCache(slow, 8))
+    monkeypatch.setattr(motions, "late_spectra", cached(slow))
     results = Results(presets["fan-rig"])
-    results.begin(frozenset({"late_spectra", "modes"}))
+    results.prefetch(frozenset({"late_spectra", "modes"}))
     assert scenes == []
-    results.begin(frozenset({"late_spectra", "healthy_late_spectra"}))
+    results.prefetch(frozenset({"late_spectra", "healthy_late_spectra"}))
     assert results.late_spectra == results.healthy_late_spectra == {}
     assert sorted(defects for _, defects in scenes) == [False, True]
-    results.begin(frozenset({"late_spectra", "healthy_late_spectra"}))
+    results.prefetch(frozenset({"late_spectra", "healthy_late_spectra"}))
     assert len(scenes) == 2
-    assert any(name.startswith("beside") and not defects for name, defects in scenes)
+    assert any(name.startswith("compute") and not defects for name, defects in scenes)
 
 
 def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
@@ -109,38 +109,46 @@ def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi, depth=49e-6)
-    results = Results(hopeless)
-    asked: list[None] = []
+    looks: list[None] = []
 
     def overtaken() -> bool:
-        asked.append(None)
-        return len(asked) > 40
+        looks.append(None)
+        return len(looks) > 40
 
-    results.seek_orbit(overtaken)
-    assert len(asked) <= 43
-    assert not orbits.knows(hopeless, results._marching)
-    results.seek_orbit(lambda: False)
-    monkeypatch.setattr("bearing_explorer.results.answers.core.orbit", None)
-    assert results.orbit is not None
-    assert results.orbit.status == NOT_CONVERGED
-    assert results.orbit.right_hand_side_calls > 100 * len(asked)
+    with pytest.raises(Overtaken):
+        _ = Results(hopeless, give_up=overtaken).orbit
+    assert len(looks) == 41
+    found = Results(hopeless).orbit
+    assert found is not None
+    assert found.status == NOT_CONVERGED
+    assert found.right_hand_side_calls > 100 * len(looks)
+    monkeypatch.setattr(motions.core, "orbit", None)
+    assert Results(hopeless).orbit is found
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])
 def test_bands_of_frequencies_are_looked_at_coarsely_while_a_hand_moves(name: str) -> None:
     scene = presets[name].replace(extent=math.radians(38.0))
     moving, rested = Results(scene, moving=True), Results(scene)
-    assert moving.band_modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
+    assert moving.modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
     for label, band in moving.bands.items():
         assert band == pytest.approx(rested.bands[label], rel=0.03)
 
 
 @pytest.mark.parametrize("extent_deg", [12.9, 38.6])
-def test_a_band_is_the_same_whatever_its_curves_are_drawn_by(extent_deg: float) -> None:
-    """By a plan, by even cage angles, along a speed run: within what is written of it."""
+def test_a_band_is_the_same_however_finely_curves_are_drawn(extent_deg: float) -> None:
+    """By more or fewer cage angles, along a speed run: within what is written of it."""
     scene = presets["fan-rig"].replace(extent=math.radians(extent_deg))
-    rested, planned = Results(scene), Results(scene, planned=("modes",))
-    by_hand = Results(scene, settings=Settings(cage_angles=31))
+    rested, by_hand = Results(scene), Results(scene, settings=Settings(n_cage_angles=31))
     run = speed_run(scene, [scene.shaft_speed], duration=0.1)
-    assert planned.bands == rested.bands == by_hand.bands == run.bands
-    assert planned.chain.bands == rested.bands
+    assert rested.bands == by_hand.bands == run.bands == rested.chain.bands
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_curves_have_a_fixed_number_of_cage_angles(name: str) -> None:
+    """Also where a bearing can only move in some directions, as one of cylindrical rollers."""
+    scene = presets[name]
+    for moving in (True, False):
+        assert Results(scene, moving=moving).equilibrium.cage_angles.size == 361
+    turning = Results(scene.replace(race="inner"))
+    assert turning.equilibrium.cage_angles.size == 8 * 120 + 1

@@ -33,7 +33,6 @@ from bearing_explorer.state.lessons import (
     text_for_teachers,
 )
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.modes import NaturalFrequencies
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -94,7 +93,7 @@ def first_warned() -> float:
 @cache
 def on_the_page(extent_deg: float) -> dict[str, tuple[float, float]]:
     """Bands of the natural frequencies as the page shows them when the hand rests."""
-    return Results(fan(extent_deg), planned=NaturalFrequencies.plans).bands
+    return Results(fan(extent_deg)).bands
 
 
 def below(scene: Scene, beside: int = 0) -> float:

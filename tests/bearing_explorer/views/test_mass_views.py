@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bearing_explorer.results import compiling
 from bearing_explorer.results.ball_mass import BallMass
-from bearing_explorer.results.motion_cost import quick_duration
+from bearing_explorer.results.motions import quick_duration
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
@@ -18,8 +18,8 @@ from bearing_explorer.views.mechanism import WhichMechanism, in_words
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
 from bearingcore import presets, simulate
+from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.ball_motion import contact_resonance
-from bearingcore.plan.balls import mass_share
 from bearingcore.scene.pit import pit
 
 FAN_RIG = presets["fan-rig"]

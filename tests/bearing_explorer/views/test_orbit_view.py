@@ -18,7 +18,7 @@ from bearing_explorer.views.orbit import (
 )
 
 from bearingcore import presets
-from tests.benchmarks.plans import random_scenes
+from tests.helpers.random_scenes import random_scenes
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 DOUBLED = RIG.replace(shaft_speed=2.0 * math.pi * 30.0)

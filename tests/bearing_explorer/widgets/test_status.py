@@ -24,7 +24,7 @@ def test_the_status_line_says_what_happened() -> None:
     assert (good["mood"], good["words"]) == ("good", "Converged")
     assert good["details"][1:] == [
         "2 degrees of freedom: x y",
-        "121 cage angles",
+        "361 cage angles",
         "12.3 ms of computing",
     ]
     assert "residual at most" in good["details"][0]

@@ -17,7 +17,6 @@ from bearingcore.dynamics.motion import TOO_MANY_STEPS
 from bearingcore.dynamics.orbit import STABLE, orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import regions, stability_map
-from bearingcore.plan import SETTLED, VIBRATION, plan
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.ball_positions import ball_positions
 from bearingcore.sweep.grid import Grid
@@ -224,36 +223,6 @@ def test_the_bound_of_contacts_is_an_argument() -> None:
     for refused in (0, -3, 2.5):
         with pytest.raises(ValueError, match="most_contacts"):
             equilibrium(rig, angles, most_contacts=refused)  # type: ignore[arg-type]
-
-
-# Plans
-
-
-@pytest.mark.usefixtures("_no_marching")
-@pytest.mark.parametrize("balls", ["massless", "with mass"])
-@pytest.mark.parametrize("view", [VIBRATION, SETTLED])
-def test_a_plan_of_too_many_steps_is_not_begun_and_says_what_it_would_cost(
-    view: str, balls: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # it is measured on a scene of its own
-    monkeypatch.setattr("bearingcore.plan.motions.seconds_a_call", lambda *_: 1e-6)
-    made = plan(STIFF.replace(balls=balls, density=7850.0), view, sample_rate=4e7)
-    assert made.note.startswith("too many steps to plan it: ")
-    assert f"for 0.25 s of motion, allowed are most_steps = {thousands(1e6)}" in made.note
-    assert not made.met
-    assert math.isinf(made.predicted_error)
-    assert made.orbit is None
-    assert "the budget is not met; too many steps to plan it" in made.sentence()
-
-
-def test_the_bound_of_a_plan_is_an_argument() -> None:
-    rig = presets["fan-rig"]
-    usual = plan(rig, VIBRATION, duration=0.1)
-    assert not usual.note
-    assert "too many steps" in plan(rig, VIBRATION, duration=0.1, most_steps=1000).note
-    assert plan(rig, "load", most_steps=1).met, "curves take none"
-    with pytest.raises(ValueError, match="most_steps"):
-        plan(rig, VIBRATION, most_steps=0)
 
 
 # Sizes

@@ -1,9 +1,10 @@
 """A page that draws 40 packets as fast as it can, each from a worker thread."""
 
+import asyncio
+
 import numpy as np
 import panel as pn
 from bearing_explorer.results.executors import in_thread
-from bearing_explorer.results.latest_wins import LatestWins
 from bearing_explorer.serve.live import on_loop, one_message, send_at_once
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import View
@@ -55,12 +56,12 @@ async def work(last):
         await draw(value)
 
 
-worker = LatestWins(work)
+tasks = []
 
 
 def ready():
     nodelay.object = str(send_at_once(doc))
-    worker.submit(40)
+    tasks.append(asyncio.get_running_loop().create_task(work(40)))
 
 
 pn.state.onload(lambda: on_loop(doc, ready))

@@ -51,7 +51,7 @@ class OverviewBands(View):
         "{grey}. Black: where it is at this cage angle. The axis is that of the "
         "spectrum below."
     )
-    needs = frozenset({"band_modes", "bands", "healthy_bands"})
+    needs = frozenset({"modes", "bands", "healthy_bands"})
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "modes"
@@ -175,7 +175,7 @@ def highest_band(results: Results) -> float:
 
 def _now(results: Results) -> np.ndarray:
     """Frequency [Hz] of each mode that `band_rows` lists at the cage angle shown."""
-    modes = results.band_modes
+    modes = results.modes
     angles = modes.cage_angles
     first, last, _ = results.stretch
     at = first + (results.cage_angle - first) % (last - first)

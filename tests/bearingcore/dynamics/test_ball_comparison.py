@@ -1,4 +1,4 @@
-"""Balls with or without mass: what a plan says of them, and who refuses them."""
+"""Balls with or without mass: up to where massless ones will do, and what refuses mass."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ import pytest
 
 from bearingcore import presets
 from bearingcore.dynamics.adaptive import simulate_adaptive
+from bearingcore.dynamics.ball_comparison import compare_balls, mass_share
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import speed_run
-from bearingcore.plan import SETTLED, VIBRATION, plan
-from bearingcore.plan.balls import compare_balls, mass_share
 from bearingcore.scene.pit import pit
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
@@ -36,35 +35,12 @@ def test_share_of_the_power_that_mass_adds() -> None:
     assert mass_share(FAN_RIG, 10e3, 20e3, 0.7, 65536.0) > 0.8
 
 
-def test_a_plan_for_balls_with_mass() -> None:
-    heavy = FAN_RIG.replace(balls="with mass")
-    made = plan(heavy, VIBRATION, duration=0.3)
-    assert made.method == "fixed steps"
-    assert made.step_rate == 3 * 65536.0
-    assert made.predicted_error < 0.1
-    assert made.note.startswith("massless: ")
-    assert made.run().ball_place is not None
-
-
 def test_those_that_do_not_know_mass_say_so() -> None:
     """Nothing marches massless balls where balls with mass were asked for."""
     heavy = FAN_RIG.replace(balls="with mass")
     for march in (orbit, lambda scene: simulate_adaptive(scene, 0.01)):
         with pytest.raises(ValueError, match="massless"):
             march(heavy)
-
-
-def test_a_plan_chooses_whether_balls_have_mass() -> None:
-    """By what it looks at: up to there massless balls are within the budget, or they are not."""
-    low, high = (
-        plan(FAN_RIG, SETTLED, 1.0, duration=0.3, march=True, up_to=f) for f in (1500.0, 20e3)
-    )
-    assert low.scene.balls == "massless"
-    assert "massless: within 1 dB up to" in low.note
-    assert high.scene.balls == "with mass"
-    assert plan(FAN_RIG, SETTLED, 1.0, duration=0.3, march=True).scene.balls == "massless"
-    with pytest.raises(ValueError, match="up_to"):
-        plan(FAN_RIG, SETTLED, up_to=1e6)
 
 
 def test_bands_without_power_do_not_count() -> None:

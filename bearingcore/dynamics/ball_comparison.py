@@ -15,7 +15,6 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.motion import Motion, simulate
-from bearingcore.plan.plans import SETTLED, Plan
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 
@@ -50,7 +49,7 @@ class BallComparison:
         [Hz] frequency up to which massless balls are within the budget wherever there is more power
         than QUIET of the greatest; NaN where they are not even in the lowest third octave.
     massless_seconds, seconds
-        [s] a second of motion takes without and with mass.
+        [s] a second of motion takes without and with mass; NaN where that was not measured.
     """
 
     scene: Scene
@@ -69,6 +68,8 @@ class BallComparison:
         else:
             up_to = with_prefix(self.massless_up_to, "Hz", 2)
             holds = f"within {number(self.budget)} dB up to {up_to}"
+        if math.isnan(self.seconds):
+            return f"massless: {holds}"
         times = self.seconds / max(self.massless_seconds, 1e-9)
         return f"massless: {holds}; with mass {number(times, 2)} times the time"
 
@@ -117,23 +118,54 @@ def compare_balls(
         where a motion has no answer.
     """
     checks.number("budget", budget, above=0.0, unit="dB")
-    powers, seconds = [], []
-    edges = third_octave_edges(sample_rate)
+    motions, seconds = [], []
     for balls in (MASSLESS, WITH_MASS):
         begin = time.thread_time()  # others may be using the processor
         motion = simulate(scene.replace(balls=balls), SETTLING + duration, sample_rate)
         seconds.append((time.thread_time() - begin) / (SETTLING + duration))
+        motions.append(motion)
+    return compare_motions(motions[0], motions[1], budget, seconds[0], seconds[1])
+
+
+def compare_motions(
+    massless: Motion,
+    with_mass: Motion,
+    budget: float = BUDGET,
+    massless_seconds: float = math.nan,
+    seconds: float = math.nan,
+) -> BallComparison:
+    """Compare two motions of one scene over the same time, as `compare_balls` does.
+
+    Parameters
+    ----------
+    massless, with_mass
+        the motions.
+    budget
+        [dB]
+    massless_seconds, seconds
+        [s] that a second of either took to compute, where it was measured.
+
+    Raises
+    ------
+    ValueError
+        where a motion did not reach its end.
+    """
+    edges = third_octave_edges(with_mass.sample_rate)
+    powers = []
+    for motion in (massless, with_mass):
         if not motion.completed:
+            balls = motion.scene.balls
             raise checks.refuse("scene", motion.status, f"one that moves with balls {balls}")
         powers.append(band_powers(motion, edges))
-    added = 10.0 * np.log10(powers[1] / powers[0])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        added = 10.0 * np.log10(powers[1] / powers[0])
     loudest = max(float(power.max(initial=0.0)) for power in powers)
     counts = np.maximum(*powers) > QUIET * loudest
     within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
     good = len(within) if within.all() else int(np.argmin(within))
-    return BallComparison(
-        scene, budget, edges, added, float(edges[good]) if good else math.nan, *seconds
-    )
+    up_to = float(edges[good]) if good else math.nan
+    scene = with_mass.scene
+    return BallComparison(scene, budget, edges, added, up_to, massless_seconds, seconds)
 
 
 def third_octave_edges(sample_rate: float) -> Array:
@@ -175,53 +207,3 @@ def mass_share(scene: Scene, low: float, high: float, duration: float, sample_ra
         for balls in (MASSLESS, WITH_MASS)
     )
     return float(1.0 - massless / heavy) if heavy > 0.0 else math.nan
-
-
-def plan_with_mass(
-    scene: Scene,
-    view: str,
-    budget: float,
-    began: float,
-    duration: float,
-    sample_rate: float,
-    step_rate: float | None,
-) -> Plan:
-    """A plan for a scene whose balls have mass: fixed steps, no orbit.
-
-    The error is measured on a pilot against half the step, in third octaves up to 5 kHz.
-    """
-    pilot = min(duration, 0.35) + SETTLING
-    edges = third_octave_edges(sample_rate)
-    edges = edges[edges <= max(5e3, edges[1])]
-    begin = time.thread_time()
-    usual = simulate(scene, pilot, sample_rate, step_rate=step_rate)
-    seconds = (time.thread_time() - begin) / pilot
-    fine = simulate(scene, pilot, sample_rate, step_rate=2.0 * usual.step_rate)
-    error = math.inf
-    if usual.completed and fine.completed:
-        apart = band_powers(usual, edges) / band_powers(fine, edges)
-        error = float(np.abs(10.0 * np.log10(apart)).max())
-    drop = SETTLING if view == SETTLED else 0.0
-    length = drop + duration
-    return Plan(
-        scene=scene,
-        view=view,
-        error_budget=budget,
-        dofs=scene.active_dofs,
-        cage_angles=None,
-        step_rate=usual.step_rate,
-        tolerance=math.nan,
-        duration=length,
-        drop=drop,
-        sample_rate=sample_rate,
-        orbit=None,
-        predicted_error=error,
-        met=error <= budget,
-        evaluations=round(4.0 * usual.step_rate * length),
-        seconds=seconds * length,
-        full_evaluations=round(8.0 * usual.step_rate * length),
-        full_seconds=2.0 * seconds * length,
-        full_error=math.nan,
-        planning_seconds=time.perf_counter() - began,
-        note=compare_balls(scene, sample_rate=sample_rate).sentence,
-    )

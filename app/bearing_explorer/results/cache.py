@@ -1,0 +1,140 @@
+"""Results that all sessions share: each is computed once, whoever needs it first.
+
+Thirty people who look at one scene cost as much as one. A thread that needs what another one is
+computing waits for that instead of computing it again.
+"""
+
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Callable, Hashable, Mapping
+from concurrent.futures import Future
+from contextlib import suppress
+from types import ModuleType
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from cachetools import LRUCache
+
+Result = TypeVar("Result")
+
+MOST_BYTES = 256_000_000
+"""Of all results that are kept. A count would be no bound: one is a kilobyte or twenty megabytes,
+and with caches that counted a process held more than a gigabyte after some thousand scenes."""
+
+_OVERHEAD = 4096  # bytes of objects around the arrays
+_LONG = 256  # items from which a list counts as one of numbers, and is not looked through
+_A_NUMBER = 32  # bytes of one in such a list, and of what points to it
+
+
+class Overtaken(Exception):  # noqa: N818
+    """A computation was given up, as its result is no longer wanted."""
+
+
+_results: LRUCache[Hashable, tuple[Any, int]] = LRUCache(MOST_BYTES, getsizeof=lambda kept: kept[1])
+_under_way: dict[Hashable, Future[Any]] = {}
+_lock = threading.Lock()
+
+
+class Cached(Generic[Result]):
+    """A function whose results are kept by its arguments, for all threads. See `cached`."""
+
+    def __init__(self, compute: Callable[..., Result]) -> None:
+        self._compute = compute
+        functools.update_wrapper(self, compute)
+
+    def __call__(self, *key: Hashable, give_up: Callable[[], bool] | None = None) -> Result:
+        """The result for these arguments.
+
+        `give_up` is passed on to a function that takes it; it is no part of the key. Such a
+        function raises `Overtaken` where it has been given up.
+        """
+        asked = (self, *key)
+        while True:
+            with _lock:
+                if asked in _results:
+                    found: Result = _results[asked][0]
+                    return found
+                future = _under_way.get(asked)
+                mine = future is None
+                if future is None:
+                    future = _under_way[asked] = Future()
+            if mine:
+                more = {} if give_up is None else {"give_up": give_up}
+                return self._find(asked, future, more)
+            with suppress(Overtaken):  # by the other thread: this one begins anew
+                return future.result()  # type: ignore[no-any-return]
+
+    def knows(self, *key: Hashable) -> bool:
+        """Whether the result is there already."""
+        with _lock:
+            return (self, *key) in _results
+
+    def _find(
+        self, asked: tuple[Hashable, ...], future: Future[Result], more: Mapping[str, Any]
+    ) -> Result:
+        try:
+            found = self._compute(*asked[1:], **more)
+        except BaseException as error:
+            with _lock:
+                del _under_way[asked]
+            future.set_exception(error)
+            raise
+        size = nbytes((asked[1:], found)) + _OVERHEAD
+        with _lock:
+            with suppress(ValueError):  # too large to be kept
+                _results[asked] = found, size
+            del _under_way[asked]
+        future.set_result(found)
+        return found
+
+
+def cached(compute: Callable[..., Result]) -> Cached[Result]:
+    """Keep what a function returns, by its arguments, the least recently used going first.
+
+    Each result is computed once, also where several threads need it at the same time. All
+    functions together keep at most `MOST_BYTES`. What a function raises is not kept.
+    """
+    return Cached(compute)
+
+
+def cached_bytes() -> int:
+    """Bytes of all results that are kept."""
+    with _lock:
+        return int(_results.currsize)
+
+
+def clear() -> None:
+    """Forget all results."""
+    with _lock:
+        _results.clear()
+
+
+def nbytes(value: object) -> int:
+    """Bytes of arrays and long lists that something keeps alive; of a view the whole array."""
+    arrays: dict[int, int] = {}
+    seen: set[int] = set()
+    left: list[Any] = [value]
+    total = 0
+    while left:
+        item = left.pop()
+        if isinstance(item, str | bytes | float | int | type | ModuleType | None):
+            continue
+        if id(item) in seen:
+            continue
+        seen.add(id(item))
+        if isinstance(item, np.ndarray):
+            while isinstance(item.base, np.ndarray):
+                item = item.base
+            arrays[id(item)] = item.nbytes
+        elif isinstance(item, list | tuple | set | frozenset):
+            if len(item) > _LONG:
+                total += _A_NUMBER * len(item)
+            else:
+                left.extend(item)
+        elif isinstance(item, Mapping):
+            left.extend(item.values())
+        else:
+            left.extend(getattr(item, "__dict__", {}).values())
+    return total + sum(arrays.values())

@@ -1,0 +1,297 @@
+"""Other models of a scene than the one it has: what each would change, and what it would cost."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common.numbers import with_prefix
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.ball_comparison import compare_motions
+from bearingcore.dynamics.curves import curve_errors, curves_of, swings
+from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.dynamics.orbit import common_ball_passes, orbit
+from bearingcore.scene.scene import DOF_NAMES, MASSLESS, WITH_MASS, Scene
+from bearingcore.signals.spectrum_difference import BAND, spectrum_difference
+from bearingcore.statics.ball_positions import static_state
+from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles
+
+Array = NDArray[np.float64]
+
+SPECTRUM, CURVES, DISPLACEMENT = "spectrum", "stiffness", "displacement"
+"""What an error is of: the housing's settled acceleration [dB], stiffness over the cage angle, or
+the inner ring's displacement as it moves (both over their swing)."""
+
+DURATION = 0.25
+"""[s] of motion that is compared; the second half counts, as on the page."""
+
+MOST_CALLS = 300_000
+"""Right-hand sides of one motion, and of the search for an orbit: what would take more is left
+out, so that all rows together take about a second."""
+
+N_ANGLES = 361
+"""Cage angles over a period of the curves as they are drawn."""
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """One model beside that of the scene.
+
+    Attributes
+    ----------
+    name
+        what is different, such as "directions x y".
+    quantity
+        SPECTRUM, CURVES or DISPLACEMENT: what the error is of.
+    error
+        difference from the scene's own model: the greatest of spectra [dB] and of displacements,
+        and that below which stiffness is at 99 % of the cage angles (over the swing); NaN where it
+        was not computed.
+    seconds, own_seconds
+        [s] of computing it, and the same of the scene's own model.
+    note
+        what else there is to know, or why there is no error.
+    """
+
+    name: str
+    quantity: str
+    error: float
+    seconds: float
+    own_seconds: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Alternatives:
+    """What other models would change, a row each.
+
+    Attributes
+    ----------
+    scene
+        whose model is compared.
+    rows
+        the other models.
+    right_hand_side_calls
+        evaluations of all contacts in all motions, which say what it cost on any machine.
+    """
+
+    scene: Scene
+    rows: tuple[Alternative, ...]
+    right_hand_side_calls: int
+
+    def table(self) -> ResultTable:
+        """A row a model: its error in the spectrum or in the curves, and the time of both."""
+        spectral = [row.quantity == SPECTRUM for row in self.rows]
+        errors = [row.error for row in self.rows]
+        decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]
+        shares = [math.nan if of else error for error, of in zip(errors, spectral, strict=True)]
+        return table_of(
+            ("model", "", [row.name for row in self.rows]),
+            ("error_of", "", [row.quantity for row in self.rows]),
+            ("spectrum_error", "dB", decibels, "greatest, where the spectrum counts"),
+            ("swing_error", "1", shares, "over the swing"),
+            ("time", "s", [row.seconds for row in self.rows], "of computing it"),
+            ("own_time", "s", [row.own_seconds for row in self.rows], "of the scene's own model"),
+            ("note", "", [row.note for row in self.rows]),
+        )
+
+
+def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> Alternatives:
+    """Measure what other models of a scene would change, and what they cost.
+
+    Fewer directions, massless balls or balls with mass, no inertia (quasi-static), the periodic
+    orbit instead of a march, other steps, and more or fewer cage angles. Nothing is predicted: each
+    is computed and compared with what the page draws. Motions last DURATION.
+
+    Parameters
+    ----------
+    scene
+        whose own model is the one that the others are compared with.
+    cancelled
+        asked before each row; True ends with those that are there.
+    """
+    measure = _Measure(scene)
+    rows: list[Alternative] = []
+    for row in measure.rows():
+        rows.append(row)
+        if cancelled is not None and cancelled():
+            break
+    return Alternatives(scene, tuple(rows), measure.calls)
+
+
+class _TooMuchError(ValueError):
+    """A motion would take more than MOST_CALLS."""
+
+
+class _Measure:
+    """The scene's own curves and motion, and each alternative held against them."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.calls = 0
+        self.state, self.static_seconds = self._static(scene, N_ANGLES)
+
+    def rows(self) -> Iterator[Alternative]:
+        """One after the other."""
+        for dofs in fewer_directions(self.scene):
+            yield self._curves_of_directions(dofs)
+        yield from (self._cage_angles(n) for n in (121, 1441))
+        try:
+            own, seconds = self._march(self.scene)
+        except ValueError as error:
+            yield Alternative("motion", SPECTRUM, math.nan, math.nan, math.nan, f"none: {error}")
+            return
+        for dofs in fewer_directions(self.scene):
+            scene = self.scene.replace(dofs=dofs)
+            yield self._other_march(f"directions {' '.join(dofs)}", scene, own, seconds)
+        for factor, words in ((0.5, "half as many steps"), (2.0, "twice as many steps")):
+            rate = factor * own.step_rate
+            yield self._other_march(words, self.scene, own, seconds, rate)
+        yield self._balls(own, seconds)
+        if self.scene.balls == MASSLESS:
+            yield self._orbit(own, seconds)
+        yield self._quasi_static(own, seconds)
+
+    # Curves
+
+    def _static(self, scene: Scene, n: int) -> tuple[Equilibrium, float]:
+        began = time.thread_time()
+        found = static_state(scene, default_cage_angles(scene, n))
+        return found, time.thread_time() - began
+
+    def _curves_of_directions(self, dofs: tuple[str, ...]) -> Alternative:
+        found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
+        error = _curve_error(found, self.state)
+        name = f"directions {' '.join(dofs)}"
+        return Alternative(name, CURVES, error, seconds, self.static_seconds)
+
+    def _cage_angles(self, n: int) -> Alternative:
+        found, seconds = self._static(self.scene, n)
+        coarse, fine = sorted((self.state, found), key=lambda state: state.cage_angles.size)
+        error = _curve_error(coarse, fine)
+        name = f"{found.cage_angles.size} cage angles"
+        note = f"drawn: {self.state.cage_angles.size}"
+        return Alternative(name, CURVES, error, seconds, self.static_seconds, note)
+
+    # Motions
+
+    def _march(self, scene: Scene, step_rate: float | None = None) -> tuple[Motion, float]:
+        began = time.thread_time()
+        found = simulate(scene, DURATION, step_rate=step_rate, most_steps=MOST_CALLS // 4)
+        self.calls += found.right_hand_side_calls
+        if not found.completed:
+            raise ValueError(f"the motion {found.status}")
+        _ = found.outer_acceleration
+        return found, time.thread_time() - began
+
+    def _difference(self, found: Motion, own: Motion) -> float:
+        """Of settled spectra [dB], in the directions that both have."""
+        late = [
+            motion.outer_acceleration[
+                len(motion.time) // 2 :,
+                [motion.dofs.index(dof) for dof in own.dofs if dof in found.dofs],
+            ]
+            for motion in (found, own)
+        ]
+        band = BAND * highest_natural_frequency(self.scene)
+        return spectrum_difference(late[0], late[1], own.sample_rate, band)
+
+    def _other_march(
+        self,
+        name: str,
+        scene: Scene,
+        own: Motion,
+        own_seconds: float,
+        step_rate: float | None = None,
+    ) -> Alternative:
+        try:
+            found, seconds = self._march(scene, step_rate)
+        except ValueError as refused:
+            return _without(name, own_seconds, refused)
+        error = self._difference(found, own)
+        note = f"{with_prefix(found.step_rate, 'Hz')}, drawn: {with_prefix(own.step_rate, 'Hz')}"
+        return Alternative(name, SPECTRUM, error, seconds, own_seconds, note)
+
+    def _balls(self, own: Motion, own_seconds: float) -> Alternative:
+        heavy = self.scene.balls == WITH_MASS
+        name = "massless balls" if heavy else "balls with mass"
+        try:
+            found, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
+        except ValueError as refused:
+            return _without(name, own_seconds, refused)
+        pair = (found, own) if heavy else (own, found)
+        comparison = compare_motions(*pair)
+        counts = comparison.edges[1:] <= BAND * highest_natural_frequency(self.scene)
+        added = np.abs(comparison.added[counts])
+        error = float(added.max()) if added.size else math.nan
+        return Alternative(name, SPECTRUM, error, seconds, own_seconds, comparison.sentence)
+
+    def _orbit(self, own: Motion, own_seconds: float) -> Alternative:
+        name = "periodic orbit"
+        if common_ball_passes(self.scene) is None:
+            return _without(name, own_seconds, "the motion never repeats itself")
+        began = time.thread_time()
+        found = orbit(self.scene, step_rate=own.step_rate, most_steps=MOST_CALLS // 4)
+        seconds = time.thread_time() - began
+        self.calls += found.right_hand_side_calls
+        if not found.stable:
+            why = "unstable" if found.multipliers.size else found.status
+            return replace(_without(name, own_seconds, why), seconds=seconds)
+        half = len(own.time) // 2
+        band = BAND * highest_natural_frequency(self.scene)
+        error = spectrum_difference(
+            found.outer_acceleration(own.time[half:]),
+            own.outer_acceleration[half:],
+            own.sample_rate,
+            band,
+        )
+        return Alternative(name, SPECTRUM, error, seconds, own_seconds)
+
+    def _quasi_static(self, own: Motion, own_seconds: float) -> Alternative:
+        """The inner ring at rest at every instant, against the ring that moves."""
+        half = len(own.time) // 2
+        angles = self.scene.cage_speed * own.time[half:]
+        began = time.thread_time()
+        state = self.state
+        last = float(state.cage_angles[-1])
+        along = [DOF_NAMES.index(dof) for dof in own.dofs]
+        rest = np.stack(
+            [np.interp(angles % last, state.cage_angles, state.displacement[:, i]) for i in along],
+            axis=1,
+        )
+        seconds = self.static_seconds + time.thread_time() - began
+        moving = own.inner_displacement[half:] - own.outer_displacement[half:]
+        swing = swings(moving)
+        apart = np.abs((rest - rest.mean(axis=0)) - (moving - moving.mean(axis=0))) / swing
+        error = float(apart.max()) if np.isfinite(apart).all() else math.nan
+        note = "no vibration at all: the rings are at rest at every cage angle"
+        return Alternative("quasi-static", DISPLACEMENT, error, seconds, own_seconds, note)
+
+
+def _curve_error(found: Equilibrium, expected: Equilibrium) -> float:
+    """Error over the swing that 99 % of the cage angles keep below."""
+    error = curve_errors(
+        found.cage_angles,
+        curves_of(found, CURVES),
+        expected.cage_angles,
+        curves_of(expected, CURVES),
+    )
+    return float(np.quantile(error, 0.99)) if error.size else math.nan
+
+
+def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
+    """Smaller sets of directions than a scene's that keep x and y."""
+    dofs = scene.active_dofs
+    if scene.bearing.is_roller or scene.bearing.is_self_aligning:
+        return []  # they carry nothing along the others
+    return [DOF_NAMES[:n] for n in (2, 3) if n < len(dofs) and set(DOF_NAMES[:n]) <= set(dofs)]
+
+
+def _without(name: str, own_seconds: float, why: object) -> Alternative:
+    return Alternative(name, SPECTRUM, math.nan, math.nan, own_seconds, f"not computed: {why}")

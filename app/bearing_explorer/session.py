@@ -633,7 +633,7 @@ class Explorer:
             self.packed.send(sources, ranges, self._drawn_mark, picture.seconds)
             for drawing in picture.drawings:
                 drawing.view.say(picture.results if drawing.data else None, drawing.sentence)
-            self.status.put(line=picture.status)
+            self.status.put(line={**picture.status, "tab": self.tabs.active})
             if picture.limits is not None:
                 self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 

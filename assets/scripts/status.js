@@ -34,8 +34,8 @@ export function render({ model }) {
     }
   })
   const write = () => {
-    const { mood, words, details, resting } = model.line
-    window.__resting = resting  // drawn as finely as can be: for tests and benchmarks
+    const { mood, words, details, tab, resting } = model.line
+    if (tab) Object.assign(window, { __tab: tab, __resting: resting })  // for tests and benchmarks
     if (line.dataset.mood !== mood) line.dataset.mood = mood
     if (chip.textContent !== words) chip.textContent = words
     more.hidden = !details.length

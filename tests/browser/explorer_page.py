@@ -32,7 +32,7 @@ def settle(page: Page) -> None:
 
 
 def rest(page: Page) -> None:
-    """Wait until what is on screen is drawn by its plan: nothing more will come by itself."""
+    """Wait until what is on screen is drawn as finely as can be: nothing more comes by itself."""
     page.wait_for_function(f"{DRAWN} && window.__resting")
     painted(page)
 

@@ -19,10 +19,9 @@ from bearingcore.scene.scene import DOF_SYMBOLS
 class StatusLine(LiveComponent):
     """Converged or not, residual, degrees of freedom and time taken."""
 
-    #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...], "resting": bool}
-    line = param.Dict(
-        default={"mood": "busy", "words": "Computing", "details": [], "resting": False}
-    )
+    #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
+    #: and, where it is of a picture, "tab": str and "resting": bool
+    line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
     #: whether the details are behind a button, in a list that opens above the line
     folded = param.Boolean(default=False)
 

@@ -20,6 +20,7 @@ from bearing_explorer.serve.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy
+from bearing_explorer.views.alternatives import OtherModels
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
 from bearing_explorer.views.bearing_list import BearingList
@@ -78,7 +79,7 @@ SECTIONS = (
         "Diagnosis",
         (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
     ),
-    Section("accuracy", "Accuracy", (Accuracy,), "How sure"),
+    Section("accuracy", "Accuracy", (Accuracy, OtherModels), "How sure"),
 )
 """The tabs; a group goes on until the next begins.
 

@@ -288,8 +288,8 @@ def _curve_error(found: Equilibrium, expected: Equilibrium) -> float:
 def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
     """Smaller sets of directions than a scene's that keep x and y."""
     dofs = scene.active_dofs
-    if scene.bearing.is_roller or scene.bearing.is_self_aligning:
-        return []  # they carry nothing along the others
+    if scene.bearing.kind.left_out:
+        return []  # it carries nothing along the others
     return [DOF_NAMES[:n] for n in (2, 3) if n < len(dofs) and set(DOF_NAMES[:n]) <= set(dofs)]
 
 

@@ -186,7 +186,7 @@ class _Measure:
         found = simulate(scene, DURATION, step_rate=step_rate, most_steps=MOST_CALLS // 4)
         self.calls += found.right_hand_side_calls
         if not found.completed:
-            raise ValueError(f"the motion {found.status}")
+            raise ValueError(found.status)
         _ = found.outer_acceleration
         return found, time.thread_time() - began
 

@@ -59,7 +59,7 @@ for (let i = 0; i < n_ranges; i++, head += 3) {
 for (const [source, data] of blocks)
   source.data = data
 window.__frames = (window.__frames || 0) + 1
-if (p[0] !== window.__mark) {  // or it is the same inputs, drawn as planned for a hand that rests
+if (p[0] !== window.__mark) {  // or it is the same inputs, drawn finely at rest
   window.__worked = p[1]
   window.__arrived = performance.now()
 }

@@ -107,7 +107,6 @@ class LifeOfBearing(View):
             given = entry(
                 f"{field.label} ({field.unit})",
                 placeholder=hints.get(field.name, ""),
-                css_classes=["number"],
                 align="start",
             )
             parts += [self._fields.add(field.name, given), _html(f"<p>{field.about}</p>")]

@@ -437,7 +437,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     lines = [
         "Stiffness k of each displacement (column)",
         "against each load (row), as in the matrix.",
-        "Crossed: the sliders’ extent and cage angle.",
+        "Cross: current extent and cage angle.",
         "Hatched: no answer.",
     ]
     legend = ColumnDataSource(

@@ -263,7 +263,7 @@ def orbit_status(results: Results) -> dict[str, Any]:
             f"largest multiplier |μ| = {style.number(orbit.largest_multiplier, 3)}",
             f"period {style.with_prefix(orbit.period, 's')}: {passes}",
             count(orbit.iterations, "Newton step"),
-            f"misses its beginning by {scientific(orbit.residual)} of its size",
+            f"closure error {scientific(orbit.residual)}",
         ],
     }
 

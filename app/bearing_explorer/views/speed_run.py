@@ -86,7 +86,7 @@ class SpeedRunSpectra(JobView[Found]):
         "Spectrum of the vibration at each shaft speed. It is that of the steady vibration. "
         "Upright: the bands of the natural frequencies, which speed does not move. Slanted: the "
         "ball-pass frequency and its harmonics; where they cross a band the housing is loud. "
-        "Level line: this scene. Click to go to a speed."
+        "Horizontal line: current speed. Click to go to a speed."
     )
     needs = frozenset()
     start = "Run up"

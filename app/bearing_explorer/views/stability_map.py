@@ -62,9 +62,9 @@ class Kind:
 
 KINDS = (
     Kind("stable orbit", "", "stable", CLEAR),
-    Kind("unstable orbit", "-1", "the period doubles (through −1)", "#D55E00"),
-    Kind("unstable orbit", "pair", "a second frequency (through a pair)", "#CC79A7"),
-    Kind("unstable orbit", "+1", "goes to another orbit (through +1)", "#F0C419"),
+    Kind("unstable orbit", "-1", "period doubling (flip)", "#D55E00"),
+    Kind("unstable orbit", "pair", "second frequency (Neimark–Sacker)", "#CC79A7"),
+    Kind("unstable orbit", "+1", "jump to another orbit (fold)", "#F0C419"),
     Kind("not converged", "", "no orbit found", "#30363D"),
     Kind("no common period", "", "no common period", "#8B929A"),
     Kind("no static state to start from", "", "no static state", "#B9BEC4"),

@@ -79,8 +79,8 @@ class Stiffness(View):
     name = "stiffness"
     title = "Stiffness of the bearing"
     about = (
-        "How hard the inner ring resists, term by term. The 15 independent terms of its "
-        "symmetric 5×5 stiffness matrix as the bearing turns: displacements are the columns, "
+        "The 15 stiffness terms as the cage turns. They are the independent ones of the symmetric "
+        "5×5 stiffness matrix: displacements are the columns, "
         "loads the rows. Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})

@@ -54,7 +54,7 @@ def below(scene: Scene) -> float:
 def test_a_ball_spacing_longer() -> None:
     (xx, yy, band, peak), (xx0, yy0, band0, peak0) = numbers(LONGER), numbers(FAN_RIG)
     assert told(LONGER, FAN_RIG) == (
-        "A ball spacing longer (12.9 → 38.61°): the load moves outwards, "
+        "A ball spacing longer (12.9 → 38.61°): load shifts to balls farther from the load line, "
         f"k_yy falls by {100 * (1 - yy / yy0):.0f} %, k_xx rises by {100 * (xx / xx0 - 1):.0f} %, "
         f"the y₁ band sinks from {band0[0]:.0f}–{band0[1]:.0f} to {band[0]:.0f}–{band[1]:.0f} Hz "
         f"and the spectrum's peak with it, from {peak0:.0f} to {peak:.0f} Hz."
@@ -71,7 +71,7 @@ def test_there_and_back() -> None:
 
 def test_only_what_really_changed_is_said() -> None:
     assert told(FAN_RIG.replace(depth=50.001e-6), FAN_RIG) == (
-        "Depth (50 → 50.001 µm): nothing changes along the chain, as no ball is pressed against "
+        "Depth (50 → 50.001 µm): nothing changes, as no ball is pressed against "
         "the floor of the defect at either depth."
     )
     shallow = FAN_RIG.replace(depth=1e-6)
@@ -113,9 +113,9 @@ def changed(**news: object) -> str:
 @pytest.mark.parametrize(
     ("news", "words"),
     [
-        ({}, "So: nothing changes along the chain."),
-        ({"off_line": 0.51}, "So: hardly anything changes along the chain."),
-        ({"off_line": 0.53}, "So: the load moves outwards."),
+        ({}, "So: nothing changes."),
+        ({"off_line": 0.51}, "So: hardly anything changes."),
+        ({"off_line": 0.53}, "So: load shifts to balls farther from the load line."),
         ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
         ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
         ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
@@ -143,7 +143,7 @@ def changed(**news: object) -> str:
         ({"bands": {**CHAIN.bands, "x1": (300.0, 400.0)}},
          "So: the x₁ band sinks from 365–480 to 300–400 Hz."),
         ({"answered": 0.75, "reason": "why"},
-         "So: nothing changes along the chain; at 25 % of the cage angles there is no "
+         "So: nothing changes; at 25 % of the cage angles there is no "
          "equilibrium (why)."),
     ],
 )  # fmt: skip

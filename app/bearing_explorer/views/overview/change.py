@@ -26,7 +26,7 @@ class LastChange(View):
     """The sentence; its numbers, before and now, are the table."""
 
     name = "last-change"
-    title = "What the last change did"
+    title = "Effect of your last change"
     about = (
         "Computed for each change, against the scene before it. Means are over all cage angles. "
         "Outwards: to balls further from the line of the radial load. Not named is what changes "

@@ -81,8 +81,8 @@ def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
     if now.silent:
         return "at rest hardly anything changes"
     if not alike:
-        return "hardly anything changes along the chain"
-    return "nothing changes along the chain" + (f", as {why_not}" if why_not else "")
+        return "hardly anything changes"
+    return "nothing changes" + (f", as {why_not}" if why_not else "")
 
 
 def load_words(now: Chain, before: Chain) -> str:
@@ -93,9 +93,9 @@ def load_words(now: Chain, before: Chain) -> str:
         return f"the load turns by {style.number(around, 2)}°"
     turned = now.off_line - before.off_line
     if turned >= LEAST_TURN:
-        return "the load moves outwards"
+        return "load shifts to balls farther from the load line"
     if turned <= -LEAST_TURN:
-        return "the load moves inwards"
+        return "load shifts to balls nearer the load line"
     grown = _ratio(now.greatest_load, before.greatest_load)
     if abs(grown) >= LEAST_LOAD:
         return f"the greatest load of a ball {_by(grown)}"

@@ -65,7 +65,12 @@ def test_a_ball_spacing_longer() -> None:
 
 def test_there_and_back() -> None:
     back = told(FAN_RIG, LONGER)
-    for words in ("shorter", "inwards", "k_yy rises", "y₁ band rises from 532–617 to 615–679"):
+    for words in (
+        "shorter",
+        "nearer the load line",
+        "k_yy rises",
+        "y₁ band rises from 532–617 to 615–679",
+    ):
         assert words in back
 
 

@@ -133,3 +133,17 @@ def test_the_server_says_what_it_does_and_ends_cleanly() -> None:
         for words in ("Compiling", "Ready after", str(server.port), "Stopped."):
             assert words in server.log
         assert "Traceback" not in server.log
+
+
+def test_the_page_works_without_the_speedups(watch: tuple[Page, Watch]) -> None:
+    page, _ = watch
+    with serving(explorer_server(environment={"BEARING_EXPLORER_PLAIN": "1"})) as server:
+        page.goto(server.url)
+        page.wait_for_function("window.__mark !== undefined")
+        page.locator(".tab-load").click()
+        drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
+        page.wait_for_function("window.__asked > 3 && window.__mark === window.__asked")
+        expect(page.get_by_text("The greatest load of a ball is").first).to_be_attached()
+        source = "Bokeh.documents[0].get_model_by_name('load_distribution_balls')"
+        assert page.evaluate(f"Object.values({source}.data)[0].length") > 3, "drawn without packets"
+    assert "Traceback" not in server.log

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import html
 from collections.abc import Callable
 from typing import Any, ClassVar
@@ -41,6 +42,9 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
     """The page, or a sentence that asks to come back later."""
 
     most_sessions: ClassVar[int] = 100
+    one_at_a_time: ClassVar[asyncio.Lock] = asyncio.Lock()
+    """With a pause after each page, in which those who have one are drawn: of 20 who come at once
+    all waited for the last page otherwise."""
     startup_message: ClassVar[Callable[[], str]] = staticmethod(lambda: "")
     """A sentence for as long as there is no page yet; then empty."""
 
@@ -58,7 +62,9 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
             self.set_header("Retry-After", "60")
             write_html(self, 503, "All places are taken", _FULL.format(self.most_sessions))
         else:
-            await super().get(*arguments, **named)
+            async with self.one_at_a_time:
+                await super().get(*arguments, **named)
+                await asyncio.sleep(0.03)
 
     def head(self, *arguments: Any, **named: Any) -> None:
         """For monitors: no session is made."""

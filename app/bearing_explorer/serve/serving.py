@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import os
 import secrets
@@ -60,6 +61,7 @@ def make_server(
     As long as `startup_message` gives a sentence, it stands in place of the page.
     """
     PageHandler.most_sessions = limits.sessions
+    PageHandler.one_at_a_time = asyncio.Lock()
     PageHandler.startup_message = staticmethod(startup_message)
     LiveSocket.largest = limits.message
     Headers.frame_ancestors = ("'self'", *frame_ancestors)

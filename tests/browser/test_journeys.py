@@ -45,7 +45,8 @@ def _frequency(scene: Scene) -> str:
 
 
 def _most_loaded(scene: Scene) -> str:
-    return f"{np.max(equilibrium(scene, [0.0]).ball_load):.3g} N"
+    load = np.max(equilibrium(scene, [0.0]).ball_load)
+    return f"{load:.3g} N" if load < 999.5 else f"{load / 1e3:.3g} kN"
 
 
 def _stiffest(scene: Scene) -> str:

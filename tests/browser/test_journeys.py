@@ -279,7 +279,7 @@ def test_life_is_computed_from_what_is_known_of_oil_and_rating(
 def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer, FAN_RIG + "explore")
     visitor.wait(lambda: len(visitor.figures()) >= 4)
-    visitor.sees_change(lambda: visitor.choose("Upwards", "Radial clearance (µm)"))
+    visitor.sees_change(lambda: visitor.choose("Vertical axis", "Radial clearance (µm)"))
     visitor.reads(re.compile("clearance"))
     visitor.point(0, 0.5, 0.5)
     visitor.page.mouse.down()

@@ -116,7 +116,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
         _changes(scene, about),
-        f"<p>Grey in the figures: {_text(results.grey_words)}. Cage angle: "
+        f"<p>Grey in the figures: {_text(results.reference_caption)}. Cage angle: "
         f"{_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
         f"{_text('; '.join(said['details'][:-1]))}.</p></section>",
@@ -170,7 +170,7 @@ def _link(address: str) -> str:
 
 
 def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
-    caption = _text(view.caption(results.grey_words))
+    caption = _text(view.caption(results.reference_caption))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
         f"<section><h2>{_text(view.title)}</h2><p class='about'>{caption}</p>"

@@ -19,7 +19,7 @@ from bearing_explorer.report import About, now, report
 from bearing_explorer.results import compiling
 from bearing_explorer.results.cache import Overtaken
 from bearing_explorer.results.drawing_loop import DrawingLoop
-from bearing_explorer.results.endurance import Asked
+from bearing_explorer.results.endurance import LifeInputs
 from bearing_explorer.results.executors import in_thread
 from bearing_explorer.results.jobs import Jobs
 from bearing_explorer.results.results import Results
@@ -95,7 +95,7 @@ class Inputs:
         a scene that is drawn in grey, instead of the one without the defect.
     before
         the scene before the last change.
-    asked
+    life_inputs
         steel, oil and surfaces as a person has entered them.
     """
 
@@ -107,7 +107,7 @@ class Inputs:
     rested: bool = False
     pinned: Reference | None = None
     before: Scene | None = None
-    asked: Asked = field(default_factory=Asked)
+    life_inputs: LifeInputs = field(default_factory=LifeInputs)
 
     def results(self, give_up: Callable[[], bool] | None = None) -> Results:
         """What is known about them; `give_up` may end long searches."""
@@ -119,7 +119,7 @@ class Inputs:
             moving=not self.rested,
             pinned=self.pinned,
             before=self.before,
-            asked=self.asked,
+            life_inputs=self.life_inputs,
             give_up=give_up,
         )
 
@@ -162,7 +162,7 @@ class Explorer:
         self._mark = 0
         self._drawn_mark = 0
         self._settings = Settings()
-        self._asked_endurance = Asked()
+        self._life_inputs = LifeInputs()
         self._slow_cost = math.inf
         self._slow_at = self._limits_at = -math.inf
         self._pictures = 0  # since the limits were looked at
@@ -211,7 +211,7 @@ class Explorer:
             add_controls=self._panels.append,
             take_steps=self._take_steps,
             fill=self._fill,
-            say_endurance=self._take_endurance,
+            set_life_inputs=self._set_life_inputs,
         )
 
     @property
@@ -226,7 +226,7 @@ class Explorer:
             self._settings,
             pinned=self.bookmarks.pinned,
             before=self._last_state.before,
-            asked=self._asked_endurance,
+            life_inputs=self._life_inputs,
         )
 
     @property
@@ -439,9 +439,9 @@ class Explorer:
         self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
         self.draw()
 
-    def _take_endurance(self, asked: Asked) -> None:
-        """Judge life and film by what somebody says of steel, oil and surfaces."""
-        self._asked_endurance = asked
+    def _set_life_inputs(self, inputs: LifeInputs) -> None:
+        """Judge life and film with this steel, oil and these surfaces."""
+        self._life_inputs = inputs
         self.draw()
 
     def _show_controls(self, **news: Any) -> None:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
     from bearingcore import Equilibrium, Scene, Spectrum
 
-HEARD = (100.0, 2500.0)
+PEAK_BAND = (100.0, 2500.0)
 """[Hz] where the loudest line of a spectrum is looked for."""
-SILENCE = 1e-20
+LEVEL_FLOOR = 1e-20
 """[(m/s²)²/Hz] below which a housing does not move at all."""
 
 
@@ -174,9 +174,9 @@ def direction(scene: Scene) -> float:
 def loudest(spectrum: Spectrum) -> Peak:
     """The loudest line of one direction that is heard."""
     frequency, density = spectrum
-    heard = np.flatnonzero((frequency >= HEARD[0]) & (frequency <= HEARD[1]))
+    heard = np.flatnonzero((frequency >= PEAK_BAND[0]) & (frequency <= PEAK_BAND[1]))
     most = heard[np.argmax(density[heard])]
-    level = 10.0 * math.log10(max(float(density[most]), SILENCE))
+    level = 10.0 * math.log10(max(float(density[most]), LEVEL_FLOOR))
     return Peak(float(frequency[most]), level, float(frequency[1] - frequency[0]))
 
 

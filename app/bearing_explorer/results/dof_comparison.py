@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from bearingcore import DOF_NAMES, Equilibrium, Scene, Spectrum
 from bearingcore.common.table import ResultTable, table_of
 
-HEARD = 40.0
+DYNAMIC_RANGE = 40.0
 """[dB] below the loudest line down to which spectra are compared."""
 
 
@@ -26,7 +26,7 @@ class DofComparison:
         where there is none.
     motion : {"x": ..., "y": ...} [dB]
         greatest difference between the spectra of the housing's acceleration where the other one
-        is at most `HEARD` below its loudest line.
+        is at most `DYNAMIC_RANGE` below its loudest line.
     no_motion
         why `motion` is empty.
     """
@@ -90,6 +90,6 @@ def spectrum_differences(
 def _level_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     if not (np.isfinite(a).all() and np.isfinite(b).all() and b.max() > 0.0):
         return math.nan
-    heard = b > b.max() * 10.0 ** (-HEARD / 10.0)
+    heard = b > b.max() * 10.0 ** (-DYNAMIC_RANGE / 10.0)
     least = b.max() * 1e-20  # silence is as far off as can be said
     return float(np.abs(10.0 * np.log10(np.maximum(a[heard], least) / b[heard])).max())

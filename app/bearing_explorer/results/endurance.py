@@ -19,8 +19,8 @@ ASSUMED_VISCOSITY = 0.02
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What a person says of steel, oil and surfaces.
+class LifeInputs:
+    """Steel, oil and surfaces as entered on the Life tab.
 
     dynamic_load_rating
         C_r [N] of the catalogue; None: computed by ISO 281.
@@ -60,9 +60,9 @@ class Endurance:
 
 
 @cached
-def endurance(scene: Scene, asked: Asked) -> Endurance:
+def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
-    rating, rating_words = asked.dynamic_load_rating, "given"
+    rating, rating_words = inputs.dynamic_load_rating, "given"
     no_life = ""
     if rating is None:
         try:
@@ -88,27 +88,27 @@ def endurance(scene: Scene, asked: Asked) -> Endurance:
         no_pressures = _why(error)
     oil, no_film = None, ""
     try:
-        oil = film_of(scene, asked, state)
+        oil = film_of(scene, inputs, state)
     except ValueError as error:
         no_film = _why(error)
     return Endurance(lasting, no_life, rating, rating_words, pressures, no_pressures, oil, no_film)
 
 
-def film_of(scene: Scene, asked: Asked, state: Equilibrium) -> Film:
-    """The film of a scene with the oil that was asked for; ValueError as of `film`."""
+def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium) -> Film:
+    """The film of a scene with the oil of `inputs`; ValueError as of `film`."""
     return film(
         scene,
-        viscosity=asked.viscosity or ASSUMED_VISCOSITY,
-        roughness_inner=asked.race_roughness,
-        roughness_outer=asked.race_roughness,
-        roughness_ball=asked.ball_roughness,
+        viscosity=inputs.viscosity or ASSUMED_VISCOSITY,
+        roughness_inner=inputs.race_roughness,
+        roughness_outer=inputs.race_roughness,
+        roughness_ball=inputs.ball_roughness,
         state=state,
     )
 
 
 @cached
 def limits(
-    scene: Scene, step_rate: float | None, dynamic_load: float | None, asked: Asked
+    scene: Scene, step_rate: float | None, dynamic_load: float | None, inputs: LifeInputs
 ) -> tuple[Limit, ...]:
     """What the model leaves out of a scene, each with its number and its limit.
 
@@ -117,8 +117,8 @@ def limits(
     """
     state = equilibrium(scene, looked_at(scene))
     oil = None
-    if asked.viscosity is not None and scene.bearing.knows_contacts:
-        oil = film_of(scene, asked, state)
+    if inputs.viscosity is not None and scene.bearing.knows_contacts:
+        oil = film_of(scene, inputs, state)
     return limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
 
 

@@ -25,7 +25,7 @@ from bearing_explorer.results.dof_comparison import (
     spectrum_differences,
     static_differences,
 )
-from bearing_explorer.results.endurance import Asked, Endurance
+from bearing_explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.results.excerpt import Excerpt
 from bearing_explorer.results.executors import PICTURES
 from bearing_explorer.results.load_curve import Curve, load_curve
@@ -91,7 +91,7 @@ class Results:
     orbit: the motion that repeats itself; None where it takes too many ball passes to look for
     orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
     contact_damping: of a loaded contact [N·s/m], given or from the stiffness
-    endurance: life, contact pressure and film, with the oil and steel of `asked`
+    endurance: life, contact pressure and film, with the oil and steel of `life_inputs`
     limits: what the model leaves out, each with its number and its limit
     dof_comparison: what other free directions would change
     chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
@@ -140,15 +140,15 @@ class Results:
         moving: bool = False,
         pinned: Reference | None = None,
         before: Scene | None = None,
-        asked: Asked | None = None,
+        life_inputs: LifeInputs | None = None,
         give_up: Callable[[], bool] | None = None,
     ) -> None:
         """`moving`: a slider moves, be quick.
 
         `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
         without its defect. `before`: the scene before the last change, where there was one.
-        `asked`: steel, oil and surfaces as a person has entered them. `give_up` is asked in long
-        searches whether the results are still wanted.
+        `life_inputs`: steel, oil and surfaces as entered on the Life tab. `give_up` is called in
+        long searches: whether the results are no longer wanted.
         """
         self.scene = scene
         self.cage_angle = cage_angle
@@ -157,28 +157,28 @@ class Results:
         self.moving = moving
         self.pinned = pinned
         self.before = before
-        self.asked = asked or Asked()
+        self.life_inputs = life_inputs or LifeInputs()
         self._give_up = give_up
 
     @property
-    def beside(self) -> Scene:
+    def reference(self) -> Scene:
         """What is drawn in grey beside the scene: a pinned one, or itself without its defect."""
         return self.scene.healthy() if self.pinned is None else self.pinned.scene
 
     @property
-    def beside_words(self) -> str:
+    def reference_label(self) -> str:
         """What it is called before its numbers; nothing where it is the scene itself."""
         if self.pinned is not None:
             return self.pinned.words
         return "without the defect" if self.scene.defects else ""
 
     @property
-    def grey_words(self) -> str:
+    def reference_caption(self) -> str:
         """What it is called in a caption."""
         return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
 
     @property
-    def beside_name(self) -> str:
+    def reference_name(self) -> str:
         """What it is called in the names of columns."""
         return "healthy" if self.pinned is None else "pinned"
 
@@ -224,7 +224,7 @@ class Results:
     @cached_property
     def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
-        return statics.curves(self.beside, *self.stretch)
+        return statics.curves(self.reference, *self.stretch)
 
     @cached_property
     def healthy_all_around(self) -> Equilibrium:
@@ -276,7 +276,7 @@ class Results:
     @cached_property
     def healthy_now(self) -> Equilibrium:
         """The same without the defect."""
-        return statics.equilibrium_at(self.beside, self.cage_angle)
+        return statics.equilibrium_at(self.reference, self.cage_angle)
 
     @cached_property
     def modes(self) -> Modes:
@@ -286,7 +286,7 @@ class Results:
     @cached_property
     def healthy_modes(self) -> Modes:
         """The same without the defect."""
-        return self._of_pinned(self._modes, self.beside)
+        return self._of_pinned(self._modes, self.reference)
 
     def _modes(self, scene: Scene) -> Modes:
         first, last, n = self.stretch
@@ -306,7 +306,7 @@ class Results:
         """The same without the defect."""
         if self.moving:
             return self.healthy_modes.bands()
-        return self._of_pinned(self._bands, self.beside)
+        return self._of_pinned(self._bands, self.reference)
 
     def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
         first, last, _ = self.stretch
@@ -358,9 +358,9 @@ class Results:
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
-            asked = self.beside, self._marching
-            if not motions.late_spectra.knows(*asked):  # the picture waits for this one
-                PICTURES.submit(motions.late_spectra, *asked)
+            key = self.reference, self._marching
+            if not motions.late_spectra.knows(*key):  # the picture waits for this one
+                PICTURES.submit(motions.late_spectra, *key)
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
@@ -404,7 +404,7 @@ class Results:
     @cached_property
     def healthy_motion(self) -> Motion:
         """The same without the defect."""
-        return self._of_pinned(motions.motion, self.beside, self._marching).motion
+        return self._of_pinned(motions.motion, self.reference, self._marching).motion
 
     @cached_property
     def excerpt(self) -> Excerpt:
@@ -424,12 +424,12 @@ class Results:
     @property
     def healthy_settled_since(self) -> float:
         """When [s] of that motion its start is forgotten."""
-        return motions.motion(self.beside, self._marching).since
+        return motions.motion(self.reference, self._marching).since
 
     @cached_property
     def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect."""
-        return self._of_pinned(motions.late_spectra, self.beside, self._marching)
+        return self._of_pinned(motions.late_spectra, self.reference, self._marching)
 
     def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
         """Compute something of what is drawn in grey; refused, it says that it is not the scene."""
@@ -501,12 +501,12 @@ class Results:
                 step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return endurance.limits(self.scene, step_rate, self._dynamic_load, self.asked)
+        return endurance.limits(self.scene, step_rate, self._dynamic_load, self.life_inputs)
 
     @property
     def endurance(self) -> Endurance:
-        """Life, pressure and film of the scene, with the oil and steel that were asked for."""
-        return endurance.endurance(self.scene, self.asked)
+        """Life, pressure and film of the scene, with the oil and steel of `life_inputs`."""
+        return endurance.endurance(self.scene, self.life_inputs)
 
     @property
     def _dynamic_load(self) -> float | None:
@@ -526,7 +526,7 @@ class Results:
     @cached_property
     def chain_before(self) -> Chain:
         """The same of the scene before the last change; before the first, of what is in grey."""
-        scene = self.beside if self.before is None else self.before
+        scene = self.reference if self.before is None else self.before
         if scene == self.scene:
             return self.chain
         return _chain_of(scene, self.cage_angle, self.settings, self.moving)

@@ -42,7 +42,7 @@ from bearingcore.common.table import as_csv
 
 if TYPE_CHECKING:
     from bearing_explorer.measurement.session import Measurement
-    from bearing_explorer.results.endurance import Asked
+    from bearing_explorer.results.endurance import LifeInputs
     from bearing_explorer.results.jobs import Jobs
     from bearing_explorer.results.results import Results
     from bearing_explorer.state.scene_editor import SceneEditor
@@ -121,7 +121,7 @@ class SessionParts:
     fill
         has what is made come into a layout as its only child, and then something done, in several
         turns of the event loop: for figures that are large and not made before they are needed.
-    say_endurance
+    set_life_inputs
         takes what somebody says of steel, oil and surfaces.
     """
 
@@ -133,7 +133,7 @@ class SessionParts:
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
     fill: Fill
-    say_endurance: Callable[[Asked], None]
+    set_life_inputs: Callable[[LifeInputs], None]
 
 
 class View:
@@ -241,7 +241,7 @@ class View:
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
         if results is not None and self.compares:
-            line, rest = first_sentence(self.caption(results.grey_words))
+            line, rest = first_sentence(self.caption(results.reference_caption))
             pinned = results.pinned.name if results.pinned else ""
             self._caption.put(line=line, rest=rest, pinned=pinned)
 

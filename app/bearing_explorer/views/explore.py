@@ -66,8 +66,8 @@ _FADED = 0.65
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What the form asks for."""
+class MapRequest:
+    """A map as the form has it."""
 
     x: Sweep
     y: Sweep
@@ -80,8 +80,8 @@ class Asked:
         return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
 
 
-class _While:
-    """A job that ends, too, when what it computes is no longer asked for."""
+class _CancelWhenStale:
+    """A job that also ends when its map is no longer wanted."""
 
     def __init__(self, job: Work, wanted: Callable[[], bool]) -> None:
         self._job, self._wanted = job, wanted
@@ -107,7 +107,7 @@ class ExplorePlane(JobView[Plane]):
     at_once = True
     bounds = f"Coarse at once, finer while you wait: at most {BUDGET / 60.0:.0f} minutes a map."
 
-    _asking: Asked | None = None
+    _request: MapRequest | None = None
     _question: Question | None = None
     _refining: tuple[Question, int] | None = None
     _timer: asyncio.TimerHandle | None = None
@@ -150,11 +150,11 @@ class ExplorePlane(JobView[Plane]):
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]], **_FIRST_BAND}
         # loads that point down, as weights do: without a load there is nothing to map
         values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
-        if self._asking is None:
-            self._asking = self.asked(values, editor)
+        if self._request is None:
+            self._request = self.request_of(values, editor)
         return values, fills
 
-    def asked(self, given: Mapping[str, str], editor: SceneEditor) -> Asked:
+    def request_of(self, given: Mapping[str, str], editor: SceneEditor) -> MapRequest:
         """What the form asks for; ValueError with a sentence where it cannot be."""
         if given["output"] not in MAP_OUTPUTS:
             raise ValueError("There is no such output.")
@@ -170,12 +170,12 @@ class ExplorePlane(JobView[Plane]):
                     for name, end in (("band_from", "beginning"), ("band_to", "end"))
                 )
             )
-        return Asked(x, y, output, int(given["grid"]), given)
+        return MapRequest(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:
         """Ask for the map of the form; the job begins when the sliders rest."""
         try:
-            self._asking = self.asked(given, self._editor)
+            self._request = self.request_of(given, self._editor)
         except ValueError as error:
             self.job.show(JobState("failed", 0.0, str(error)))
         else:
@@ -193,13 +193,13 @@ class ExplorePlane(JobView[Plane]):
     # Outside of the page
 
     def choices(self) -> dict[str, Any]:
-        return {} if self._asking is None else dict(self._asking.given)
+        return {} if self._request is None else dict(self._request.given)
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
         editor = editor_of(results)
-        self._asking = asking = self.asked({**self.form(editor)[0], **choices}, editor)
-        question = asking.of(results)
-        self.found = last_shown(lambda job: refine(job, question, asking.stride))
+        self._request = request = self.request_of({**self.form(editor)[0], **choices}, editor)
+        question = request.of(results)
+        self.found = last_shown(lambda job: refine(job, question, request.stride))
 
     def still_figures(self) -> Sequence[LayoutDOM]:
         import holoviews as hv
@@ -223,9 +223,9 @@ class ExplorePlane(JobView[Plane]):
             "explore_mark": {"x": none, "y": none},
             "explore_old": dict.fromkeys(("left", "right", "bottom", "top", "alpha"), none),
         }
-        if self._asking is None:
+        if self._request is None:
             return sources, {}
-        question = self._asking.of(results)
+        question = self._request.of(results)
         scene = focused(results.scene, results.focus)
         x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
         sources["explore_mark"] = {"x": np.array([x]), "y": np.array([y])}
@@ -239,9 +239,9 @@ class ExplorePlane(JobView[Plane]):
         return sources, {}
 
     def sentence(self, results: Results) -> str:
-        if self._asking is None:
+        if self._request is None:
             return "There is no map yet."
-        question = self._asking.of(results)
+        question = self._request.of(results)
         plane, why = self._plane(question)
         if plane is None:
             faint = "What is drawn, faint, is another map. " if self.found is not None else ""
@@ -250,16 +250,16 @@ class ExplorePlane(JobView[Plane]):
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        if results is None or self._asking is None:
+        if results is None or self._request is None:
             return
-        self._question = question = self._asking.of(results)
+        self._question = question = self._request.of(results)
         scene = focused(results.scene, results.focus)
         x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
         self._at = x, y
         plane, why = self._plane(question)
         if plane is not None and time.perf_counter() > self._next_show:
             self._show(plane)
-        if self._refining == (question, self._asking.stride):
+        if self._refining == (question, self._request.stride):
             return
         self._wait_no_more()
         self._refining = None
@@ -353,13 +353,13 @@ class ExplorePlane(JobView[Plane]):
     def _refine(self, question: Question, start: Plane | None) -> None:
         """Start the job, if this is still what is asked for."""
         self._timer = None
-        if self._jobs is None or self._asking is None or question != self._question:
+        if self._jobs is None or self._request is None or question != self._question:
             return
-        stride = self._asking.stride
-        self._refining = asked = (question, stride)
+        stride = self._request.stride
+        self._refining = wanted = (question, stride)
 
         def work(job: Work) -> str:
-            going: Job = _While(job, lambda: self._refining == asked)
+            going: Job = _CancelWhenStale(job, lambda: self._refining == wanted)
             if start is not None:
                 job.show(start)  # it may have been passed over while the slider moved
             try:

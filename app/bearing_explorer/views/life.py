@@ -12,7 +12,7 @@ import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
-from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Asked, Endurance
+from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.form import Fields, entry, row
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True)
 class Field:
-    """A number of the form: the field of `Asked`, label, unit, and its range."""
+    """A number of the form: the field of `LifeInputs`, label, unit, and its range."""
 
     name: str
     label: str
@@ -95,10 +95,10 @@ class LifeOfBearing(View):
     )
     in_report = False
     needs = frozenset[str]()
-    _say: Callable[[Asked], None] | None = None
+    _set_inputs: Callable[[LifeInputs], None] | None = None
 
     def build(self, packed: PackedSource) -> Any:
-        self.asked = Asked()
+        self.inputs = LifeInputs()
         self._fields = Fields(self.take)
         hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
         self._refusal = pn.pane.HTML("", visible=False, stylesheets=[asset_text("facts.css")])
@@ -117,7 +117,7 @@ class LifeOfBearing(View):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self._say = parts.say_endurance
+        self._set_inputs = parts.set_life_inputs
 
     def take(self, name: str) -> None:
         """Take a number that was typed; a refused one changes nothing and gets a sentence."""
@@ -129,9 +129,9 @@ class LifeOfBearing(View):
             self._refusal.param.update(object=words, visible=True)
             return
         self._refusal.visible = False
-        self.asked = dataclasses.replace(self.asked, **{name: value})
-        if self._say is not None:
-            self._say(self.asked)
+        self.inputs = dataclasses.replace(self.inputs, **{name: value})
+        if self._set_inputs is not None:
+            self._set_inputs(self.inputs)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         _ = results.endurance  # computed here, in a thread
@@ -154,7 +154,7 @@ class LifeOfBearing(View):
     def _values(self) -> dict[str, str]:
         texts = {}
         for field in FIELDS:
-            value = getattr(self.asked, field.name)
+            value = getattr(self.inputs, field.name)
             texts[field.name] = "" if value is None else f"{value / field.unit_si:.6g}"
         return texts
 
@@ -341,7 +341,7 @@ def _film(results: Results, found: Endurance) -> dict[str, Any]:
             )
         )
     words = found.film.sentence
-    if results.asked.viscosity is None:
+    if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
         words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
     return _group(title, words, facts)

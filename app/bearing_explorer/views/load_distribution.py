@@ -125,8 +125,8 @@ class LoadDistribution(View):
                 f"{'the' if parts else 'The'} greatest load of a {bearing.kind.element}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
-            if results.beside_words and np.isfinite(healthy).any():
-                part += f"; {results.beside_words} {style.with_prefix(np.nanmax(healthy), 'N')}"
+            if results.reference_label and np.isfinite(healthy).any():
+                part += f"; {results.reference_label} {style.with_prefix(np.nanmax(healthy), 'N')}"
             parts.append(part)
         words = ", ".join(parts)
         if results.over_shaft:
@@ -147,7 +147,7 @@ class LoadDistribution(View):
         if results.inner_load_curves:
             rows = range(len(results.load_curves))
             tables += [_at_both_races(results.equilibrium, row) for row in rows]
-        tables.append(curves_table(results.healthy_load_curves).prefixed(results.beside_name))
+        tables.append(curves_table(results.healthy_load_curves).prefixed(results.reference_name))
         return reduce(or_, tables).in_units().named()
 
 

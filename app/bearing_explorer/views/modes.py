@@ -132,8 +132,8 @@ class NaturalFrequencies(View):
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"
         text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
-        if results.beside_words and np.isfinite(healthy.get(first, (np.nan,))[0]):
-            text += f"; {results.beside_words} {mode_symbol(first)} {_from_to(healthy[first])}"
+        if results.reference_label and np.isfinite(healthy.get(first, (np.nan,))[0]):
+            text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"
         return text + "."
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -144,7 +144,7 @@ class NaturalFrequencies(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, healthy = results.modes, results.healthy_modes
-        own, grey = modes.table(), healthy.table().prefixed(results.beside_name)
+        own, grey = modes.table(), healthy.table().prefixed(results.reference_name)
         columns = (own | grey).in_units().named()
         if results.over_shaft:
             columns["shaft_angle_deg"] = results.along(modes.cage_angles)

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
-from bearing_explorer.results.endurance import Asked
+from bearing_explorer.results.endurance import LifeInputs
 from bearing_explorer.state.settings import Settings
 from bearingcore import Defect, Scene, presets
 
@@ -62,7 +62,7 @@ def arguments(view: View, results: Results) -> dict[str, str]:
         given["before"] = scene_code(results.before)
     for name, value, usual in (
         ("settings", results.settings, Settings()),
-        ("endurance", results.asked, Asked()),
+        ("endurance", results.life_inputs, LifeInputs()),
     ):
         if changed := _changed(value, usual):
             given[name] = code_of(changed)

@@ -192,7 +192,7 @@ class Stiffness(View):
             least, most = np.nanmin(values), np.nanmax(values)
             line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
             line += f" to {with_prefix(most, 'N/m')}"
-            if results.beside_words and healthy.converged.any():
+            if results.reference_label and healthy.converged.any():
                 mean = over_turn(healthy.cage_angles, healthy_values)
                 line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
@@ -217,7 +217,7 @@ class Stiffness(View):
         """Every trace in SI, defective and healthy."""
         found, healthy = results.equilibrium, results.healthy_equilibrium
         columns: dict[str, np.ndarray] = {}
-        for kind, answer in (("defective", found), (results.beside_name, healthy)):
+        for kind, answer in (("defective", found), (results.reference_name, healthy)):
             table = answer.table().in_units().prefixed(kind)
             columns |= table.only(f"{kind}_cage_angle").named()
             if results.over_shaft:

@@ -18,7 +18,7 @@ from bokeh.resources import Resources
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.results.endurance import Asked
+from bearing_explorer.results.endurance import LifeInputs
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import Columns, PackedSource
 from bearing_explorer.state.reference import Reference
@@ -195,7 +195,7 @@ def figure_of(
         focus,
         pinned=None if pinned is None else Reference(pinned, pinned_name),
         before=before,
-        asked=Asked(**(endurance or {})),
+        life_inputs=LifeInputs(**(endurance or {})),
     )
     return Figure(kind, results, **more)
 

@@ -244,7 +244,7 @@ class VibrationSpectra(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        beside = f"{results.beside_name}_"
+        beside = f"{results.reference_name}_"
         spectra_of = {"": results.late_spectra, beside: results.healthy_late_spectra}
         for who, spectra in spectra_of.items():
             for dof, one in spectra.items():

@@ -54,7 +54,7 @@ def test_what_is_pinned_stands_in_for_the_healthy_bearing() -> None:
     assert around[-1] == pytest.approx(2.0 * np.pi / 9)
     assert results.healthy_modes.cage_angles[-1] == last
     alone = Results(scene, 0.1)
-    assert alone.beside == scene.healthy()
+    assert alone.reference == scene.healthy()
     assert alone.healthy_all_around is alone.healthy_equilibrium
 
 

@@ -102,7 +102,7 @@ def test_a_file_is_opened_and_a_scene_pinned(answers: list[dict]) -> None:
     )
     assert explorer.scene == presets["6205"]
     assert explorer.inputs.pinned is not None
-    assert explorer.inputs.results().beside == presets["liew-lim"]
+    assert explorer.inputs.results().reference == presets["liew-lim"]
     assert Scene.from_toml(answers[0]["file"]["text"]) == presets["6205"]
     assert explorer._drawn_mark == 3
 

@@ -6,7 +6,7 @@ import dataclasses
 import math
 
 import pytest
-from bearing_explorer.results.endurance import Asked, endurance
+from bearing_explorer.results.endurance import LifeInputs, endurance
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import facts_of
@@ -25,8 +25,8 @@ from bearingcore import (
 from bearingcore.statics.validity import looked_at
 
 
-def facts(name: str, asked: Asked | None = None) -> dict[str, dict[str, str]]:
-    groups = groups_of(Results(presets[name], asked=asked))
+def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, str]]:
+    groups = groups_of(Results(presets[name], life_inputs=inputs))
     return {
         group["title"]: {fact["label"]: fact["value"] for fact in group["facts"]}
         | {"words": group["words"]}
@@ -64,29 +64,31 @@ def test_lives_are_told_to_three_digits_and_what_is_not_known_once() -> None:
 
 
 def test_a_given_rating_is_taken_and_said() -> None:
-    said = facts("6205", Asked(dynamic_load_rating=14_000.0))
+    said = facts("6205", LifeInputs(dynamic_load_rating=14_000.0))
     assert said["Life"]["Dynamic load rating C<sub>r</sub>"] == "14 kN, given"
 
 
 def test_thin_oil_lets_surfaces_touch_and_thick_oil_does_not() -> None:
-    thin, thick = (facts("6205", Asked(viscosity=viscosity))["Oil film"] for viscosity in (1e-3, 1))
+    thin, thick = (
+        facts("6205", LifeInputs(viscosity=viscosity))["Oil film"] for viscosity in (1e-3, 1)
+    )
     assert "below 1" in thin["film parameter Λ"]
     assert "below 1" not in thick["film parameter Λ"]
 
 
-def film_limit(asked: Asked) -> Limit:
-    limits = Results(presets["nu208"], asked=asked).limits
+def film_limit(inputs: LifeInputs) -> Limit:
+    limits = Results(presets["nu208"], life_inputs=inputs).limits
     return next(limit for limit in limits if limit.name == "film parameter")
 
 
 def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() -> None:
-    assumed = film_limit(Asked())
+    assumed = film_limit(LifeInputs())
     assert math.isnan(assumed.value)
     row = next(row for row in rows_of((assumed,)))
     assert row["state"] == "unknown"
     assert "tab Life" in row["sentence"]
-    assert film_limit(Asked(viscosity=1e-3)).crossed
-    kept = film_limit(Asked(viscosity=1.0))
+    assert film_limit(LifeInputs(viscosity=1e-3)).crossed
+    kept = film_limit(LifeInputs(viscosity=1.0))
     oil = film(
         presets["nu208"],
         viscosity=1.0,
@@ -95,12 +97,12 @@ def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() ->
     assert kept == oil.limit
     assert not kept.crossed
     assert "assumed viscosity" in facts("nu208")["Oil film"]["words"]
-    assert "assumed" not in facts("nu208", Asked(viscosity=1.0))["Oil film"]["words"]
+    assert "assumed" not in facts("nu208", LifeInputs(viscosity=1.0))["Oil film"]["words"]
 
 
 @pytest.mark.parametrize("name", list(presets))
 def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
-    found = endurance(presets[name], Asked())
+    found = endurance(presets[name], LifeInputs())
     for answer, words in (
         (found.life, found.no_life),
         (found.pressures, found.no_pressures),
@@ -108,7 +110,7 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
     ):
         assert (answer is None) == bool(words)
         assert words == "" or words.endswith(".")
-    rated = endurance(presets[name], Asked(dynamic_load_rating=40e3))
+    rated = endurance(presets[name], LifeInputs(dynamic_load_rating=40e3))
     if presets[name].bearing.knows_contacts:
         assert rated.life is not None
         assert math.isfinite(rated.life.million_revolutions)
@@ -116,13 +118,13 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
 
 
 def test_self_aligning_bearings_ask_for_the_rating_of_the_catalogue() -> None:
-    found = endurance(presets["1208"], Asked())
+    found = endurance(presets["1208"], LifeInputs())
     assert found.life is None
     assert "enter that of the catalogue" in found.no_life
 
 
 def test_rollers_have_a_computed_rating_and_a_film() -> None:
-    found = endurance(presets["nu208"], Asked())
+    found = endurance(presets["nu208"], LifeInputs())
     assert found.life is not None
     assert found.rating == dynamic_load_rating(presets["nu208"].bearing)
     assert found.film is not None
@@ -143,14 +145,14 @@ def test_what_is_typed_changes_the_answer_and_a_refusal_does_not() -> None:
     view = LifeOfBearing(PackedSource())
     fields = view._fields.widgets
     fields["dynamic_load_rating"].value = "14"
-    assert view.asked.dynamic_load_rating == 14_000.0
+    assert view.inputs.dynamic_load_rating == 14_000.0
     fields["dynamic_load_rating"].value = "-3"
     assert view._refusal.visible
     assert "goes from" in view._refusal.object
     fields["viscosity"].value = "50"
     assert not view._refusal.visible
-    assert view.asked.dynamic_load_rating == 14_000.0
-    assert view.asked.viscosity == pytest.approx(0.05)
+    assert view.inputs.dynamic_load_rating == 14_000.0
+    assert view.inputs.viscosity == pytest.approx(0.05)
     view.say(Results(presets["6205"]), "")
     assert fields["dynamic_load_rating"].value == "14"
     assert "Dynamic load rating C<sub>r</sub>" in view._answers.object
@@ -161,8 +163,8 @@ def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_thei
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, contact_angle=0.7))
     scene = pair.replace(bearing=pair.bearing.replace(rows=rows))
-    for asked in (Asked(), Asked(dynamic_load_rating=4e4)):
-        found = endurance(scene, asked)
+    for inputs in (LifeInputs(), LifeInputs(dynamic_load_rating=4e4)):
+        found = endurance(scene, inputs)
         assert found.life is not None
         assert found.life.known
         assert found.pressures is not None

@@ -37,12 +37,15 @@ class Interval:
         bounds that belong to it.
     above, below
         bounds that do not.
+    note
+        why, or the bounds in other words; may be empty.
     """
 
     at_least: float = -math.inf
     at_most: float = math.inf
     above: float = -math.inf
     below: float = math.inf
+    note: str = ""
 
     def __contains__(self, number: float) -> bool:
         """True for a finite number within the bounds."""
@@ -52,8 +55,8 @@ class Interval:
             and self.above < number < self.below
         )
 
-    def words(self, amount: Callable[[float], str]) -> str:
-        """The interval in words, its bounds written by `amount`."""
+    def words(self, amount: Callable[[float], str], unit: str = "") -> str:
+        """The interval in words, its bounds written by `amount`; `unit` stands behind them."""
         bounds = (
             ("at least", self.at_least),
             ("above", self.above),
@@ -61,7 +64,8 @@ class Interval:
             ("below", self.below),
         )
         said = [f"{word} {amount(bound)}" for word, bound in bounds if math.isfinite(bound)]
-        return " ".join(["a finite number", " and ".join(said)]).rstrip()
+        words = " ".join(["a finite number", " and ".join(said)]).rstrip()
+        return words + (f" [{unit}]" if unit else "") + (f": {self.note}" if self.note else "")
 
 
 class FieldError(ValueError):
@@ -123,18 +127,21 @@ class FieldError(ValueError):
         )
 
     @property
+    def allowed_text(self) -> str:
+        """What is allowed, in SI units."""
+        if isinstance(self.allowed, Interval):
+            return self.allowed.words("{:g}".format, self.unit)
+        return self.allowed_words(str, lambda number, unit: f"{number:g} {unit}".rstrip())
+
+    @property
     def shown(self) -> str:
         """The value as text of bounded length."""
         return f"{self.value:g}" if isinstance(self.value, float) else _short.repr(self.value)
 
     def __str__(self) -> str:
         """Field, value and what is allowed, in SI units."""
-        if isinstance(self.allowed, Interval):
-            allowed = self.allowed.words("{:g}".format) + (f" [{self.unit}]" if self.unit else "")
-        else:
-            allowed = self.allowed_words(str, lambda number, unit: f"{number:g} {unit}".rstrip())
         return "".join(f"{part}: " for part in self.where) + (
-            f"{self.field} is {self.shown}; allowed: {allowed}"
+            f"{self.field} is {self.shown}; allowed: {self.allowed_text}"
         )
 
 

@@ -1,51 +1,360 @@
-"""The registry of fields: each quantity of a scene with its symbol, unit, label, range and meaning.
+"""The registry of fields: each number of a scene with its symbol, unit, label, range and meaning.
 
-Sliders, links, files of settings, sweeps, tables and sentences about a field come from here.
+Sliders, links, drafts, sweeps, tables and sentences about a field come from here; a field is said
+nowhere else. A new one needs an entry in `FIELDS` and its attribute in the dataclass of its part.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from bearingcore.units import UNITS
+
+WIDEST_CONFORMITY = 0.6
+"""Groove radius over ball diameter up to which a groove is believed. Makers use 0.505 to 0.54,
+instrument bearings up to about 0.58."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """The numbers that a field may have, in its shown unit.
+
+    Attributes
+    ----------
+    least, most
+        ends of its slider.
+    step
+        of the slider.
+    typed_least, typed_most
+        what may be typed; NaN: no more than the slider reaches.
+    """
+
+    least: float
+    most: float
+    step: float
+    typed_least: float = math.nan
+    typed_most: float = math.nan
+
+    @property
+    def allowed(self) -> tuple[float, float]:
+        """Least and greatest number that may be typed."""
+        return (
+            self.least if math.isnan(self.typed_least) else self.typed_least,
+            self.most if math.isnan(self.typed_most) else self.typed_most,
+        )
+
+    def holds(self, value: float) -> bool:
+        """Whether the slider reaches `value`, or it is left open (NaN)."""
+        return self.least <= value <= self.most or math.isnan(value)
+
+    def around(self, value: float) -> Range:
+        """The same, with a slider that reaches `value`: to the end or a round number past it."""
+        if self.holds(value):
+            return self
+        low, high = self.allowed
+        room = round_up(1.5 * abs(value))
+        least = self.least if value > self.most else max(low, -room if value < 0.0 else 0.0)
+        most = self.most if value < self.least else min(high, room)
+        return Range(least, most, self.step, low, high)
+
+
+def round_up(value: float) -> float:
+    """The next number of 1, 2, 5, 10, 20, 50, ... that is not below `value`."""
+    value = max(value, 1e-300)  # below, powers of ten are no numbers any more
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)
+
+
+RangeOf = Callable[[Any, float], Range]
+"""A range that depends on a preset: called with its scene and the field's number there."""
+
+
+def _near(_: Any, value: float) -> Range:
+    """From nothing to a few times the preset's number; what is typed may go much further."""
+    most = round_up(2.0 * value) if value > 0.0 else 100.0  # NaN too: its size is not known
+    return Range(0.0, most, round_up(most / 2000.0), 0.0, 1e9)
+
+
+def _near_first_row(name: str) -> RangeOf:
+    """As `_near`, about the number of the first row [mm]."""
+    return lambda scene, _: _near(scene, getattr(scene.bearing, name) * 1e3)
+
+
+def _largest_force(scene: Any) -> float:
+    load = scene.load
+    return round_up(2.5 * max(abs(load.fx), abs(load.fy), abs(load.fz), 1.0))
+
+
+def _force(scene: Any, _: float) -> Range:
+    """Up to a few times the preset's largest force, either way."""
+    most = _largest_force(scene)
+    return Range(-most, most, most / 500.0, -1e6, 1e6)
+
+
+def _moment(scene: Any, _: float) -> Range:
+    """Up to the moment of such a force at the pitch radius, either way."""
+    most = round_up(0.25 * _largest_force(scene) * scene.bearing.pitch_diameter)
+    return Range(-most, most, most / 500.0, -1e5, 1e5)
+
+
+def groove_range(scene: Any, _: float = math.nan) -> Range:
+    """From hardly wider than a ball to the widest groove that guides one."""
+    ball = scene.bearing.ball_diameter * 1e3
+    widest = float(f"{WIDEST_CONFORMITY * ball:.12g}")
+    return Range(float(f"{0.501 * ball:.6g}"), widest, 0.0005 * ball, 0.0, 1e4)
 
 
 @dataclass(frozen=True)
 class Field:
-    """One quantity of a scene.
+    """One number of a scene.
 
     Attributes
     ----------
     name
-        of the field, as `Scene.replace` knows it where it is one of the scene or its parts.
+        of the attribute that holds it.
     part
-        what it belongs to: "scene", "bearing", "load", "support", "defect", "floor" (of a defect),
-        "pair" (both rows of a bearing), "second" (the second row of a bearing).
-    label, symbol
-        what it is called, and its symbol with simple HTML.
-    unit
-        SI unit; "1" for counts and ratios.
+        what has this attribute: "scene", "bearing", "load", "support", "defect", "floor" (the rough
+        floor of a defect), "pair" (a bearing of two rows), "second" (the second row of a bearing),
+        or "" for a number of the page alone.
+    label
+        what it is called.
+    symbol
+        with an underscore before what stands below: "D_b".
     shown_unit
-        unit of sliders, links and files of settings.
+        unit of sliders, links and lessons, one of `UNITS`; empty for counts and ratios.
+    group
+        heading that its slider stands under; empty where it has none.
+    range
+        what it may be, or a function of a preset's scene.
     meaning
         what it is, in a sentence.
-    group
-        heading that its slider stands under; empty for a field without a slider.
     optional
         whether it may be left open: None in the scene.
+    whole
+        whether it is a whole number.
+    sweep_range
+        where maps over it begin and end if that shows more than its whole slider.
     """
 
     name: str
     part: str
     label: str
     symbol: str
-    unit: str
     shown_unit: str
+    group: str
+    range: Range | RangeOf
     meaning: str
-    group: str = ""
     optional: bool = False
+    whole: bool = False
+    sweep_range: tuple[float, float] | None = None
+
+    @property
+    def key(self) -> str:
+        """Its name on the page, in links and in lessons, with the unit: "extent_deg"."""
+        suffix = _SUFFIXES.get(self.shown_unit)
+        return f"{self.full_name}_{suffix}" if suffix else self.full_name
+
+    @property
+    def full_name(self) -> str:
+        """The name, of a second row's field with that before it: different for every field."""
+        return f"second_{self.name}" if self.part == "second" else self.name
+
+    @property
+    def unit(self) -> str:
+        """SI unit; "1" for counts and ratios."""
+        return UNITS[self.shown_unit].si or "1"
 
     @property
     def factor(self) -> float:
         """What a number in the shown unit is multiplied by to be one in SI."""
         return UNITS[self.shown_unit].factor
+
+    @property
+    def symbol_html(self) -> str:
+        """The symbol as HTML: "D<sub>b</sub>"."""
+        letter, _, below = self.symbol.partition("_")
+        return f"{letter}<sub>{below}</sub>" if below else letter
+
+    def range_for(self, scene: Any, value: float) -> Range:
+        """The range about a preset's scene, in which the field has `value` [shown unit]."""
+        return self.range if isinstance(self.range, Range) else self.range(scene, value)
+
+
+_SUFFIXES = {
+    "°": "deg", "µm": "um", "mm": "mm", "Hz": "hz", "GPa": "gpa",
+    "N": "n", "N·m": "nm", "g·mm": "g_mm",
+}  # fmt: skip
+"""Units that stand in the keys of fields; keys are in links that people have kept."""
+
+_FIRST = " Left empty it is that of the first row."
+
+# fmt: off
+_SCENE = (
+    Field("extent", "defect", "Extent", "Δφ_f", "°", "Defect", Range(0.0, 120.0, 0.1, 0.0, 360.0),
+          "How far the defect reaches along the race.", sweep_range=(2.0, 62.0)),
+    Field("depth", "defect", "Depth", "h", "µm", "Defect", Range(0.0, 500.0, 1.0, 0.0, 5000.0),
+          "How deep its floor lies. A ball reaches it only where the defect is long enough."),
+    Field("center", "defect", "Centre", "φ_f", "°", "Defect", Range(0.0, 360.0, 0.5),
+          "Where its middle is: 0° is right, 90° up, 270° down, where the weight of a rotor acts. "
+          "A defect of the inner race is there at cage angle 0 and turns with the shaft."),
+    Field("rms_height", "floor", "Roughness, RMS", "R_q", "µm", "Defect",
+          Range(0.0, 20.0, 0.1, 0.0, 500.0),
+          "Root mean square height of the rough floor about its depth."),
+    Field("correlation_length", "floor", "Correlation length", "l", "µm", "Defect",
+          Range(20.0, 2000.0, 10.0, 1.0, 20000.0),
+          "Distance along the race over which the correlation of the heights falls to 1/e."),
+    Field("seed", "floor", "Seed", "", "", "Defect", Range(0.0, 99.0, 1.0, 0.0, 2.0**31 - 1.0),
+          "Which of all rough floors of this kind: the same number is the same floor.",
+          whole=True),
+    Field("shaft_speed", "scene", "Shaft speed", "f_s", "Hz", "Turning",
+          Range(1.0, 100.0, 0.1, 0.0, 1000.0),
+          "Turns of the shaft a second. Static answers do not depend on it.",
+          sweep_range=(4.0, 60.0)),
+    Field("cage_angle", "", "Cage angle", "φ_c", "°", "Turning", Range(0.0, 360.0, 0.1),
+          "Where the first ball is. Play turns the bearing."),
+    Field("fx", "load", "Force, sideways", "F_x", "N", "Load", _force,
+          "Force on the inner ring towards 0°."),
+    Field("fy", "load", "Force, up", "F_y", "N", "Load", _force,
+          "Force on the inner ring towards 90°; negative is down, as a weight acts."),
+    Field("fz", "load", "Force, axial", "F_z", "N", "Load", _force,
+          "Force on the inner ring along the shaft."),
+    Field("unbalance", "scene", "Unbalance", "U", "g·mm", "Load", Range(0.0, 2000.0, 5.0, 0.0, 1e6),
+          "Mass of the rotor times how far its centre is off the shaft's axis: a force U·ω² turns "
+          "with the shaft. It moves the vibration; static answers leave it out."),
+    Field("mx", "load", "Moment about x", "M_x", "N·m", "Load", _moment,
+          "Moment on the inner ring that tilts the shaft up or down."),
+    Field("my", "load", "Moment about y", "M_y", "N·m", "Load", _moment,
+          "Moment on the inner ring that tilts the shaft sideways."),
+)
+
+_BEARING = (
+    Field("n_balls", "bearing", "Number of balls", "N_b", "", "Balls",
+          Range(3.0, 30.0, 1.0, 1.0, 100.0),
+          "How many balls share the load, equally spaced by the cage.", whole=True),
+    Field("ball_diameter", "bearing", "Ball diameter", "D_b", "mm", "Balls", _near,
+          "Diameter of a ball. With the pitch diameter it decides how fast the cage turns."),
+    Field("pitch_diameter", "bearing", "Pitch diameter", "D_p", "mm", "Balls", _near,
+          "Diameter of the circle on which the centres of the balls run."),
+    Field("roller_length", "bearing", "Roller length", "l", "mm", "Balls",
+          Range(1.0, 100.0, 0.1, 0.0, 1000.0),
+          "Length of a roller that lies on the races: the longer, the stiffer."),
+    Field("row_distance", "pair", "Distance of the rows", "a", "mm", "Rows",
+          Range(0.0, 100.0, 0.1, 0.0, 10_000.0),
+          "From the centre of one row of balls to that of the other, along the shaft."),
+    Field("preload", "pair", "Axial preload", "", "µm", "Rows", Range(0.0, 50.0, 0.1, 0.0, 1000.0),
+          "How far the inner grooves of both rows are pushed against each other along the shaft."),
+    Field("n_balls", "second", "Number of balls, row 2", "N_b2", "", "Second row",
+          Range(3.0, 30.0, 1.0, 1.0, 100.0),
+          "How many balls the second row has." + _FIRST, optional=True, whole=True),
+    Field("ball_diameter", "second", "Ball diameter, row 2", "D_b2", "mm", "Second row",
+          _near_first_row("ball_diameter"),
+          "Diameter of a ball of the second row; its grooves go with it." + _FIRST,
+          optional=True),
+    Field("pitch_diameter", "second", "Pitch diameter, row 2", "D_p2", "mm", "Second row",
+          _near_first_row("pitch_diameter"),
+          "Diameter of the circle on which the balls of the second row run." + _FIRST,
+          optional=True),
+    Field("contact_angle", "second", "Contact angle, row 2", "α_02", "°", "Second row",
+          Range(0.0, 45.0, 0.5, 0.0, 80.0),
+          "Contact angle of the second row, unloaded." + _FIRST, optional=True),
+    Field("outer_groove_radius", "bearing", "Outer groove radius", "r_o", "mm", "Drawing",
+          groove_range,
+          "Radius of the outer groove's cross-section; a little more than half a ball's diameter."),
+    Field("inner_groove_radius", "bearing", "Inner groove radius", "r_i", "mm", "Drawing",
+          groove_range,
+          "Radius of the inner groove's cross-section; the closer to the ball, the stiffer."),
+    Field("youngs_modulus", "bearing", "Young's modulus", "E", "GPa", "Drawing",
+          Range(60.0, 400.0, 1.0, 1.0, 1000.0),
+          "Stiffness of the material of balls and rings; steel has about 207 GPa."),
+    Field("poisson", "bearing", "Poisson's ratio", "ν", "", "Drawing",
+          Range(0.1, 0.45, 0.005, 0.0, 0.49),
+          "How much the material narrows as it is stretched; 0.3 for steel."),
+    Field("contact_angle", "bearing", "Contact angle", "α_0", "°", "Contact",
+          Range(0.0, 45.0, 0.5, 0.0, 80.0),
+          "Angle between the line through both contacts of an unloaded ball and the plane of the "
+          "balls. A bearing with one carries loads along the shaft."),
+    Field("groove_center_distance", "bearing", "Groove centre distance", "A_0", "µm", "Contact",
+          _near,
+          "Distance between the centres of curvature of the two grooves around an unloaded ball: "
+          "both groove radii together less a ball diameter."),
+    Field("groove_center_radius", "bearing", "Groove centre radius", "r_d", "mm", "Contact", _near,
+          "Radius of the circle on which the centres of the inner groove lie: the lever with which "
+          "a tilt of the ring moves a contact."),
+    Field("radial_clearance", "bearing", "Radial clearance", "r_L", "µm", "Contact",
+          Range(0.0, 50.0, 0.1, 0.0, 1000.0),
+          "How far the inner ring can move from the middle before a ball touches, on top of what "
+          "the contact angle stands for: half the diametral clearance of a drawing."),
+    Field("load_deflection_factor", "bearing", "Load-deflection factor", "K", "MN/m¹·⁵", "Contact",
+          _near,
+          "Stiffness of both contacts of a ball in series: the load is K times the compression to "
+          "the power of 1.5 (Hertz)."),
+    Field("outer_raceway_radius", "bearing", "Outer raceway radius", "R_o", "mm", "Races", _near,
+          "From the shaft's middle to the bottom of the outer groove, where defects are cut."),
+    Field("inner_raceway_radius", "bearing", "Inner raceway radius", "R_i", "mm", "Races", _near,
+          "From the shaft's middle to the bottom of the inner groove."),
+    Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "", _near,
+          "Mass of a ball over its volume; 7800 kg/m³ for steel."),
+)
+
+_BODIES = (
+    Field("inner_mass", "support", "Mass of the rotor", "m_i", "kg", "Bodies", _near,
+          "Inner ring with the shaft and what sits on it."),
+    Field("outer_mass", "support", "Mass of the housing", "m_o", "kg", "Bodies", _near,
+          "Outer ring with the housing, on which a sensor sits."),
+    Field("inner_inertia", "support", "Inertia of the rotor", "I_i", "g·m²", "Bodies", _near,
+          "Moment of inertia of the rotor against tilt. Needed only where the ring tilts.",
+          optional=True),
+    Field("outer_inertia", "support", "Inertia of the housing", "I_o", "g·m²", "Bodies", _near,
+          "Moment of inertia of the housing against tilt. Needed only where the ring tilts.",
+          optional=True),
+)
+
+_CONTACT_DAMPING = (
+    Field("contact_damping", "scene", "Contact damping", "c", "N·s/m", "Contact of a moving ball",
+          _near,
+          "Viscous damping of each loaded contact. Left empty it follows from the stiffness of the "
+          "healthy bearing: 10 µs times its radial stiffness a ball.", optional=True),
+)
+# fmt: on
+
+
+def _support(name: str, symbol: str, unit: str, tilt_unit: str, meaning: str) -> tuple[Field, ...]:
+    """The springs or dampers of the support along x, y, z and about x, y."""
+    made = []
+    for dof, words in (("x", "along x"), ("y", "along y"), ("z", "along z"),
+                       ("rx", "about x"), ("ry", "about y")):  # fmt: skip
+        tilts = dof.startswith("r")
+        made.append(
+            Field(
+                f"{name}_{dof}",
+                "support",
+                f"{name.capitalize()} {words}",
+                f"{symbol}_{dof.replace('r', 'θ')}",
+                tilt_unit if tilts else unit,
+                f"Support, {name}",
+                _near,
+                meaning + (" Against tilt." if tilts else ""),
+                optional=dof not in ("x", "y"),
+            )
+        )
+    return tuple(made)
+
+
+FIELDS: tuple[Field, ...] = (
+    *_SCENE,
+    *_BEARING,
+    *_BODIES,
+    *_support("stiffness", "k", "MN/m", "N·m/rad", "Spring between the housing and the ground."),
+    *_support("damping", "c", "N·s/m", "N·m·s/rad", "Damper between the housing and the ground."),
+    *_CONTACT_DAMPING,
+)
+"""All fields, in the order of the page."""
+
+FIELD_OF: Mapping[str, Field] = {field.name: field for field in reversed(FIELDS)}
+"""Fields by name; of a name that several parts have, the first of the page."""
+
+SCENE_PARTS = ("scene", "defect", "load", "bearing", "support")
+"""Parts whose fields `Scene.replace` changes."""

@@ -26,14 +26,15 @@ from bearing_explorer.plots.defect_words import extent_words
 from bearing_explorer.plots.element_words import row_words
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
-from bearing_explorer.state.quantities import defects_of, in_page_words, values_of
-from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
+from bearing_explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
+from bearing_explorer.state.sentences import words_of
 from bearing_explorer.views.base import View
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.still_figure import Figure
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
 from bearingcore import Scene
+from bearingcore.fields import Field
 from bearingcore.sweep.grid import program_version
 
 log = logging.getLogger(__name__)
@@ -76,7 +77,7 @@ def report(
         try:
             figure = Figure(kind, results, found=found.get(kind.name), computed=False)
         except ValueError as error:
-            why = f"Not shown for this scene: {in_page_words(str(error))}."
+            why = f"Not shown for this scene: {words_of(error)}."
             parts.append(_figure(kind, results, [], why))
             continue
         except Exception:
@@ -203,15 +204,17 @@ def _numbers(scene: Scene) -> Iterable[str]:
     """Tables of all numbers, a group each; those of defects once a defect."""
     facts = [[_text(f["label"]), f["symbol"], _text(f["value"])] for f in facts_of(scene)]
     yield "<h3>What follows from them</h3>" + _table(["Name", "Symbol", "Value"], facts)
-    groups = dict.fromkeys(q.group for q in QUANTITY_LIST if q.of in ("scene", "rows"))
+    groups = dict.fromkeys(q.group for q in SHOWN_FIELDS if q.part not in ("", "floor"))
     for group in groups:
         count = len(defects_of(scene)) if group == _DEFECT_GROUP else 1
         for number in range(count):
             values = values_of(scene, number)
             rows = [
-                _row(q, values[q.name])
-                for q in QUANTITY_LIST
-                if q.group == group and q.of in ("scene", "rows") and not math.isnan(values[q.name])
+                _row(q, values[q.key])
+                for q in SHOWN_FIELDS
+                if q.group == group
+                and q.part not in ("", "floor")
+                and not math.isnan(values[q.key])
             ]
             name = f"{group} {number + 1}" if count > 1 else group
             if rows:
@@ -219,9 +222,9 @@ def _numbers(scene: Scene) -> Iterable[str]:
                 yield f"<h3>{_text(name)}</h3>" + _table(head, rows)
 
 
-def _row(quantity: Quantity, value: float) -> list[str]:
+def _row(field: Field, value: float) -> list[str]:
     shown = f"{value:.9g}".replace("-", "−")
-    return [_text(quantity.label), quantity.symbol, _text(shown), _text(quantity.unit)]
+    return [_text(field.label), field.symbol_html, _text(shown), _text(field.shown_unit)]
 
 
 def _list(sentences: Iterable[str]) -> str:

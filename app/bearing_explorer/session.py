@@ -28,12 +28,12 @@ from bearing_explorer.serve.live import one_message, send_at_once
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
+from bearing_explorer.state.field_values import CAGE_ANGLE, Values
 from bearing_explorer.state.last_state import LastState
 from bearing_explorer.state.lessons import Fault, Lesson
-from bearing_explorer.state.quantities import Values, in_page_words
-from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
+from bearing_explorer.state.sentences import words_of
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.controls import Controls, Rows
@@ -306,7 +306,7 @@ class Explorer:
         finally:
             if self.bookmarks.follow(message):
                 self._show_share()
-            self.draw()  # even a refusal is answered, or the browser would wait for its mark
+            self.draw()  # even a sentence_of is answered, or the browser would wait for its mark
 
     def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
         """Take numbers; what is refused stays as it was, with a sentence.
@@ -671,7 +671,7 @@ def _drawing(results: Results, view: View) -> Drawing:
         words = str(wait)
         return Drawing(view, None, f"{words[0].upper()}{words[1:]}. {_DRAWN_LATER}")
     except ValueError as error:
-        return Drawing(view, None, f"Not shown for this scene: {in_page_words(str(error))}.")
+        return Drawing(view, None, f"Not shown for this scene: {words_of(error)}.")
     except Exception:
         log.exception("the view %s failed", view.name)
         return Drawing(view, None, _BROKEN)

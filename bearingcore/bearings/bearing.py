@@ -483,7 +483,8 @@ class Bearing:
             raise checks.refuse(
                 "radial_clearance",
                 self.radial_clearance,
-                f"at most {most:g} m, or the ring slips through along the shaft",
+                "at most {most:m}, or the ring slips through along the shaft",
+                most=most,
             )
         # half-angle form: sharp where α_f is small
         return 2.0 * math.asin(math.sqrt(0.25 * self.diametral_play / self.groove_center_distance))

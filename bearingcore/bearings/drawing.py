@@ -28,10 +28,7 @@ from typing import Any, NamedTuple
 from bearingcore.bearings.hertz import in_series, race_contact
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
-
-WIDEST_CONFORMITY = 0.6
-"""Groove radius over ball diameter up to which a groove is believed. Makers use 0.505 to 0.54,
-instrument bearings up to about 0.58."""
+from bearingcore.fields import WIDEST_CONFORMITY
 
 GREATEST_CONTACT_ANGLE = math.radians(80.0)
 """Beyond this a bearing is a thrust bearing, for which the radial clearance loses its meaning."""
@@ -76,7 +73,8 @@ def check_contact_angle(angle: float) -> float:
         angle,
         at_least=0.0,
         at_most=GREATEST_CONTACT_ANGLE,
-        unit="rad: 0 to 80 degrees",
+        unit="rad",
+        note="0 to 80 degrees",
     )
 
 
@@ -189,7 +187,8 @@ def check_clearance(
         diametral_clearance,
         at_least=0.0,
         at_most=most,
-        unit=f"m: more would need a free contact angle above "
+        unit="m",
+        note="more would need a free contact angle above "
         f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
     )
 

@@ -126,7 +126,7 @@ def race_contact(
     name = f"{race}_groove_radius"
     if not groove_radius > 0.5 * ball_diameter:
         raise checks.refuse(
-            name, groove_radius, f"above the ball radius of {0.5 * ball_diameter:g} m"
+            name, groove_radius, "above the ball radius of {radius:m}", radius=0.5 * ball_diameter
         )
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     side = 1.0 if race == "inner" else -1.0
@@ -139,7 +139,8 @@ def race_contact(
         raise checks.refuse(
             name,
             groove_radius,
-            f"below {1.0 / -around:g} m, the radius of the race itself, or it is no groove",
+            "below {most:m}, the radius of the race itself, or it is no groove",
+            most=1.0 / -around,
         )
     from scipy.special import ellipe, ellipkm1  # imported late, as scipy.special is slow to import
 

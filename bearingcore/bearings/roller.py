@@ -98,7 +98,8 @@ class Roller(Kind):
             raise checks.refuse(
                 "roller_length",
                 length,
-                "None, unless contact_angle is 0 with one row and no groove radii",
+                "None, unless {contact_angle} is 0 with one row and no groove radii",
+                contact_angle=bearing.contact_angle,
             )
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:

@@ -26,8 +26,9 @@ def number(
     above: float = -math.inf,
     below: float = math.inf,
     unit: str = "",
+    note: str = "",
 ) -> float:
-    """`value` as a finite float inside the given limits [unit].
+    """`value` as a finite float inside the given limits [unit]; `note` says why they are there.
 
     Raises
     ------
@@ -42,7 +43,7 @@ def number(
                 return x
     except (TypeError, ValueError, OverflowError):
         pass
-    raise FieldError(field, given, Interval(at_least, at_most, above, below), unit)
+    raise FieldError(field, given, Interval(at_least, at_most, above, below, note), unit)
 
 
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -18,51 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-
-SUFFIXES = {
-    "": "",
-    "1": "",
-    "m": "m",
-    "mm": "mm",
-    "µm": "um",
-    "rad": "rad",
-    "deg": "deg",
-    "mrad": "mrad",
-    "s": "s",
-    "ms": "ms",
-    "h": "h",
-    "Hz": "hz",
-    "rad/s": "rad_per_s",
-    "rpm": "rpm",
-    "N": "n",
-    "kN": "kn",
-    "N·m": "n_m",
-    "N/m": "n_per_m",
-    "N/rad": "n_per_rad",
-    "N·m/rad": "n_m_per_rad",
-    "m/s": "m_per_s",
-    "m/s²": "m_per_s2",
-    "rad/s²": "rad_per_s2",
-    "(m/s²)²/Hz": "m2_per_s4_per_hz",
-    "(rad/s²)²/Hz": "rad2_per_s4_per_hz",
-    "Pa": "pa",
-    "GPa": "gpa",
-    "dB": "db",
-}
-"""What a unit is called at the end of a name."""
-
-FACTORS = {
-    ("m", "mm"): 1e3,
-    ("m", "µm"): 1e6,
-    ("rad", "deg"): 180.0 / math.pi,
-    ("rad", "mrad"): 1e3,
-    ("s", "ms"): 1e3,
-    ("rad/s", "Hz"): 0.5 / math.pi,
-    ("rad/s", "rpm"): 30.0 / math.pi,
-    ("N", "kN"): 1e-3,
-    ("Pa", "GPa"): 1e-9,
-}
-"""What a number in the first unit is multiplied by to be one in the second."""
+from bearingcore.units import UNITS, factor_between
 
 READ_UNITS = {"rad": "deg", "m": "µm"}
 """What people read instead of radians and metres."""
@@ -91,7 +46,7 @@ class Column:
     @property
     def named(self) -> str:
         """Name and unit as one word: "cage_angle_deg"."""
-        suffix = SUFFIXES[self.unit]
+        suffix = UNITS[self.unit].suffix
         return f"{self.name}_{suffix}" if suffix else self.name
 
     def within(self, unit: str) -> Column:
@@ -104,9 +59,10 @@ class Column:
         """
         if unit == self.unit:
             return self
-        factor = FACTORS.get((self.unit, unit))
+        factor = factor_between(self.unit, unit)
         if factor is None:
-            known = ", ".join([self.unit, *(to for of, to in FACTORS if of == self.unit)])
+            si = UNITS[self.unit].si
+            known = ", ".join(name for name, other in UNITS.items() if other.si == si)
             raise checks.refuse(f"unit of {self.name}", unit, known)
         return Column(self.name, unit, self.values * factor, self.meaning)
 

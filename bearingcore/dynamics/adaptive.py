@@ -16,6 +16,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.motion import Motion
 from bearingcore.dynamics.problem import Array, MotionProblem, motion_problem
+from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene.scene import Scene
 
 MOST_CALLS = 200_000_000
@@ -122,10 +123,10 @@ def simulate_adaptive(
         dofs=problem.dofs,
         sample_rate=sample_rate,
         step_rate=march.step_rate,
-        completed=not march.failure,
-        status=march.failure or "completed",
+        status=MotionStatus.STEP_VANISHED if march.failure else MotionStatus.COMPLETED,
         right_hand_side_calls=march.calls,
         time=np.arange(n) / sample_rate,
         ball_load=None,
         history=march.history,
+        detail=march.failure and f": {march.failure}",
     )

@@ -155,7 +155,7 @@ def compare_motions(
     for motion in (massless, with_mass):
         if not motion.completed:
             balls = motion.scene.balls
-            raise checks.refuse("scene", motion.status, f"one that moves with balls {balls}")
+            raise checks.refuse("scene", motion.reason, f"one that moves with balls {balls}")
         powers.append(band_powers(motion, edges))
     with np.errstate(divide="ignore", invalid="ignore"):
         added = 10.0 * np.log10(powers[1] / powers[0])

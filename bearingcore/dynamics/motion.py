@@ -22,6 +22,7 @@ from bearingcore.dynamics.ball_motion import (
     place_parts,
 )
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
+from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene import packing
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
@@ -44,9 +45,6 @@ minutes of marching in two directions, hours in five."""
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
-TOO_MANY_STEPS = "too many steps"
-"""How the status of a motion begins that was not begun, as it would have taken too long."""
-
 
 @dataclass(frozen=True)
 class Motion:
@@ -56,9 +54,10 @@ class Motion:
     ----------
     scene, dofs, sample_rate [Hz], step_rate [Hz]
         what was simulated and how.
-    completed
-        True where the motion stayed finite to its end; `status` says it in words. A motion that
-        did not is NaN from where it broke off.
+    status
+        how it ended. A motion that is not completed is NaN from where it broke off.
+    detail
+        numbers of a status that has some, in words to stand behind it.
     right_hand_side_calls
         how often the accelerations were evaluated.
     time : (n,) [s]
@@ -78,13 +77,23 @@ class Motion:
     dofs: tuple[str, ...]
     sample_rate: float
     step_rate: float
-    completed: bool
-    status: str
+    status: MotionStatus
     right_hand_side_calls: int
     time: NDArray[np.float64]
     ball_load: NDArray[np.float64] | None
     history: NDArray[np.float64] = field(repr=False)
     ball_place: NDArray[np.float64] | None = field(default=None, repr=False)
+    detail: str = ""
+
+    @property
+    def completed(self) -> bool:
+        """True where the motion stayed finite to its end."""
+        return self.status is MotionStatus.COMPLETED
+
+    @property
+    def reason(self) -> str:
+        """Status and detail in words: "diverged after 0.2 s: 4096 steps a second are too few"."""
+        return f"{self.status}{self.detail}"
 
     @cached_property
     def cage_angle(self) -> NDArray[np.float64]:
@@ -308,15 +317,15 @@ def simulate(
         nothing = np.broadcast_to(
             np.float64(math.nan), (n if with_mass else n_steps + 1, 6, len(dofs))
         )
-        status = (
-            f"{TOO_MANY_STEPS}: {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
+        detail = (
+            f": {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
             f"allowed are most_steps = {thousands(most_steps)}"
         )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
         return Motion(
-            scene, dofs, sample_rate, step_rate, False, status, 0, time,
+            scene, dofs, sample_rate, step_rate, MotionStatus.TOO_MANY_STEPS, 0, time,
             np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
-            nowhere if with_mass else None,
+            nowhere if with_mass else None, detail,
         )  # fmt: skip
     h = 1.0 / step_rate
     stride, place = 1, None
@@ -330,32 +339,33 @@ def simulate(
     if y is None:
         history[:] = math.nan
         reason = equilibrium(scene, [0.0], dofs).reason(0)
-        done, status = 0, f"no static state to start from: {reason}"
+        done, status, detail = 0, MotionStatus.NO_START, f": {reason}"
     else:
         if place is None:
             done = march_from(scene, y, h, history)
         else:
             system = ball_system(scene, dofs)
             done = int(kernels.march_balls(y, h, 0.0, stride, system, history, place))
-        status = "completed"
+        status, detail = MotionStatus.COMPLETED, ""
         if done < n_steps:
             history[done // stride + 1 :] = math.nan
             if place is not None:
                 place[done // stride + 1 :] = math.nan
             rate = thousands(step_rate)
-            status = f"diverged after {number(done * h)} s: {rate} steps a second are too few"
+            status = MotionStatus.DIVERGED
+            detail = f" after {number(done * h)} s: {rate} steps a second are too few"
     motion = Motion(
         scene=scene,
         dofs=dofs,
         sample_rate=sample_rate,
         step_rate=step_rate,
-        completed=status == "completed",
         status=status,
         right_hand_side_calls=4 * done,
         time=time,
         ball_load=None,
         history=history,
         ball_place=place,
+        detail=detail,
     )
     return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
 
@@ -411,7 +421,7 @@ def too_many_in_all(steps: float, where: str, most: int) -> str:
     if steps <= most:
         return ""
     return (
-        f"{TOO_MANY_STEPS}: about {thousands(steps)} {where}, allowed are "
+        f"{MotionStatus.TOO_MANY_STEPS}: about {thousands(steps)} {where}, allowed are "
         f"most_steps_in_all = {thousands(most)}"
     )
 

@@ -26,23 +26,15 @@ from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
-    TOO_MANY_STEPS,
     default_step_rate,
     hermite_weights,
     moving_system,
     static_start,
 )
+from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.spectrum import Spectrum
-
-STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START = (
-    "stable orbit",
-    "unstable orbit",
-    "not converged",
-    "no common period",
-    "no static state to start from",
-)
 
 MOST_BALL_PASSES = 400
 """The longest common period, in ball passes, that is looked for."""
@@ -66,8 +58,7 @@ class Orbit:
     scene, dofs
         what moves, in which directions.
     status
-        "stable orbit", "unstable orbit", "not converged", "no common period" (then nothing was
-        tried), "no static state to start from" or "too many steps".
+        how the search ended; nothing is tried where there is no common period.
     through
         for an unstable orbit, how its largest multiplier leaves the unit circle: "+1" (the motion
         drifts off to another orbit), "-1" (every second period alike: period-doubling) or "pair"
@@ -89,7 +80,7 @@ class Orbit:
 
     scene: Scene
     dofs: tuple[str, ...]
-    status: str
+    status: OrbitStatus
     through: str
     period: float
     ball_passes: int
@@ -103,7 +94,7 @@ class Orbit:
     @property
     def stable(self) -> bool:
         """True where the orbit was found and disturbances of it die out."""
-        return self.status == STABLE
+        return self.status == OrbitStatus.STABLE
 
     @property
     def largest_multiplier(self) -> float:
@@ -258,7 +249,7 @@ def orbit(
         if shortest is None or ball_passes % shortest:
             ball_passes = 0
     nothing = Orbit(
-        scene, dofs, NO_PERIOD, "", math.nan, ball_passes, np.zeros(0, complex),
+        scene, dofs, OrbitStatus.NO_PERIOD, "", math.nan, ball_passes, np.zeros(0, complex),
         math.nan, 0, 0, np.full((2, 6, len(dofs)), math.nan),
     )  # fmt: skip
     if ball_passes == 0:
@@ -270,21 +261,21 @@ def orbit(
     if 2 * steps > most_steps:
         most = thousands(most_steps)
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
-        return replace(nothing, status=TOO_MANY_STEPS, period=period, cost=cost)
+        return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
     shooting = _Shooting(scene, dofs, period, steps, give_up, most_steps)
     y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)
     if y is None:
-        return replace(nothing, status=NO_START, period=period)
+        return replace(nothing, status=OrbitStatus.NO_START, period=period)
     y = shooting.own(y)
     if start is not None:
         found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != NOT_CONVERGED or shooting.given_up:
+        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             return shooting.reported(found)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.marched(y, periods)
         found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != NOT_CONVERGED or shooting.given_up:
+        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
     return shooting.reported(found)
 
@@ -307,15 +298,15 @@ def common_ball_passes(scene: Scene) -> int | None:
 
     The balls of a row are alike after one of its own passes: for each pass of the bearing's balls
     those of a row with a number or a cage of its own have made another part of one, and must have
-    come round by whole ones. So must a defect of the inner race, by whole turns: it has turned
-    (2π/N_b)·ω_s/ω_c for each.
+    come round by whole ones. So must a defect of the inner race and an unbalance, by whole turns:
+    the shaft has turned (2π/N_b)·ω_s/ω_c for each.
     """
     bearing = scene.bearing
     rounds = {
         bearing.pace(k) * bearing.of_row(k).n_balls / bearing.n_balls
         for k in range(len(bearing.all_rows))
     }
-    if any(defect.race == "inner" for defect in scene.defects):
+    if scene.unbalance > 0.0 or any(defect.race == "inner" for defect in scene.defects):
         rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
     passes = 1
     for turned in rounds:
@@ -388,13 +379,13 @@ class _Shooting:
 
     def reported(self, found: Orbit) -> Orbit:
         """What was found; that it was given up for its cost, where it was."""
-        if found.status != NOT_CONVERGED or not self._too_many:
+        if found.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
             return found
         cost = (
             f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
             f"most_steps = {self._most_steps}"
         )
-        return replace(found, status=TOO_MANY_STEPS, cost=cost)
+        return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
         """|P(y) − y| over the size of the motion between."""
@@ -432,7 +423,7 @@ def _newton(
         y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
     found = replace(
         nothing,
-        status=NOT_CONVERGED,
+        status=OrbitStatus.NOT_CONVERGED,
         period=period,
         residual=miss,
         iterations=iterations,
@@ -448,7 +439,7 @@ def _newton(
         through = "pair" if abs(largest.imag) > 1e-9 else ("+1" if largest.real > 0.0 else "-1")
     return replace(
         found,
-        status=STABLE if abs(largest) < 1.0 else UNSTABLE,
+        status=OrbitStatus.STABLE if abs(largest) < 1.0 else OrbitStatus.UNSTABLE,
         through=through,
         multipliers=multipliers.astype(complex),
         history=shooting.history,

@@ -18,12 +18,12 @@ from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
     MOST_STEPS_IN_ALL,
-    TOO_MANY_STEPS,
     default_step_rate,
     simulate,
     too_many_in_all,
 )
 from bearingcore.dynamics.orbit import Orbit, orbit
+from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene.scene import MASSLESS, Scene
 from bearingcore.signals.spectrum import spectrum
 
@@ -66,7 +66,7 @@ class SpeedRun:
     from_orbit: NDArray[np.bool_]
     bands: dict[str, tuple[float, float]]
     completed: bool
-    refusals: dict[int, str] = field(default_factory=dict)
+    refusals: dict[int, ValueError] = field(default_factory=dict)
     cost: str = ""
 
     def table(self) -> ResultTable:
@@ -169,7 +169,7 @@ def speed_run(
     density = np.full(shape, math.nan)
     proven = np.zeros(speeds.size, dtype=bool)
     nearby: Orbit | None = None
-    refusals: dict[int, str] = {}
+    refusals: dict[int, ValueError] = {}
     done, left = 0, most_steps_in_all
     for i in in_turn(
         range(speeds.size),
@@ -194,16 +194,16 @@ def speed_run(
             may_take = max(min(most_steps, left), 1)
             motion = simulate(at, lasting, sample_rate, most_steps=may_take)
             left -= motion.right_hand_side_calls // 4
-            if motion.status.startswith(TOO_MANY_STEPS):
-                raise ValueError(motion.status)
+            if motion.status is MotionStatus.TOO_MANY_STEPS:
+                raise ValueError(motion.reason)
         except ValueError as error:
-            refusals[i] = str(error)
+            refusals[i] = error
             continue
         late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
         if np.all(np.isfinite(late)):
             density[i] = spectrum(late, sample_rate, resolution).density
     if len(refusals) == speeds.size:
-        raise ValueError(refusals[0])
+        raise refusals[0]
     return run_of(
         density,
         from_orbit=proven,
@@ -213,7 +213,7 @@ def speed_run(
     )
 
 
-_NONE_LEFT = TOO_MANY_STEPS + ": none is left of most_steps_in_all = {}"
+_NONE_LEFT = MotionStatus.TOO_MANY_STEPS + ": none is left of most_steps_in_all = {}"
 
 
 def _steps_of_marching(

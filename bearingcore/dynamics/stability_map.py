@@ -16,27 +16,17 @@ from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.motion import (
     MOST_STEPS,
     MOST_STEPS_IN_ALL,
-    TOO_MANY_STEPS,
     too_many_in_all,
 )
 from bearingcore.dynamics.orbit import (
-    NO_PERIOD,
-    NO_START,
-    NOT_CONVERGED,
-    STABLE,
-    UNSTABLE,
     Orbit,
     least_steps,
     orbit,
 )
+from bearingcore.dynamics.status import MapOutcome, OrbitStatus
 from bearingcore.scene.scene import Scene
 
-REFUSED = "refused"
-
-OUTCOMES = (
-    *(STABLE, UNSTABLE, NOT_CONVERGED, NO_PERIOD, NO_START, REFUSED, "not computed"),
-    TOO_MANY_STEPS,
-)
+OUTCOMES = tuple(MapOutcome)
 """What the codes of `StabilityMap.outcome` mean."""
 
 
@@ -75,7 +65,7 @@ class StabilityMap:
     outcome: NDArray[np.int8]
     through: NDArray[np.str_]
     completed: bool
-    refusals: dict[tuple[int, int], str] = field(default_factory=dict)
+    refusals: dict[tuple[int, int], ValueError] = field(default_factory=dict)
     cost: str = ""
 
     def table(self) -> ResultTable:
@@ -136,13 +126,13 @@ def stability_map(
         raise checks.refuse("the fields of a map", x_field, "two different names")
     shape = (y_values.size, x_values.size)
     multiplier = np.full(shape, math.nan)
-    outcome = np.full(shape, OUTCOMES.index("not computed"), dtype=np.int8)
+    outcome = np.full(shape, OUTCOMES.index(MapOutcome.NOT_COMPUTED), dtype=np.int8)
     through = np.full(shape, "", dtype="<U4")
-    refusals: dict[tuple[int, int], str] = {}
+    refusals: dict[tuple[int, int], ValueError] = {}
     steps = _least_of_all(scene, (x_field, x_values), (y_field, y_values), ball_passes)
     cost = too_many_in_all(steps, f"at {multiplier.size} points", most_steps_in_all)
     if cost:
-        outcome[:] = OUTCOMES.index(TOO_MANY_STEPS)
+        outcome[:] = OUTCOMES.index(MapOutcome.TOO_MANY_STEPS)
         return StabilityMap(
             scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, False,
             cost=cost,
@@ -161,7 +151,7 @@ def stability_map(
                 break
             done += 1
             if left < 1:
-                outcome[j, i] = OUTCOMES.index(TOO_MANY_STEPS)
+                outcome[j, i] = OUTCOMES.index(MapOutcome.TOO_MANY_STEPS)
                 continue
             try:
                 at = scene.replace(**{x_field: float(value), y_field: float(y_values[j])})
@@ -169,17 +159,17 @@ def stability_map(
                     at, start=nearby, ball_passes=ball_passes, most_steps=min(most_steps, left)
                 )
             except ValueError as error:
-                outcome[j, i] = OUTCOMES.index(REFUSED)
-                refusals[j, i] = str(error)
+                outcome[j, i] = OUTCOMES.index(MapOutcome.REFUSED)
+                refusals[j, i] = error
                 continue
             left -= found.right_hand_side_calls // 4
             multiplier[j, i] = found.largest_multiplier
-            outcome[j, i] = OUTCOMES.index(found.status)
+            outcome[j, i] = OUTCOMES.index(MapOutcome(found.status))
             through[j, i] = found.through
-            nearby = found if found.status in (STABLE, UNSTABLE) else None
+            nearby = found if found.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE) else None
             above = above or nearby
     if len(refusals) == multiplier.size:
-        raise ValueError(refusals[0, 0])
+        raise refusals[0, 0]
     completed = not stopped and done == multiplier.size
     return StabilityMap(
         scene, x_field, y_field, x_values, y_values, multiplier, outcome, through, completed,
@@ -218,7 +208,7 @@ def _axis(scene: Scene, axis: tuple[str, ArrayLike]) -> tuple[str, NDArray[np.fl
 def regions(found: StabilityMap) -> Sequence[str]:
     """In sentences, what the map shows: how much of it is stable, and how the rest loses it."""
     size = found.multiplier.size
-    sentences = [f"{found.count(STABLE)} of {size} points have a stable orbit."]
+    sentences = [f"{found.count(MapOutcome.STABLE)} of {size} points have a stable orbit."]
     for how, words in (
         ("-1", "lose it by doubling their period: lines appear at half the ball-pass frequency"),
         ("pair", "lose it to a second frequency: every line gets neighbours"),
@@ -227,15 +217,15 @@ def regions(found: StabilityMap) -> Sequence[str]:
         n = int(np.sum(found.through == how))
         if n:
             sentences.append(f"{n} {words}.")
-    lost = found.count(NOT_CONVERGED)
+    lost = found.count(MapOutcome.NOT_CONVERGED)
     if lost:
         sentences.append(f"At {lost} shooting finds no orbit; there the motion must be marched.")
-    long = found.count(TOO_MANY_STEPS)
+    long = found.count(MapOutcome.TOO_MANY_STEPS)
     if long:
         sentences.append(f"At {long} the search would take more steps than allowed.")
-    refused = found.count(REFUSED)
+    refused = found.count(MapOutcome.REFUSED)
     if refused:
-        reasons = sorted(set(found.refusals.values()))
+        reasons = sorted({str(error) for error in found.refusals.values()})
         verb = "is" if refused == 1 else "are"
         sentences.append(f"{refused} {verb} refused, as there is no such scene: {reasons[0]}.")
     return sentences

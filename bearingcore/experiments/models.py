@@ -143,7 +143,7 @@ class _Models:
         told = simulate(scene, self.duration, self.sample_rate)
         words = f"{told.step_rate:.0f} steps/s"
         if not told.completed:
-            return failed(model, words, told.step_rate, told.status, seconds)
+            return failed(model, words, told.step_rate, told.reason, seconds)
         errors = self._errors(against, motion[:, :2], told.inner_displacement[:, :2])
         return Point(
             model, words, told.step_rate, errors, seconds, runs, told.right_hand_side_calls,
@@ -193,7 +193,7 @@ class _Models:
         signal = told.outer_acceleration[first:, :2]
         first_time = time.perf_counter() - start
         if not told.completed:
-            return failed("transient", "", math.nan, told.status, first_time)
+            return failed("transient", "", math.nan, told.reason, first_time)
         _, seconds, runs = least_time(
             lambda: simulate(self.scene, self.duration, self.sample_rate).outer_acceleration
         )

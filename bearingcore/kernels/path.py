@@ -236,7 +236,20 @@ def lay_out_drops(cage, contacts, path, d, slope):
 def new_passage(instants, n):
     """An empty `Passage` of n contacts."""
     shape = (instants, n)
-    return Passage(np.empty(shape), np.empty(shape), np.zeros(shape), np.zeros(shape))
+    return Passage(
+        np.empty(shape), np.empty(shape), np.zeros(shape), np.zeros(shape), np.zeros((instants, 5))
+    )
+
+
+@borrowing
+def lay_out_unbalance(start, turn, count, rotor, passage):
+    """Force of the unbalance at `count` cage angles start + i·turn [rad], into a passage."""
+    if rotor.unbalance == 0.0:
+        return
+    for i in range(count):
+        shaft = rotor.shaft_pace * (start + i * turn)
+        passage.push[i, 0] = rotor.unbalance * math.cos(shaft)
+        passage.push[i, 1] = rotor.unbalance * math.sin(shaft)
 
 
 @compiled

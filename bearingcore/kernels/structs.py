@@ -97,15 +97,21 @@ class Place(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Where the balls are at some instants, each array (instants, n).
+    """Where the balls are at some instants, and what turns with the shaft.
 
-    Cosine, sine, drop [m] and its rate [m/s].
+    Attributes
+    ----------
+    c, s, d [m], d_rate [m/s] : (instants, n)
+        cosine, sine, drop and its rate.
+    push : (instants, 5) [N]
+        of the unbalance on the inner ring; zero in directions other than x and y.
     """
 
     c: Array
     s: Array
     d: Array
     d_rate: Array
+    push: Array
 
 
 class StaticLoad(NamedTuple):
@@ -197,6 +203,10 @@ class Rotor(NamedTuple):
         `VELOCITIES`, `SMOOTH` or `PLANAR`: what is marched.
     tension
         whether the damper may draw a ball back, as published.
+    unbalance [N]
+        U ω_s², the force that turns with the shaft.
+    shaft_pace
+        how fast the shaft turns, over the cage.
     """
 
     force: Array
@@ -209,6 +219,8 @@ class Rotor(NamedTuple):
     contact_damping: float
     variables: int
     tension: bool
+    unbalance: float
+    shaft_pace: float
 
 
 class System(NamedTuple):

@@ -132,7 +132,8 @@ class Defect:
             raise checks.refuse(
                 "depth",
                 self.depth,
-                f"at most the ball radius of {least:g} m, or no ball rolls over the edge",
+                "at most the ball radius of {radius:m}, or no ball rolls over the edge",
+                radius=least,
             )
 
     def check_row(self, bearing: Bearing) -> None:

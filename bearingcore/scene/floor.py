@@ -71,7 +71,9 @@ class RoughFloor:
             raise checks.refuse(
                 "correlation_length",
                 self.correlation_length,
-                f"at least {least:.3g} m on a defect that is {length:.3g} m long",
+                "at least {least:m} on a defect that is {length:m} long",
+                least=least,
+                length=length,
             )
 
     def surface(

@@ -183,6 +183,8 @@ def rotor(
         contact_damping=float(contact_damping),
         variables=variables,
         tension=published,
+        unbalance=float(scene.unbalance * scene.shaft_speed**2),
+        shaft_pace=1.0 / scene.bearing.cage_ratio,
     )
 
 

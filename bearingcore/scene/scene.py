@@ -54,6 +54,9 @@ class Scene:
     balls
         "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
         the centrifugal load of each ball at the scene's speed.
+    unbalance
+        U = m·e [kg·m] of the rotor, at least 0: of simulated motions, on whose inner ring the force
+        U ω_s² turns with the shaft, along x at cage angle 0. Static answers leave it out.
 
     Raises
     ------
@@ -70,12 +73,14 @@ class Scene:
     contact_law: str = "published"
     dofs: tuple[str, ...] | None = None
     balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
+    unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
         def keep(name: str, value: object) -> None:
             object.__setattr__(self, name, value)
 
         keep("shaft_speed", checks.number("shaft_speed", self.shaft_speed, at_least=0.0))
+        keep("unbalance", checks.number("unbalance", self.unbalance, at_least=0.0, unit="kg·m"))
         if self.contact_damping is not None:
             keep(
                 "contact_damping",

@@ -258,8 +258,9 @@ def film(
             checks.number(
                 f"roughness_{race}",
                 value,
+                at_least=0.0,
+                above=-math.inf if ball > 0.0 else 0.0,
                 unit="m",
-                **({"at_least": 0.0} if ball > 0.0 else {"above": 0.0}),
             ),
             ball,
         )

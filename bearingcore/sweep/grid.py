@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
+from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.life import race_ratings
@@ -53,55 +54,14 @@ TRIED = 64
 LONGEST_ROW = 128
 """Extents that are solved together at the most."""
 
-UNITS = {
-    "n_balls": "1",
-    "ball_diameter": "m",
-    "pitch_diameter": "m",
-    "contact_angle": "rad",
-    "groove_center_radius": "m",
-    "groove_center_distance": "m",
-    "radial_clearance": "m",
-    "load_deflection_factor": "N/m^1.5",
-    "outer_raceway_radius": "m",
-    "inner_raceway_radius": "m",
-    "inner_groove_radius": "m",
-    "outer_groove_radius": "m",
-    "youngs_modulus": "Pa",
-    "poisson": "1",
-    "roller_length": "m",
-    "density": "kg/m³",
-    "extent": "rad",
-    "depth": "m",
-    "center": "rad",
-    "race": "",
-    "edge": "",
-    "fx": "N",
-    "fy": "N",
-    "fz": "N",
-    "mx": "N·m",
-    "my": "N·m",
-    "inner_mass": "kg",
-    "outer_mass": "kg",
-    "stiffness_x": "N/m",
-    "stiffness_y": "N/m",
-    "stiffness_z": "N/m",
-    "stiffness_rx": "N·m/rad",
-    "stiffness_ry": "N·m/rad",
-    "damping_x": "N·s/m",
-    "damping_y": "N·s/m",
-    "damping_z": "N·s/m",
-    "damping_rx": "N·m·s/rad",
-    "damping_ry": "N·m·s/rad",
-    "inner_inertia": "kg·m²",
-    "outer_inertia": "kg·m²",
-    "shaft_speed": "rad/s",
-    "contact_damping": "N·s/m",
-    "contact_law": "",
-    "balls": "",
-}
+WORDS = ("race", "edge", "contact_law", "balls")
+"""Fields of words that a sweep can go over."""
+
+UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS} | dict.fromkeys(
+    WORDS, ""
+)
 """What a sweep can go over, and the unit of each; words have none."""
 
-_WORDS = {name for name, unit in UNITS.items() if not unit}
 _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
 
 Region = tuple[slice, ...]
@@ -201,7 +161,7 @@ class Grid:
     def values_at(self, index: Sequence[int]) -> dict[str, Any]:
         """What the axes say at an index."""
         return {
-            axis.name: axis.values[i].item() if axis.name not in _WORDS else str(axis.values[i])
+            axis.name: axis.values[i].item() if axis.name not in WORDS else str(axis.values[i])
             for axis, i in zip(self.axes, index, strict=True)
         }
 
@@ -324,9 +284,10 @@ class Grid:
                 if axis.name in ("extent", "depth")
             }
             if not _or_none(self.scene, largest, lambda scene: scene.defects):
-                raise ValueError(
-                    f"the sweep goes over {of_defect[0]}, but the scenes have no defect: "
-                    "its extent or depth is zero"
+                raise checks.refuse(
+                    "over",
+                    of_defect[0],
+                    "fields of the scenes, which have no defect here: its extent or depth is zero",
                 )
         # where none of many scenes, spread over the grid, can be, it is not the scenes' doing
         spread = np.random.default_rng(0).integers(self.size, size=TRIED)
@@ -354,7 +315,7 @@ class Grid:
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
         if set(self.needs) & {MOTION, ORBIT, MASS} and scene.shaft_speed == 0.0:
-            raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion or an orbit")
+            raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
 
     # ---------------------------------------------------------------------------- in words
 
@@ -388,12 +349,12 @@ def _axis(name: object, given: Any) -> Axis:
     if name not in UNITS:
         raise checks.refuse("field in over", _short(name), ", ".join(UNITS))
     assert isinstance(name, str)
-    kind = "words" if name in _WORDS else "numbers"
+    kind = "words" if name in WORDS else "numbers"
     allowed = f"1 to {MOST_VALUES:,} different {kind}"
     values = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
     if not 1 <= len(values) <= MOST_VALUES:
         raise checks.refuse(f"number of values of {name}", len(values), allowed)
-    if name in _WORDS:
+    if name in WORDS:
         if not all(isinstance(value, str) for value in values):
             raise checks.refuse(f"values of {name}", _short(given), allowed)
         array = np.array([str(value) for value in values])
@@ -401,7 +362,7 @@ def _axis(name: object, given: Any) -> Axis:
         if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
             raise checks.refuse(f"values of {name}", _short(given), allowed)
         array = np.array([checks.number(f"value of {name}", value) for value in values])
-        if name == "n_balls":
+        if FIELD_OF[name].whole:
             array = np.array(
                 [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]
             )

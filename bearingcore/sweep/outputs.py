@@ -17,14 +17,12 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.modes import undamped_bands
-from bearingcore.dynamics.motion import TOO_MANY_STEPS, simulate
+from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import (
-    NO_PERIOD,
-    NO_START,
-    NOT_CONVERGED,
     orbit,
 )
 from bearingcore.dynamics.speed_run import SETTLING
+from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
@@ -84,10 +82,17 @@ _FROM_KERNELS = {
 }
 _STATIC_CODES = np.array([_CODE[_FROM_KERNELS[code]] for code in sorted(_FROM_KERNELS)], np.int8)
 _FROM_ORBIT = {
-    NOT_CONVERGED: "orbit_not_converged",
-    NO_PERIOD: "no_common_period",
-    NO_START: "no_static_start",
-    TOO_MANY_STEPS: "too_many_steps",
+    OrbitStatus.NOT_CONVERGED: "orbit_not_converged",
+    OrbitStatus.NO_PERIOD: "no_common_period",
+    OrbitStatus.NO_START: "no_static_start",
+    OrbitStatus.TOO_MANY_STEPS: "too_many_steps",
+}
+_FROM_MOTION = {
+    MotionStatus.COMPLETED: "complete",
+    MotionStatus.NO_START: "no_static_start",
+    MotionStatus.TOO_MANY_STEPS: "too_many_steps",
+    MotionStatus.DIVERGED: "motion_diverged",
+    MotionStatus.STEP_VANISHED: "motion_diverged",
 }
 
 MODE = "mode"
@@ -456,9 +461,4 @@ def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> str:
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()
-    if motion.completed:
-        return "complete"
-    for begins, code in ((NO_START, "no_static_start"), (TOO_MANY_STEPS, "too_many_steps")):
-        if motion.status.startswith(begins):
-            return code
-    return "motion_diverged"
+    return _FROM_MOTION[motion.status]

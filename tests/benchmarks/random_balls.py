@@ -108,7 +108,7 @@ def motion_faults(scene: Scene, rng: np.random.Generator) -> tuple[str, str]:
     known = np.isfinite(motion.outer_acceleration).all(axis=1)
     if not motion.completed:
         silent = known.any() and not known[: int(known.sum())].all()
-        outcome = motion.status.split(":")[0].split(" after ")[0]
+        outcome = motion.status
         return outcome, "numbers after the end" if silent or known.all() else ""
     if not known.all():
         return "completed", "NaN in a motion that is said to be complete"

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.state.choice_list import CHOICE_LIST
-from bearing_explorer.state.quantity_list import QUANTITY_LIST
+from bearing_explorer.state.field_values import SHOWN_FIELDS
 
 from tests.fuzz.inputs import NUMBERS, TOKENS, plain_value, text_like
 
@@ -25,8 +25,8 @@ LARGEST = 3_500_000
 _FILE = {"name": "a.csv", "text": "0 1\n1 2\n2 3"}
 
 GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
-    *(("Controls", {"mark": 1, "set": {one.name: 1.0}}) for one in QUANTITY_LIST),
-    *(("Controls", {"mark": 1, "typed": {one.name: "1.5"}}) for one in QUANTITY_LIST),
+    *(("Controls", {"mark": 1, "set": {one.key: 1.0}}) for one in SHOWN_FIELDS),
+    *(("Controls", {"mark": 1, "typed": {one.key: "1.5"}}) for one in SHOWN_FIELDS),
     *(
         ("Controls", {"mark": 1, "choose": {one.name: option.name}})
         for one in CHOICE_LIST
@@ -108,7 +108,7 @@ def broken(random_: random.Random, value: Any) -> Any:
 
 def quantities(random_: random.Random) -> dict[Any, Any]:
     """Some of the quantities of a scene, with what belongs there and what does not."""
-    names = [random_.choice(QUANTITY_LIST).name for _ in range(random_.choice((1, 2, 6, 40)))]
+    names = [random_.choice(SHOWN_FIELDS).key for _ in range(random_.choice((1, 2, 6, 40)))]
     return {
         name: random_.choice((random_.uniform(-500, 500), broken(random_, 1.0))) for name in names
     }

@@ -149,7 +149,7 @@ def recorded_through(
     start = SETTLING + float(rng.uniform(0.05, 0.25))
     motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate)
     if not motion.completed:
-        raise checks.refuse("scene", motion.status, "one whose motion can be simulated")
+        raise checks.refuse("scene", motion.reason, "one whose motion can be simulated")
     directions = tuple(name for name in DIRECTIONS if name in motion.dofs)
     columns = [motion.dofs.index(name) for name in directions]
     count = round(duration * sample_rate)

@@ -50,7 +50,7 @@ def simulated_recording(
         raise checks.refuse("dofs", scene.active_dofs, "x or y among them, where sensors stand")
     motion = simulate(scene, SETTLING + duration, sample_rate)
     if not motion.completed:
-        raise checks.refuse("scene", motion.status, "one whose motion can be simulated")
+        raise checks.refuse("scene", motion.reason, "one whose motion can be simulated")
     columns = [motion.dofs.index(name) for name in directions]
     signal = motion.outer_acceleration[-max(round(duration * sample_rate), 1) :, columns]
     if noise > 0.0:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.executors import JOBS
 from bearing_explorer.results.jobs import Change
-from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, diagnose
 
 log = logging.getLogger(__name__)
@@ -76,7 +76,7 @@ def answered(question: Question) -> Diagnosis | str:
             question.measured.recording, question.bearing, question.shaft_speed, slip=SLIP
         )
     except ValueError as error:
-        return refusal(error).replace("_", " ")
+        return sentence_of(error)
     except Exception:
         log.exception("a diagnosis failed")
         return FAILED

@@ -22,6 +22,7 @@ import numpy as np
 from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
 from bearingcore.common.numbers import number, span, with_prefix
+from bearingcore.errors import FieldError
 from bearingcore.files.contents import NOTHING_SAYS
 from bearingcore.files.facts import Finding
 from bearingcore.files.units import (
@@ -289,7 +290,9 @@ def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]
 
 def _said_by(error: ValueError) -> str:
     """What the core says of a signal, without the quotes around what is no number there."""
-    return re.sub(r"^acceleration is '([^']*)'", r"the acceleration is \1", str(error))
+    if isinstance(error, FieldError) and error.field == "acceleration":
+        return f"the acceleration is {error.value}; allowed: {error.allowed_text}"
+    return str(error)
 
 
 def _read(name: str, texts: Mapping[str, str]) -> float:

@@ -39,13 +39,14 @@ from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.results.executors import in_thread
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.results.results import Results
-from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import Recording, Scene, Sizing, Table, read_table
 from bearingcore.common.numbers import thousands, with_prefix
 from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.errors import FieldError
 from bearingcore.scene.pit import pit
 from bearingcore.scene.scene import WITH_MASS
 
@@ -389,9 +390,12 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence."""
     try:
         table = read_table(name, content)
-    except ValueError as error:
-        why = str(error).replace(f"file is {name!r}; allowed: ", "needed is ")
+    except FieldError as error:
+        about = error.field == "file" and error.value == name
+        why = f"needed is {error.allowed_text}" if about else str(error)
         raise ValueError(f"{name} cannot be used: {why}.") from None
+    except ValueError as error:
+        raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
     table, cut = _shortened(table)
@@ -463,7 +467,7 @@ def with_pit(scene: Scene, length: float | None) -> Scene:
     try:
         return scene.replace(defect=pit(scene, length, race), balls=WITH_MASS)
     except ValueError as error:
-        raise ValueError(refusal(error)) from None
+        raise ValueError(sentence_of(error)) from None
 
 
 def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
@@ -495,7 +499,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     try:
         motion = Results(truth, 0.0, settings).motion
     except ValueError as error:
-        raise ValueError(refusal(error)) from None
+        raise ValueError(sentence_of(error)) from None
     columns = [index for index, dof in enumerate(motion.dofs) if dof in ("x", "y")]
     # not a whole number of anything: the page must find where the ball passes begin
     first = round((SETTLING - rng.uniform(0.0, 0.1)) * RATE)

@@ -11,7 +11,6 @@ from below.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -34,7 +33,7 @@ from numpy.typing import NDArray
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantity_list import Quantity
+from bearingcore.fields import Field
 
 _NO_SIDES: dict[str, list[float]] = {"across": [], "up": []}
 """What the sides of a grid are before the first numbers."""
@@ -66,10 +65,9 @@ class Side:
     unit: str
 
     @classmethod
-    def of(cls, quantity: Quantity) -> Side:
-        """The side for a quantity of the page."""
-        symbol = re.sub(r"<[^>]*>", "", quantity.symbol)
-        return cls(quantity.name, quantity.label, symbol, quantity.unit)
+    def of(cls, field: Field) -> Side:
+        """The side for a field of the scene."""
+        return cls(field.key, field.label, field.symbol.replace("_", ""), field.shown_unit)
 
     @property
     def label(self) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
-from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.sentences import sentence_of
 from bearingcore import Scene
 from bearingcore.experiments import (
     Experiment,
@@ -98,7 +98,7 @@ def compute(job: Work, scene: Scene, name: str) -> str:
     try:
         result = TRIALS[name].run(scene, job)
     except ValueError as error:
-        raise ValueError(refusal(error)) from error
+        raise ValueError(sentence_of(error)) from error
     n = len(result.points if isinstance(result, Experiment) else result.trials)
     if not n:
         return "Nothing was measured yet."

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
-from bearing_explorer.results.excerpt import Event, acceleration_columns, excerpt_of
+from bearing_explorer.results.excerpt import Event, acceleration_columns, excerpt_of, why_ended
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_comparison import (
     QUIET,
@@ -215,7 +215,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
         settled=first,
         first=begin,
         step_rates={motion.scene.balls: motion.step_rate for motion in (massless, heavy)},
-        broke_off=next((m.status for m in (massless, heavy) if not m.completed), ""),
+        broke_off=next((why_ended(m) for m in (massless, heavy) if not m.completed), ""),
         time=time,
         massless=seen[0],
         with_mass=seen[1],

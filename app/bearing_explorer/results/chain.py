@@ -121,7 +121,7 @@ def chain(results: Results) -> Chain:
         spectra = results.late_spectra if turns else {}
         peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
         if not spectra:
-            silent = why_ended(results.motion.status) if turns else "nothing turns"
+            silent = why_ended(results.motion) if turns else "nothing turns"
     except ValueError as error:
         silent = str(error)
     terms = [f"k_{dof}{dof}" for dof in found.dofs]

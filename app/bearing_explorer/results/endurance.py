@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bearing_explorer.results.cache import cached
+from bearing_explorer.state.sentences import sentence_of
 from bearingcore import contact_pressures, dynamic_load_rating, equilibrium, film, life
 from bearingcore import limits as limits_of
+from bearingcore.bearings.drawing import GROOVES
+from bearingcore.errors import FieldError
 from bearingcore.statics.validity import looked_at
 
 if TYPE_CHECKING:
@@ -123,8 +126,9 @@ def limits(
 
 
 def _why(error: ValueError) -> str:
-    if "groove_radius is None" in str(error):
+    unknown = isinstance(error, FieldError) and error.value is None
+    if unknown and error.field in GROOVES:  # type: ignore[attr-defined]  # it is a FieldError
         return (
             "The groove radii of this bearing are not known: give its drawing on the tab Bearing."
         )
-    return f"Not possible: {error}."
+    return sentence_of(error)

@@ -90,9 +90,9 @@ def acceleration_columns(
         yield f"{who}acceleration_{dof}", "rad/s²" if dof.startswith("r") else "m/s²", signal
 
 
-def why_ended(status: str) -> str:
-    """Why a motion that is not whole is not, as a clause; `status` is that of the motion."""
-    return f"there is {status}" if status.startswith("no ") else f"the simulated motion {status}"
+def why_ended(motion: Motion) -> str:
+    """Why a motion that is not complete is not, as a clause with the numbers of its status."""
+    return motion.status.sentence + motion.detail
 
 
 def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
@@ -126,7 +126,7 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
         ball_load=motion.ball_loads(first, last)[:, balls],
         static_time=static_time - zero,
         greatest_static_load=float(np.max(np.nan_to_num(static))),
-        broke_off="" if motion.completed else motion.status,
+        broke_off="" if motion.completed else why_ended(motion),
         static_load=static[:, balls],
     )
 

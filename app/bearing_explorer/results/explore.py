@@ -23,13 +23,11 @@ from numpy.typing import NDArray
 from bearing_explorer.results.cache import cached
 from bearing_explorer.results.motions import MOST_STEPS, step_rate_of
 from bearing_explorer.results.results import LONGEST_ORBIT
-from bearing_explorer.state.quantities import refusal
-from bearing_explorer.state.quantity_list import DEGREE
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
-from bearingcore.common.table import SUFFIXES
 from bearingcore.diagnosis.size.sizing_error import extent_error
 from bearingcore.dynamics.motion import MOST_STEPS as CORE_MOST_STEPS
 from bearingcore.dynamics.orbit import common_ball_passes
@@ -48,6 +46,7 @@ from bearingcore.sweep.outputs import (
     mode_labels,
     mode_symbol,
 )
+from bearingcore.units import UNITS
 
 Array = NDArray[np.float64]
 
@@ -140,7 +139,7 @@ class MapOutput:
     @property
     def column(self) -> str:
         """Its name with its unit, for a table."""
-        suffix = SUFFIXES["deg" if self.unit == "°" else self.unit]
+        suffix = UNITS[self.unit].suffix
         return "_".join(filter(None, (self.name.replace(":", "_"), suffix)))
 
     def seconds(self, scene: Scene) -> float:
@@ -169,7 +168,7 @@ def _all_outputs() -> dict[str, MapOutput]:
             "error of the extent from a simulated signal",
             "°",
             _SIZING,
-            unit_si=DEGREE,
+            unit_si=math.radians(1.0),
         )
     )
     groups = list(dict.fromkeys(output.group for output in made))
@@ -196,7 +195,7 @@ class Question:
 
     def __post_init__(self) -> None:
         ends = tuple(
-            (s.quantity.name, float(s.values[0]), float(s.values[-1]), s.values.size)
+            (s.field.key, float(s.values[0]), float(s.values[-1]), s.values.size)
             for s in (self.x, self.y)
         )
         object.__setattr__(self, "places", ends)
@@ -389,8 +388,8 @@ class Survey:
         return Plane(
             self.question,
             stride,
-            Sweep(self.question.x.quantity, self.question.x.values[columns]),
-            Sweep(self.question.y.quantity, self.question.y.values[rows]),
+            Sweep(self.question.x.field, self.question.x.values[columns]),
+            Sweep(self.question.y.field, self.question.y.values[rows]),
             self._values[at].copy(),
             self._reasons[at].copy(),
         )
@@ -400,7 +399,7 @@ class Survey:
         solved together, others short enough to be asked soon whether to go on.
         """
         columns, rows = self.question.level(stride)
-        upright = self.question.y.quantity.field == "extent"
+        upright = self.question.y.field.name == "extent"
         for fixed in columns if upright else rows:
             line = rows if upright else columns
             known = self._known[line, fixed] if upright else self._known[fixed, line]
@@ -459,7 +458,7 @@ class Survey:
             try:
                 self._scene(row, column)
             except ValueError as error:
-                return refusal(error)
+                return sentence_of(error)
         return _REASONS.get(status, status.replace("_", " "))
 
     def _without_too_long(
@@ -500,7 +499,7 @@ class Survey:
         try:
             found = extent_error(self._scene(row, column), progress=go_on)
         except ValueError as error:
-            return math.nan, refusal(error)
+            return math.nan, sentence_of(error)
         missed = found.error / self.question.output.unit_si
         return missed, "" if math.isfinite(missed) else found.sizing.status
 

@@ -30,11 +30,12 @@ from bearing_explorer.results.excerpt import Excerpt
 from bearing_explorer.results.executors import PICTURES
 from bearing_explorer.results.load_curve import Curve, load_curve
 from bearing_explorer.results.profile import Profile, profile
-from bearing_explorer.state.quantities import defects_of
+from bearing_explorer.state.field_values import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, Settings
 from bearingcore.common.lazy import cached_property
-from bearingcore.dynamics.orbit import NOT_CONVERGED, common_ball_passes
+from bearingcore.dynamics.orbit import common_ball_passes
+from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene.defect import RACES
 from bearingcore.scene.scene import MASSLESS, WITH_MASS
 from bearingcore.statics.ball_positions import EquilibriumWithMass
@@ -468,7 +469,7 @@ class Results:
         # balls without mass, whatever the scene has
         key = self.scene.replace(balls=MASSLESS), self._marching
         found = motions.quick_orbit(*key)
-        if self.moving or found.status != NOT_CONVERGED:
+        if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
             return found
         return motions.orbit(*key, give_up=self._give_up)
 

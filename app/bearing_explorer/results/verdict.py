@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bearing_explorer.results.compiling import StillCompiling
-from bearing_explorer.state.quantities import in_page_words
-from bearingcore.dynamics.orbit import NO_PERIOD, NO_START
+from bearing_explorer.state.sentences import words_of
+from bearingcore.dynamics.status import OrbitStatus
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -29,7 +29,10 @@ LOST = {
 }
 """How an orbit is lost, by the way in which its largest multiplier leaves the unit circle."""
 
-_NO_ORBIT = {NO_PERIOD: "No common period", NO_START: "No static state"}
+_NO_ORBIT = {
+    OrbitStatus.NO_PERIOD: "No common period",
+    OrbitStatus.NO_START: "No static state",
+}
 
 
 class Verdict(NamedTuple):
@@ -51,7 +54,7 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
         return static
     try:
         if shown & BALLS and results.ball_mass.broke_off:
-            return Verdict("bad", f"The motion {results.ball_mass.broke_off}")
+            return Verdict("bad", f"No motion: {results.ball_mass.broke_off}")
         if shown & MOTIONS and (moving := of_motion(results)).mood != "good":
             return moving
         if shown & ORBITS:
@@ -59,7 +62,7 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     except StillCompiling:
         return Verdict("busy", "Balls with mass are being compiled")
     except ValueError as error:  # the view says it at length
-        return Verdict("bad", f"No motion: {in_page_words(str(error))}")
+        return Verdict("bad", f"No motion: {words_of(error)}")
     return static
 
 
@@ -82,7 +85,7 @@ def of_motion(results: Results) -> Verdict:
     motion = results.motion
     if motion.completed:
         return Verdict("good", "Converged")
-    return Verdict("bad", f"The motion {motion.status}")
+    return Verdict("bad", f"The motion {motion.reason}")
 
 
 def of_orbit(results: Results) -> Verdict:

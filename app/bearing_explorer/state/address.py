@@ -50,19 +50,18 @@ from urllib.parse import parse_qsl, urlencode
 
 from bearing_explorer.state.bearing_kinds import MOST_SHOWN_ROWS
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
-from bearing_explorer.state.quantities import (
-    DEFECT_FIELDS,
-    QUANTITIES,
-    Limits,
+from bearing_explorer.state.field_values import (
+    CAGE_ANGLE,
+    FIELD_BY_KEY,
+    SHOWN_FIELDS,
     defects_of,
+    in_shown_unit,
     in_si,
-    in_unit,
     limits_of,
-    refusal,
 )
-from bearing_explorer.state.quantities import read as read_number
-from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, Quantity
+from bearing_explorer.state.field_values import read as read_number
 from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor, clean_name
+from bearing_explorer.state.sentences import sentence_of
 from bearingcore import (
     DOF_NAMES,
     Bearing,
@@ -74,6 +73,7 @@ from bearingcore import (
 )
 from bearingcore.bearings.drawing import OPTIONAL_FIELDS
 from bearingcore.bearings.rows import Row
+from bearingcore.fields import SCENE_PARTS, Field, Range
 from bearingcore.scene.floor import MOST_ROWS
 
 TOO_LONG = "too-long"
@@ -97,9 +97,11 @@ _OWN_WORDS = (
     *(choice.name for choice in OF_SCENE),
 )
 _DEFECT_WORDS = (*(choice.name for choice in OF_DEFECT), "floor", "points")
-_OF_DEFECT = [q for q in QUANTITY_LIST if q.field in DEFECT_FIELDS]
-_OF_FLOOR = [q for q in QUANTITY_LIST if q.of == "floor"]
-_OF_SCENE = [q for q in QUANTITY_LIST if q.of == "scene" and q.field not in DEFECT_FIELDS]
+_OF_DEFECT = [field for field in SHOWN_FIELDS if field.part == "defect"]
+_OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
+_OF_SCENE = [
+    field for field in SHOWN_FIELDS if field.part in SCENE_PARTS and field.part != "defect"
+]
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, "roller_length")
 _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
@@ -181,8 +183,8 @@ def opened(text: str, editor: SceneEditor) -> Place:
                 place.scene, place.preset, place.selected, place.cage_angle, place.name
             )
     except ValueError as error:
-        what = str(error) if str(error).endswith(".") else refusal(error)
-        note = f"The address could not be opened. {what} Shown is a bearing to begin with."
+        why = sentence_of(error)
+        note = f"The address could not be opened. {why} Showing the default bearing instead."
     return dataclasses.replace(place_of(editor, tab), note=note)
 
 
@@ -228,10 +230,10 @@ def _written(place: Place, without_floors: bool) -> str:
         ]
     if place.selected:
         pairs.append(("selected", str(place.selected + 1)))
-    for quantity in _OF_SCENE:
-        value, was = _value(scene, quantity), _value(base, quantity)
+    for field in _OF_SCENE:
+        value, was = _value(scene, field), _value(base, field)
         if value != was:
-            pairs.append((quantity.name, number_text(quantity, value)))
+            pairs.append((field.key, number_text(field, value)))
     if scene.bearing.rows != base.bearing.rows:
         pairs.append(("rows", rows_text(scene.bearing.rows)))
     if place.name:
@@ -251,16 +253,16 @@ def _behind(number: int) -> str:
 
 
 def _defect_pairs(defect: Defect, usual: Defect, without_floors: bool) -> Iterable[tuple[str, str]]:
-    for quantity in _OF_DEFECT:
-        value = getattr(defect, quantity.field)
-        if value != getattr(usual, quantity.field):
-            yield quantity.name, number_text(quantity, value)
+    for field in _OF_DEFECT:
+        value = getattr(defect, field.name)
+        if value != getattr(usual, field.name):
+            yield field.key, number_text(field, value)
     yield from _choice_pairs(OF_DEFECT, defect, usual)
     floor = defect.floor
     if isinstance(floor, RoughFloor):
         yield "floor", floor_name(floor)
-        for quantity in _OF_FLOOR:
-            yield quantity.name, number_text(quantity, getattr(floor, quantity.last_name))
+        for field in _OF_FLOOR:
+            yield field.key, number_text(field, getattr(floor, field.name))
     elif isinstance(floor, MeasuredFloor) and without_floors:
         yield "floor", "left-out"
     elif isinstance(floor, MeasuredFloor):
@@ -274,20 +276,18 @@ def _choice_pairs(choices: Iterable[Choice], owner: Any, usual: Any) -> Iterable
             yield choice.name, name.replace(" ", "-")
 
 
-def _value(scene: Scene, quantity: Quantity) -> float | None:
+def _value(scene: Scene, field: Field) -> float | None:
     """A number of a scene that is not one of its defects', in SI."""
-    parts = (scene, scene.bearing, scene.load, scene.support)
-    owner = next(part for part in parts if hasattr(part, quantity.field))
-    value: float | None = getattr(owner, quantity.field)
+    value: float | None = getattr(getattr(scene, field.part, scene), field.name)
     return value
 
 
-def number_text(quantity: Quantity, value: float | None) -> str:
+def number_text(field: Field, value: float | None) -> str:
     """A number in SI as the address has it; `_number` makes the very same of it."""
     if value is None:
         return "none"
-    shown = in_unit(quantity, value)
-    if in_si(quantity, shown) == value:
+    shown = in_shown_unit(field, value)
+    if in_si(field, shown) == value:
         return _short(shown)
     return _short(value) + "SI"
 
@@ -328,10 +328,8 @@ def _is_known(name: str) -> bool:
     return behind and tail in _DEFECT_NAMES
 
 
-_SCENE_NAMES = frozenset(q.name for q in _OF_SCENE)
-_DEFECT_NAMES = frozenset(
-    [*_DEFECT_WORDS, *(q.name for q in _OF_DEFECT), *(q.name for q in _OF_FLOOR)]
-)
+_SCENE_NAMES = frozenset(field.key for field in _OF_SCENE)
+_DEFECT_NAMES = frozenset([*_DEFECT_WORDS, *(field.key for field in (*_OF_DEFECT, *_OF_FLOOR))])
 
 
 def _read(given: dict[str, str]) -> Place:
@@ -370,7 +368,7 @@ def _read(given: dict[str, str]) -> Place:
             notes.append("A measured floor was too long for the address; here it is flat.")
         defects.append(_defect(own, defects_of(base)[0]))
     fields = {
-        name: _number(given.pop(name), QUANTITIES[name]) for name in list(given)
+        name: _number(given.pop(name), FIELD_BY_KEY[name]) for name in list(given)
         if name in _SCENE_NAMES
     }  # fmt: skip
     if given:
@@ -412,7 +410,9 @@ def _rows(text: str) -> tuple[Row, ...]:
 def _own_of(part: Any, fields: Mapping[str, float | None]) -> dict[str, Any]:
     """The numbers given, by names, for the fields that a part of a scene has."""
     return {
-        q.field: fields[q.name] for q in _OF_SCENE if q.name in fields and hasattr(part, q.field)
+        field.name: fields[field.key]
+        for field in _OF_SCENE
+        if field.key in fields and hasattr(part, field.name)
     }
 
 
@@ -428,14 +428,12 @@ def _part(part: Any, fields: Mapping[str, float | None], **others: Any) -> Any:
 
 def _defect(given: dict[str, str], usual: Defect) -> Defect:
     fields: dict[str, Any] = {
-        quantity.field: _number(given[quantity.name], quantity)
-        for quantity in _OF_DEFECT
-        if quantity.name in given
+        field.name: _number(given[field.key], field) for field in _OF_DEFECT if field.key in given
     }
     fields |= _choices(OF_DEFECT, given)
     kind = given.get("floor", "flat")
     if kind == "rough":
-        numbers = {q.last_name: _number(given.get(q.name, ""), q) for q in _OF_FLOOR}
+        numbers = {field.name: _number(given.get(field.key, ""), field) for field in _OF_FLOOR}
         seed = numbers.pop("seed")
         fields["floor"] = RoughFloor(**numbers, seed=int(seed or 0))  # type: ignore[arg-type]
     elif kind == "measured":
@@ -447,21 +445,21 @@ def _defect(given: dict[str, str], usual: Defect) -> Defect:
     return dataclasses.replace(usual, **fields)
 
 
-def _number(text: str, quantity: Quantity) -> float | None:
+def _number(text: str, field: Field) -> float | None:
     """A number in SI; ValueError with a sentence where it is none."""
-    if text == "none" and (quantity.optional or quantity.field in _MAY_BE_NONE):
+    if text == "none" and (field.optional or field.name in _MAY_BE_NONE):
         return None
-    value, is_si = _parsed(text, quantity.name)
+    value, is_si = _parsed(text, field.key)
     if is_si:
         return value
     # as it would be typed on the page: out of range it is refused in the words of the page
-    read_number(quantity.name, text, _usual_limits())
-    return in_si(quantity, value)
+    read_number(field.key, text, _usual_limits())
+    return in_si(field, value)
 
 
 @cache
-def _usual_limits() -> Mapping[str, Limits]:
-    """Limits of what can be typed: the same with every preset."""
+def _usual_limits() -> Mapping[str, Range]:
+    """Range of what can be typed: the same with every preset."""
     return limits_of(presets["fan-rig"])
 
 
@@ -521,7 +519,7 @@ def unpacked(word: str) -> MeasuredFloor:
     try:
         return MeasuredFloor(numbers[:half], numbers[half:])
     except ValueError as error:
-        raise ValueError(refusal(error)) from None
+        raise ValueError(sentence_of(error)) from None
 
 
 def _shown(text: str) -> str:

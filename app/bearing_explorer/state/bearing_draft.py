@@ -8,16 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from bearing_explorer.state.quantities import QUANTITIES, SECOND, Values, in_si, refusal
-from bearing_explorer.state.quantity_list import BEARING_GROUPS
+from bearing_explorer.state.field_values import BEARING_GROUPS, FIELD_BY_KEY, Values, in_si
+from bearing_explorer.state.sentences import field_of, sentence_of
 from bearingcore import Bearing
 from bearingcore.bearings import drawing
 from bearingcore.common.numbers import number
 from bearingcore.errors import FieldError
 
-OF_BEARING = frozenset(
-    name for name, quantity in QUANTITIES.items() if quantity.group in BEARING_GROUPS
-)
+OF_BEARING = frozenset(key for key, field in FIELD_BY_KEY.items() if field.group in BEARING_GROUPS)
 """Quantities that are checked together."""
 
 Faults = dict[str, str]
@@ -36,14 +34,14 @@ def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
         at = next((name for name in concerned if name in draft), concerned[0])
         faults.setdefault(at, _sentence(fault))
     if not faults:
-        field = error.field if isinstance(error, FieldError) else ""
-        if isinstance(error, FieldError) and "row 2" in error.where:
-            field = SECOND + field
-        faults[_CONTROL.get(field, next(reversed(draft)))] = refusal(error)
+        field = field_of(error)
+        known = field is not None and field.key in OF_BEARING
+        key = field.key if field is not None and known else next(reversed(draft))
+        faults[key] = sentence_of(error)
     return faults
 
 
-_CONTROL = {QUANTITIES[name].last_name: name for name in QUANTITIES if name in OF_BEARING}
+_CONTROL = {FIELD_BY_KEY[key].full_name: key for key in OF_BEARING}
 """The control of each field of a bearing."""
 
 
@@ -56,7 +54,7 @@ def _dimensions(bearing: Bearing, draft: Mapping[str, float]) -> dict[str, float
     own: dict[str, float | None] = {
         name: getattr(bearing, name) for name in given if hasattr(bearing, name)
     }
-    new = {QUANTITIES[name].last_name: in_si(QUANTITIES[name], draft[name]) for name in draft}
+    new = {FIELD_BY_KEY[name].full_name: in_si(FIELD_BY_KEY[name], draft[name]) for name in draft}
     wider = (new.get("ball_diameter") or bearing.ball_diameter) / bearing.ball_diameter
     for race in ("outer", "inner"):
         name, radius = f"{race}_groove_radius", bearing.groove_radius(race)
@@ -69,7 +67,7 @@ def _sentence(fault: FieldError) -> str:
     """A fault in the words and units of the page."""
 
     def name(field: str) -> str:
-        return QUANTITIES[_CONTROL[field]].label.lower()
+        return FIELD_BY_KEY[_CONTROL[field]].label.lower()
 
     def amount(value: float, unit: str) -> str:
         return f"{number(1e3 * value, 6)} mm" if unit == "m" else number(value, 6)
@@ -83,7 +81,7 @@ def words_of(draft: Values) -> str:
     """What is said above the fields while a draft waits."""
     if not draft:
         return ""
-    labels = [QUANTITIES[name].label.lower() for name in draft]
+    labels = [FIELD_BY_KEY[name].label.lower() for name in draft]
     listed = " and ".join(filter(None, (", ".join(labels[:-1]), labels[-1])))
     waits = "waits" if len(labels) == 1 else "wait"
     return (

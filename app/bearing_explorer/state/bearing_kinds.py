@@ -5,8 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from bearing_explorer.state.choice_list import KIND_OF_VARIANT
-from bearing_explorer.state.quantities import defects_of
-from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
+from bearing_explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
 from bearingcore.scene.scene import LOAD_ALONG
 
@@ -71,10 +70,10 @@ def hidden_of(bearing: Bearing) -> list[str]:
     given = bearing.kind.inputs(bearing)
     without = _loads_without(bearing)
     hidden = [
-        quantity.name
-        for quantity in QUANTITY_LIST
-        if (quantity.group in BEARING_GROUPS and quantity.last_name not in given)
-        or quantity.last_name in without
+        field.key
+        for field in SHOWN_FIELDS
+        if (field.group in BEARING_GROUPS and field.full_name not in given)
+        or field.full_name in without
     ]
     choices = {"row": len(bearing.all_rows) > 1, "numbers": bearing.kind.has_drawing}
     return hidden + [name for name, shown in choices.items() if not shown]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.sentences import words_of
 from bearingcore import CatalogueBearing, catalogue, read_catalogue
 from bearingcore.bearings.catalogue import MOST_BYTES
 from bearingcore.common.numbers import number
@@ -58,7 +58,7 @@ def read_table(text: str) -> dict[str, CatalogueBearing] | str:
     try:
         return read_catalogue(text)
     except ValueError as error:
-        return refusal(error).removeprefix("Not possible: ")
+        return f"{words_of(error)}."
 
 
 def entry_words(one: CatalogueBearing) -> str:

@@ -25,11 +25,11 @@ from bearing_explorer.state.address import (
     read,
     write,
 )
+from bearing_explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.state.history import History
-from bearing_explorer.state.quantities import refusal
-from bearing_explorer.state.quantity_list import CAGE_ANGLE
 from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
+from bearing_explorer.state.sentences import sentence_of
 from bearingcore import Scene
 from bearingcore.common.scene_file import LARGEST_TEXT
 
@@ -66,8 +66,7 @@ def read_asked(asked: Asked) -> Place | str:
             return Place(Scene.from_toml(asked.text), "")
         place = read(asked.text)
     except ValueError as error:
-        text = str(error)
-        return f"{asked.name}: {text if text.endswith('.') else refusal(error)}"
+        return f"{asked.name}: {sentence_of(error)}"
     return f"{asked.name} holds no scene." if place is None else place
 
 
@@ -163,8 +162,7 @@ class Bookmarks:
                 found.scene, found.preset, found.selected, found.cage_angle, found.name
             )
         except ValueError as error:
-            text = str(error)
-            self.say(f"{asked.name}: {text if text.endswith('.') else refusal(error)}")
+            self.say(f"{asked.name}: {sentence_of(error)}")
             return False
         self.say(found.note or f"{asked.name} is open.")
         self.step()

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bearing_explorer.state.quantities import defects_of
+from bearing_explorer.state.field_values import defects_of
 from bearingcore import MeasuredFloor, RoughFloor, Scene, preset_notes, presets
 from bearingcore.bearings import KINDS
 from bearingcore.scene.presets import preset_labels

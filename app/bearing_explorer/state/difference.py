@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
-from bearing_explorer.state.quantities import Values, defects_of, values_of
-from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
+from bearing_explorer.state.field_values import SHOWN_FIELDS, Values, defects_of, values_of
 from bearingcore import Scene
+from bearingcore.fields import Field
 
 MOST_NUMBERS = 3
 """Numbers that are named one by one; more are said to be another bearing, or several at once."""
@@ -34,18 +34,18 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
     ]
     if now.dofs != before.dofs:
         words.append("Other free directions")
-    words += [_from_to(quantity, *values, now) for quantity, values in changed]
+    words += [_from_to(field, *values, now) for field, values in changed]
     if not words:
         return "Another defect has changed" if own != earlier else "The scene has changed"
     first, *others = words
     return ", ".join([first, *(word[0].lower() + word[1:] for word in others)])
 
 
-def _numbers(now: Values, before: Values) -> list[tuple[Quantity, tuple[float, float]]]:
+def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, float]]]:
     return [
-        (quantity, (before[quantity.name], now[quantity.name]))
-        for quantity in QUANTITY_LIST
-        if quantity.of and _differ(before[quantity.name], now[quantity.name])
+        (field, (before[field.key], now[field.key]))
+        for field in SHOWN_FIELDS
+        if field.part and _differ(before[field.key], now[field.key])
     ]
 
 
@@ -53,18 +53,18 @@ def _differ(a: float, b: float) -> bool:
     return a != b and not (math.isnan(a) and math.isnan(b))
 
 
-def _from_to(quantity: Quantity, before: float, now: float, scene: Scene) -> str:
-    unit = quantity.unit if quantity.unit in ("", "°") else f" {quantity.unit}"
+def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
+    unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
     digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
     numbers = f"({_number(before, digits)} → {_number(now, digits)}{unit})"
-    if quantity.field != "extent":
-        return f"{quantity.label} {numbers}"
-    spacings = (now - before) * quantity.unit_si / scene.bearing.ball_spacing
+    if field.name != "extent":
+        return f"{field.label} {numbers}"
+    spacings = (now - before) * field.factor / scene.bearing.ball_spacing
     count = round(abs(spacings))
     if count and abs(abs(spacings) - count) < WHOLE:
         many = "A ball spacing" if count == 1 else f"{count} ball spacings"
         return f"{many} {'longer' if spacings > 0 else 'shorter'} {numbers}"
-    return f"{quantity.label} {numbers}"
+    return f"{field.label} {numbers}"
 
 
 def _number(value: float, digits: int) -> str:

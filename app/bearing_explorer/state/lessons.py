@@ -63,8 +63,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 from bearing_explorer.assets import asset_path
 from bearing_explorer.state.address import FORMER_TABS
 from bearing_explorer.state.choice_list import CHOICE_LIST
-from bearing_explorer.state.quantities import QUANTITIES
-from bearing_explorer.state.quantity_list import QUANTITY_LIST, SCENE_GROUPS
+from bearing_explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOWN_FIELDS
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import presets
@@ -93,7 +92,7 @@ CHOICES: Mapping[str, Sequence[str]] = {
 """What a lesson may choose besides numbers."""
 
 DRAGGED = (
-    *(quantity.name for quantity in QUANTITY_LIST if quantity.group in SCENE_GROUPS),
+    *(field.key for field in SHOWN_FIELDS if field.group in SCENE_GROUPS),
     *(choice.name for choice in CHOICE_LIST if choice.beside_words),
 )
 """The controls that can stand beside the words."""
@@ -461,8 +460,8 @@ def _changes(
         raise _RefusedError(name, sentence)
     numbers = {name: value for name, value in changes.items() if name not in choices}
     for name in numbers:
-        if name not in QUANTITIES:
-            known = _near(name, [*QUANTITIES, *CHOICES])
+        if name not in FIELD_BY_KEY:
+            known = _near(name, [*FIELD_BY_KEY, *CHOICES])
             raise _RefusedError(name, f"“{name[:40]}” is no number or choice of the page; {known}")
     refused, _ = editor.set(numbers)
     for name, sentence in refused.items():

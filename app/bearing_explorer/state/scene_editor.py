@@ -22,25 +22,24 @@ from bearing_explorer.state.bearing_kinds import (
 )
 from bearing_explorer.state.bearing_list import BearingTable, origin_words
 from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice, chosen_of
-from bearing_explorer.state.quantities import (
+from bearing_explorer.state.field_values import (
+    CAGE_ANGLE,
+    FIELD_BY_KEY,
     FIRST_ROUGHNESS,
-    QUANTITIES,
-    SECOND,
-    Limits,
+    SHOWN_FIELDS,
     Values,
     check_values,
     defects_of,
     groove_limits,
+    in_shown_unit,
     in_si,
-    in_unit,
     limits_of,
     read,
-    refusal,
     scene_with_fields,
     values_of,
 )
-from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST
-from bearing_explorer.state.twins import twins_of
+from bearing_explorer.state.second_units import second_units
+from bearing_explorer.state.sentences import sentence_of
 from bearingcore import (
     DOF_NAMES,
     Bearing,
@@ -53,6 +52,8 @@ from bearingcore import (
     read_floor,
 )
 from bearingcore.bearings.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
+from bearingcore.common import checks
+from bearingcore.fields import Range
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
@@ -62,7 +63,7 @@ LARGEST_FILE = 1_000_000
 
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _NO_FILE = "No file yet: the floor is flat."
-_OF_FLOOR = [quantity for quantity in QUANTITY_LIST if quantity.of == "floor"]
+_OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
 
 Refused = dict[str, str]
 """Sentences by the names of the controls that they belong to."""
@@ -85,7 +86,7 @@ class FloorChoice:
 
 
 @dataclass(frozen=True)
-class FromList:
+class CatalogueOrigin:
     """The bearing of a list that was taken into the scene: its name, and where it comes from."""
 
     name: str
@@ -102,11 +103,11 @@ class Snapshot:
     cage_angle: float
     kinds: tuple[str, ...]
     own_name: str
-    origin: FromList | None
+    origin: CatalogueOrigin | None
     selected: int = field(compare=False)
     values: Values = field(compare=False)
-    limits: dict[str, Limits] = field(compare=False)
-    usual: dict[str, Limits] = field(compare=False)
+    limits: dict[str, Range] = field(compare=False)
+    usual: dict[str, Range] = field(compare=False)
     floors: tuple[FloorChoice, ...] = field(compare=False)
 
 
@@ -117,14 +118,14 @@ class SceneEditor:
     preset: str
     scene: Scene = field(init=False)
     values: Values = field(init=False)
-    limits: dict[str, Limits] = field(init=False)
-    usual: dict[str, Limits] = field(init=False)
+    limits: dict[str, Range] = field(init=False)
+    usual: dict[str, Range] = field(init=False)
     """The limits while no number lies outside of its slider."""
     selected: int = field(init=False)
     floors: list[FloorChoice] = field(init=False)
     own_name: str = field(init=False, default="")
     """What a person calls the bearing; empty where nobody has named it."""
-    origin: FromList | None = field(init=False, default=None)
+    origin: CatalogueOrigin | None = field(init=False, default=None)
     """What it was taken from, of a bearing out of a list."""
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
@@ -165,12 +166,12 @@ class SceneEditor:
             preset = self.preset if self.preset in alike or not alike else alike[0]
         defects = [_turned(defect) for defect in defects_of(scene)]
         if len(defects) > MOST_DEFECTS:
-            raise ValueError(f"defects are {len(defects)}; allowed here: at most {MOST_DEFECTS}")
+            raise checks.refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
         if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
             rows = len(scene.bearing.all_rows)
-            raise ValueError(f"rows of balls are {rows}; allowed here: at most {MOST_SHOWN_ROWS}")
+            raise checks.refuse("number of rows", rows, f"at most {MOST_SHOWN_ROWS} here")
         if not 0 <= selected < len(defects):
-            raise ValueError(f"selected is defect {selected + 1} of {len(defects)}")
+            raise checks.refuse("selected defect", selected + 1, f"1 to {len(defects)}")
         scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         limits = limits_of(presets[preset]) | groove_limits(scene)
         for number in range(len(defects)):
@@ -258,7 +259,7 @@ class SceneEditor:
         self._begin_limits(limits_of(self.scene))
         self._write_values()
         self.own_name = clean_name(name)
-        self.origin = FromList(self.own_name, origin, self.scene.bearing)
+        self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
         self.drop_draft()
 
     @property
@@ -274,7 +275,7 @@ class SceneEditor:
         """Take numbers, dragged or typed; returns what was refused and all that changed."""
         refused: Refused = {}
         taken: Values = {}
-        for name, value in list(given.items())[: len(QUANTITIES)]:
+        for name, value in list(given.items())[: len(FIELD_BY_KEY)]:
             try:
                 taken[str(name)] = read(str(name), value, self.limits)
             except ValueError as error:
@@ -287,7 +288,7 @@ class SceneEditor:
         except ValueError as error:
             waiting = {n: v for n, v in whole.items() if n in OF_BEARING}
             if not waiting:
-                return refused | {name: refusal(error) for name in taken}, {}
+                return refused | {name: sentence_of(error) for name in taken}, {}
             self.draft = waiting
             self.faults = faults_of(self.scene.bearing, waiting, error)
             return refused | self.faults, {}
@@ -317,22 +318,17 @@ class SceneEditor:
         self.limits |= {name: self.usual[name] for name in names}
         return names
 
-    def _begin_limits(self, usual: dict[str, Limits]) -> None:
+    def _begin_limits(self, usual: dict[str, Range]) -> None:
         self.limits, self.usual = dict(usual), dict(usual)
 
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
-        rough: dict[str, Any] = {}
-        rows: dict[str, Any] = {}
+        parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
         for name, value in taken.items():
-            quantity = QUANTITIES[name]
-            if quantity.of == "scene":
-                fields[quantity.field] = in_si(quantity, value)
-            elif quantity.of == "floor":
-                rough[quantity.last_name] = in_si(quantity, value)
-            elif quantity.of == "rows":
-                rows[quantity.last_name] = in_si(quantity, value)
-        bearing = self.scene.bearing
+            one = FIELD_BY_KEY[name]
+            if one.part:
+                parts.get(one.part, fields)[one.name] = in_si(one, value)
+        rough, bearing = parts["floor"], self.scene.bearing
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
@@ -347,8 +343,8 @@ class SceneEditor:
             if choice.kind == "rough":
                 fields["floor"] = floor
         scene = scene_with_fields(self.scene, fields, self.selected)
-        if rows:
-            scene = scene.replace(bearing=_with_rows(scene.bearing, rows))
+        if parts["pair"] or parts["second"]:
+            scene = scene.replace(bearing=_with_rows(scene.bearing, **parts))
         if rough:
             choice.rough = floor
         return scene
@@ -366,7 +362,7 @@ class SceneEditor:
         rough = self.floors[self.selected].rough
         fresh = {
             **values_of(self.scene, self.selected),
-            **{q.name: in_unit(q, getattr(rough, q.last_name)) for q in _OF_FLOOR},
+            **{one.key: in_shown_unit(one, getattr(rough, one.name)) for one in _OF_FLOOR},
             CAGE_ANGLE: turned,
         }
         # what a person typed stands as it was typed, whatever its last digit is in SI
@@ -374,7 +370,7 @@ class SceneEditor:
             name: self.values[name]
             if name in self.values and _close(self.values[name], fresh[name])
             else fresh[name]
-            for name in QUANTITIES
+            for name in FIELD_BY_KEY
         }
         for name, value in self.values.items():
             self.limits[name] = self.limits[name].around(value)
@@ -411,7 +407,7 @@ class SceneEditor:
         try:
             act(value)
         except ValueError as error:
-            return {name: refusal(error)}
+            return {name: sentence_of(error)}
         return {}
 
     def _change(self, **fields: Any) -> None:
@@ -447,7 +443,7 @@ class SceneEditor:
     def _take_dofs(self, dofs: str) -> None:
         free = None if dofs == "auto" else tuple(name for name in DOF_NAMES if name in dofs.split())
         if free == ():
-            raise ValueError("dofs is empty; allowed: at least one direction that can move")
+            raise ValueError("Choose at least one direction that can move.")
         self._change(dofs=free)
 
     def _take_defect(self, which: str) -> None:
@@ -461,7 +457,7 @@ class SceneEditor:
 
     def _add_defect(self) -> None:
         if len(self.defects) >= MOST_DEFECTS:
-            raise ValueError(f"defects are {MOST_DEFECTS} already; allowed: at most {MOST_DEFECTS}")
+            raise ValueError(f"There are {MOST_DEFECTS} defects already, the most there can be.")
         last = self.defects[-1]
         extent, depth = _FIRST_DEFECT if last.is_none else (last.extent, last.depth)
         center = _freest(self.defects)
@@ -469,7 +465,7 @@ class SceneEditor:
         gap = _room(self.defects, new.center)
         new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
         if new.is_none:
-            raise ValueError("defects leave no room on the race; allowed: a shorter one first")
+            raise ValueError("The defects leave no room on the race: make one shorter first.")
         self._with_defects([*self.defects, new], len(self.defects))
 
     def _remove_defect(self) -> None:
@@ -523,7 +519,7 @@ class SceneEditor:
             self._change(floor=floor, extent=extent, depth=depth)
         except ValueError as error:
             self.floors[self.selected] = dataclasses.replace(
-                choice, kind="measured", words=f"{shown}: {refusal(error)}", bad=True
+                choice, kind="measured", words=f"{shown}: {sentence_of(error)}", bad=True
             )
         else:
             self.floors[self.selected] = dataclasses.replace(
@@ -544,7 +540,7 @@ class SceneEditor:
                 if name in wanted
             },
             "changed": self.changed,
-            "twins": twins_of(self.scene, self.selected, self.draft),
+            "twins": second_units(self.scene, self.selected, self.draft),
             "draft": {
                 "waiting": list(self.draft),
                 "faults": self.faults,
@@ -561,7 +557,7 @@ class SceneEditor:
 
     def _choices_state(self) -> dict[str, Any]:
         scene, floor = self.scene, self.floors[self.selected]
-        hidden = [] if floor.kind == "rough" else [quantity.name for quantity in _OF_FLOOR]
+        hidden = [] if floor.kind == "rough" else [one.key for one in _OF_FLOOR]
         hidden += hidden_of(scene.bearing)
         return {
             "choices": {
@@ -602,15 +598,16 @@ def clean_name(text: str) -> str:
     return " ".join(clean.split())[:LONGEST_NAME].rstrip()
 
 
-def _with_rows(bearing: Bearing, numbers: Mapping[str, Any]) -> Bearing:
-    """A bearing of two rows with numbers changed, by their last names."""
-    second = {n.removeprefix(SECOND): v for n, v in numbers.items() if n.startswith(SECOND)}
-    if len(second) < len(numbers):
-        bearing = bearing.respaced(numbers.get("row_distance"), numbers.get("preload"))
+def _with_rows(
+    bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
+) -> Bearing:
+    """A bearing of two rows with numbers of both, and of the second row alone, changed."""
+    if pair:
+        bearing = bearing.respaced(pair.get("row_distance"), pair.get("preload"))
     if not second:
         return bearing
     if len(bearing.rows) != 2:
-        raise ValueError(f"rows of balls are {len(bearing.all_rows)}; allowed: two of them")
+        raise checks.refuse("rows of balls", len(bearing.all_rows), "two of them")
     low, high = bearing.rows
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
 

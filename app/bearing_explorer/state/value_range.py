@@ -1,4 +1,4 @@
-"""Values that a quantity of the page runs through, for maps and speed runs.
+"""Values that a field runs through, for maps and speed runs.
 
 What a person asked for is judged here; behind it all is SI.
 """
@@ -12,67 +12,67 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.state.quantities import Limits, defects_of, in_si, read, values_of
-from bearing_explorer.state.quantity_list import QUANTITY_LIST, Quantity
+from bearing_explorer.state.field_values import (
+    SHOWN_FIELDS,
+    defects_of,
+    in_shown_unit,
+    in_si,
+    number_of,
+    read,
+)
 from bearingcore import Scene
+from bearingcore.fields import SCENE_PARTS, Field, Range
 
-SWEEPABLE: Mapping[str, Quantity] = {
-    quantity.name: quantity for quantity in QUANTITY_LIST if quantity.of == "scene"
+SWEEPABLE: Mapping[str, Field] = {
+    field.key: field for field in SHOWN_FIELDS if field.part in SCENE_PARTS
 }
-"""Quantities that belong to the scene, by name."""
-
-_WHOLE = frozenset({"n_balls"})
-#: where a shorter range shows more than all that its slider can do
-_USUAL = {"shaft_speed_hz": (4.0, 60.0), "extent_deg": (2.0, 62.0)}
+"""Fields that `Scene.replace` changes, by key."""
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """Evenly spaced values of one quantity, in its own unit."""
+    """Evenly spaced values of one field, in its shown unit."""
 
-    quantity: Quantity
+    field: Field
     values: NDArray[np.float64]
 
     @property
     def in_si(self) -> tuple[str, NDArray[np.float64]]:
         """The field of the scene and its values [SI], as the core takes them."""
-        return self.quantity.field, np.array([in_si(self.quantity, v) for v in self.values])
+        return self.field.name, np.array([in_si(self.field, v) for v in self.values])
 
     def every(self, stride: int) -> Sweep:
         """The same with every `stride`-th value, first and last among them, where that is even."""
         count = self.values.size - 1
         if count % stride or count // stride < 2:
             return self
-        return Sweep(self.quantity, self.values[::stride])
+        return Sweep(self.field, self.values[::stride])
 
 
-def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Limits]) -> Sweep:
+def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Range]) -> Sweep:
     """`count` values from `first` to `last` as a person typed them; ValueError with a sentence."""
     if name not in SWEEPABLE:
         raise ValueError("There is no such quantity.")
-    quantity = SWEEPABLE[name]
+    field = SWEEPABLE[name]
     low, high = (read(name, text, limits) for text in (first, last))
     if math.isnan(low) or math.isnan(high) or not low < high:
-        raise ValueError(f"{quantity.label}: “to” must be greater than “from”.")
+        raise ValueError(f"{field.label}: “to” must be greater than “from”.")
     if name == "shaft_speed_hz" and low == 0.0:
         raise ValueError("The shaft must turn: begin above 0 Hz.")
-    if name in _WHOLE:
+    if field.whole:
         step = max(1, math.ceil((high - low) / (count - 1)))
         values = np.arange(math.ceil(low), high + 0.5, step)
         if values.size < 2:
-            raise ValueError(f"{quantity.label}: two whole numbers at least.")
-        return Sweep(quantity, values)
-    return Sweep(quantity, np.linspace(low, high, count))
+            raise ValueError(f"{field.label}: two whole numbers at least.")
+        return Sweep(field, values)
+    return Sweep(field, np.linspace(low, high, count))
 
 
-def usual_range(name: str, limits: Mapping[str, Limits]) -> tuple[float, float]:
-    """Where a sweep goes if nobody says otherwise: as far as the slider, or where it shows most."""
+def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
+    """Where a sweep goes unless it is said: as far as the slider, or where it shows most."""
     low, high = limits[name].least, limits[name].most
-    if name in _USUAL:
-        first, last = _USUAL[name]
-        if low <= first and last <= high:
-            return first, last
-    return low, high
+    first, last = SWEEPABLE[name].sweep_range or (low, high)
+    return (first, last) if low <= first and last <= high else (low, high)
 
 
 def focused(scene: Scene, selected: int) -> Scene:
@@ -84,9 +84,9 @@ def focused(scene: Scene, selected: int) -> Scene:
     return scene.replace(defect=(first, *defects))
 
 
-def value_of(scene: Scene, quantity: Quantity) -> float:
-    """The number of a quantity in its own unit, of the first defect where it is one's."""
-    return values_of(scene)[quantity.name]
+def value_of(scene: Scene, field: Field) -> float:
+    """The number of a field in its shown unit, of the first defect where it is one's."""
+    return in_shown_unit(field, number_of(scene, field))
 
 
 def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool:

@@ -16,8 +16,8 @@ from bearing_explorer.plots import style
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.widgets.form import FieldSpec
@@ -67,7 +67,7 @@ class OtherModels(JobView[Alternatives]):
             try:
                 found = alternatives(scene, job.cancelled)
             except ValueError as error:
-                raise ValueError(refusal(error)) from error
+                raise ValueError(sentence_of(error)) from error
             job.show(found)
             return f"{len(found.rows)} models after {time.perf_counter() - began:.1f} s."
 

@@ -15,8 +15,12 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.choice_list import KIND, NUMBERS
-from bearing_explorer.state.quantities import in_unit, of_rows
-from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
+from bearing_explorer.state.field_values import (
+    BEARING_GROUPS,
+    SHOWN_FIELDS,
+    in_shown_unit,
+    number_of,
+)
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.control_view import ControlView
@@ -96,9 +100,8 @@ class BearingEditor(ControlView):
             )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        bearing = results.scene.bearing
-        rows = [q for q in QUANTITY_LIST if q.group in BEARING_GROUPS]
-        values = [in_unit(q, of_rows(bearing, q.last_name)) for q in rows]
+        rows = [q for q in SHOWN_FIELDS if q.group in BEARING_GROUPS]
+        values = [in_shown_unit(q, number_of(results.scene, q)) for q in rows]
         facts = facts_of(results.scene)
         return {
             "quantity": np.array([q.label for q in rows] + [fact["label"] for fact in facts]),
@@ -106,7 +109,7 @@ class BearingEditor(ControlView):
                 ["" if math.isnan(v) else f"{v:.9g}" for v in values]
                 + [fact["value"] for fact in facts]
             ),
-            "unit": np.array([q.unit for q in rows] + [""] * len(facts)),
+            "unit": np.array([q.shown_unit for q in rows] + [""] * len(facts)),
         }
 
 

@@ -10,12 +10,12 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import NamedTuple
 
-from bearing_explorer.state.quantity_list import BEARING_GROUPS, QUANTITY_LIST
+from bearing_explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS
 from bearingcore import Bearing
 
 Point = tuple[float, float]
 
-_CONTROL = {q.last_name: q.name for q in QUANTITY_LIST if q.group in BEARING_GROUPS}
+_CONTROL = {field.full_name: field.key for field in SHOWN_FIELDS if field.group in BEARING_GROUPS}
 
 AXIS, MIDDLE = 372.0, 155.0
 """Where the middle of the shaft is in the section, and the middle of the bearing along it."""

@@ -34,8 +34,8 @@ from bearing_explorer.results.explore import (
 )
 from bearing_explorer.results.jobs import JobState, Work
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import Sweep, focused, value_of
 from bearing_explorer.views.base import Fill, Ranges, SessionParts, Sources
 from bearing_explorer.views.job_view import JobView, last_shown
@@ -227,7 +227,7 @@ class ExplorePlane(JobView[Plane]):
             return sources, {}
         question = self._request.of(results)
         scene = focused(results.scene, results.focus)
-        x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
+        x, y = (value_of(scene, axis.field) for axis in (question.x, question.y))
         sources["explore_mark"] = {"x": np.array([x]), "y": np.array([y])}
         if self.found is not None and self._plane(question)[0] is None:
             ends = [float(v) for s in (self.found.question.x, self.found.question.y)
@@ -254,7 +254,7 @@ class ExplorePlane(JobView[Plane]):
             return
         self._question = question = self._request.of(results)
         scene = focused(results.scene, results.focus)
-        x, y = (value_of(scene, axis.quantity) for axis in (question.x, question.y))
+        x, y = (value_of(scene, axis.field) for axis in (question.x, question.y))
         self._at = x, y
         plane, why = self._plane(question)
         if plane is not None and time.perf_counter() > self._next_show:
@@ -276,8 +276,8 @@ class ExplorePlane(JobView[Plane]):
         y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
         question = found.question
         return {
-            question.x.quantity.name: x,
-            question.y.quantity.name: y,
+            question.x.field.key: x,
+            question.y.field.key: y,
             question.output.column: found.values,
             "no_answer_because": found.reasons,
         }
@@ -291,7 +291,7 @@ class ExplorePlane(JobView[Plane]):
         try:
             return coarse(question), ""
         except ValueError as error:
-            return None, refusal(error)
+            return None, sentence_of(error)
 
     def _show(self, plane: Plane) -> None:
         """Draw a map; its figures are made anew where it is one of something else."""
@@ -323,7 +323,7 @@ class ExplorePlane(JobView[Plane]):
         self._making = plane = self.found
         field = field_of(plane, self._at)
         self._news = hv.streams.Pipe(data=field)
-        sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
+        sides = [Side.of(sweep.field) for sweep in (plane.x, plane.y)]
         self._plots: list[Plot] = []
         self._followers: list[CustomJS] = []
         layout = linked_figures(
@@ -365,8 +365,7 @@ class ExplorePlane(JobView[Plane]):
             try:
                 return refine(going, question, stride, start)
             except ValueError as error:
-                text = str(error)
-                raise ValueError(text if text.endswith(".") else refusal(error)) from error
+                raise ValueError(sentence_of(error)) from error
 
         self._jobs.start(work, self._take, self.job.show)
 
@@ -407,7 +406,7 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
     from bearing_explorer.plots.plane import Field
 
     question = plane.question
-    sides = [Side.of(sweep.quantity) for sweep in (plane.x, plane.y)]
+    sides = [Side.of(sweep.field) for sweep in (plane.x, plane.y)]
     axes = [AxisQuantity(side.words, side.symbol, side.unit) for side in sides]
     output = question.output
     words = output.label[0].upper() + output.label[1:] if output.label[0] != "k" else output.label
@@ -452,9 +451,11 @@ def _place(plane: Plane, at: tuple[Any, ...]) -> str:
         else f"{style.number(value)}{output.unit}"
     )
     where = [
-        f"{sweep.quantity.label.lower()} {style.number(float(sweep.values[k]))}"
+        f"{sweep.field.label.lower()} {style.number(float(sweep.values[k]))}"
         + (
-            sweep.quantity.unit if sweep.quantity.unit == "°" else f" {sweep.quantity.unit}"
+            sweep.field.shown_unit
+            if sweep.field.shown_unit == "°"
+            else f" {sweep.field.shown_unit}"
         ).rstrip()
         for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
     ]

@@ -53,7 +53,7 @@ from bearing_explorer.plots.style import (
 )
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantity_list import CAGE_ANGLE
+from bearing_explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.statics.equilibrium import TERM_UNITS

@@ -8,7 +8,6 @@ import numpy as np
 import panel as pn
 
 from bearing_explorer.plots import style
-from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.mass_time import MASSLESS
@@ -45,7 +44,7 @@ class MassInSpectrum(View):
     def sentence(self, results: Results) -> str:
         found = results.ball_mass
         if not found.spectra:
-            return f"There is no spectrum, as {why_ended(found.broke_off)}."
+            return f"There is no spectrum, as {found.broke_off}."
         low, high = found.resonances
         resonance = "No ball carries load, so none resonates between its contacts. "
         if high > 0.0:

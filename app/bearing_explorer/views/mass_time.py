@@ -23,7 +23,7 @@ from bearing_explorer.plots.layers import (
 )
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.ball_mass import BallMass
-from bearing_explorer.results.excerpt import least_and_greatest, why_ended
+from bearing_explorer.results.excerpt import least_and_greatest
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_time import (
@@ -190,7 +190,7 @@ class MassInTime(View):
     def sentence(self, results: Results) -> str:
         shown = results.ball_mass
         if shown.broke_off:
-            words = why_ended(shown.broke_off)
+            words = shown.broke_off
             return f"{words[0].upper()}{words[1:]}."
         peaks = [
             "the housing's acceleration peaks at "

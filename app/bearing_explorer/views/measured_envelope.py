@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
-from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
 from bearing_explorer.widgets.look import LookField
@@ -49,7 +49,7 @@ class MeasuredEnvelope(FrequencyView):
         try:
             simulated, why_not = model.envelope(direction, band, top), ""
         except ValueError as error:
-            simulated, why_not = None, refusal(error)
+            simulated, why_not = None, sentence_of(error)
         resolution = measured.envelope_resolution(top)
         return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
 

@@ -10,7 +10,7 @@ from bokeh.plotting import figure
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import refusal
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.base import Sources
 from bearing_explorer.views.frequency_view import (
     ALONG,
@@ -94,7 +94,7 @@ class MeasuredSpectrum(FrequencyView):
         try:
             simulated, why_not = model.spectrum(direction, resolution), ""
         except ValueError as error:
-            simulated, why_not = None, refusal(error)
+            simulated, why_not = None, sentence_of(error)
         return Shown(direction, top, spectrum, simulated, resolution, why_not)
 
     def sentence(self, results: Results) -> str:

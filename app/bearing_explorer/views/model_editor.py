@@ -11,8 +11,7 @@ import param
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import values_of
-from bearing_explorer.state.quantity_list import MODEL_GROUPS, QUANTITY_LIST
+from bearing_explorer.state.field_values import MODEL_GROUPS, SHOWN_FIELDS, values_of
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
@@ -73,12 +72,12 @@ class ModelEditor(ControlView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         values = values_of(results.scene)
-        rows = [q for q in QUANTITY_LIST if q.group in MODEL_GROUPS]
+        rows = [q for q in SHOWN_FIELDS if q.group in MODEL_GROUPS]
         numbers = [
-            results.contact_damping if q.name == "contact_damping" else values[q.name] for q in rows
+            results.contact_damping if q.name == "contact_damping" else values[q.key] for q in rows
         ]
         return {
             "quantity": np.array([q.label for q in rows]),
             "value": np.array(["" if math.isnan(v) else f"{v:.9g}" for v in numbers]),
-            "unit": np.array([q.unit for q in rows]),
+            "unit": np.array([q.shown_unit for q in rows]),
         }

@@ -28,8 +28,7 @@ from bearing_explorer.views.vibration_spectrum import (
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore.common.numbers import count, scientific
 from bearingcore.common.table import table_of
-from bearingcore.dynamics.motion import TOO_MANY_STEPS
-from bearingcore.dynamics.orbit import NO_PERIOD, NO_START, NOT_CONVERGED, UNSTABLE
+from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene.scene import MASSLESS
 
 if TYPE_CHECKING:
@@ -199,32 +198,32 @@ class SteadyOrbit(View):
                 f"With {turning} all repeats only after {results.ball_passes} ball passes, too "
                 "many to look for while sliders move; grey is the marched motion."
             )
-        if orbit.status == NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
+        if orbit.status is OrbitStatus.NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
             return (
                 "The cages of the rows turn at speeds of their own and never come round together: "
                 "no motion repeats itself, so grey shows the marched one."
             )
-        if orbit.status == NO_PERIOD:
+        if orbit.status is OrbitStatus.NO_PERIOD:
             return (
                 "A defect of the inner race turns with the shaft, and shaft and cage never come "
                 "round together: no motion repeats itself, so grey shows the marched one."
             )
-        if orbit.status == NO_START:
+        if orbit.status is OrbitStatus.NO_START:
             return "There is no static state to begin from, so no orbit was looked for."
-        if orbit.status == TOO_MANY_STEPS:
+        if orbit.status is OrbitStatus.TOO_MANY_STEPS:
             return f"The search would take too long: {orbit.cost}."
-        if orbit.status == NOT_CONVERGED and results.moving:
+        if orbit.status is OrbitStatus.NOT_CONVERGED and results.moving:
             return (
                 "A short search found no motion that repeats with every ball pass; it goes on when "
                 "the slider rests. Grey is the marched one."
             )
-        if orbit.status == NOT_CONVERGED:
+        if orbit.status is OrbitStatus.NOT_CONVERGED:
             return (
                 "Newton's method found no motion that repeats with every ball pass; grey is the "
                 "marched one."
             )
         size = style.number(orbit.largest_multiplier, 3)
-        if orbit.status == UNSTABLE:
+        if orbit.status is OrbitStatus.UNSTABLE:
             return f"{_LOST_LONG[orbit.through]}; a pass makes disturbances {size} times as large."
         text = f"Every ball pass is alike; a pass leaves {size} of a small disturbance"
         gap = level_gap(results)

@@ -20,8 +20,8 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import focused
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import FAMILIES
@@ -377,7 +377,7 @@ def compute(
     except Given:
         return "There is no answer yet."
     except ValueError as error:
-        raise ValueError(refusal(error).replace("_", " ")) from error
+        raise ValueError(sentence_of(error)) from error
     for candidate in sizing.candidates:
         _ = candidate.bands  # here, and not while somebody waits for a drawing
     job.show(Sized(measured, scene, sizing))

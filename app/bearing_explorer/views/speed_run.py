@@ -28,8 +28,8 @@ from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, e
 from bearing_explorer.plots.ranges import nice_range
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
@@ -267,7 +267,7 @@ class SpeedRunSpectra(JobView[Found]):
         limits = ends(speeds.values)
         sources |= harmonics(run, speeds, float(frequency[-1]))
         not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).all(axis=(1, 2))]
-        sources["speed_run_now"] = {"speed": np.array([value_of(scene, speeds.quantity)])}
+        sources["speed_run_now"] = {"speed": np.array([value_of(scene, speeds.field)])}
         sources["speed_run_marched"] = {
             "frequency": np.full(not_proven.size, 0.006 * frequency[-1]),
             "speed": not_proven,
@@ -362,7 +362,7 @@ def compute(job: Work, scene: Any, speeds: Sweep) -> str:
             if run.cost and not done:
                 raise ValueError(run.cost)
         except ValueError as error:
-            raise ValueError(refusal(error)) from error
+            raise ValueError(sentence_of(error)) from error
         if run.cost:
             return f"{shown} Finer was not begun, {run.cost}."
         if run.completed or not done:

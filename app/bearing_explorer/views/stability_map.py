@@ -24,8 +24,8 @@ from bearing_explorer.plots.heat_map import (
 )
 from bearing_explorer.results.jobs import LONGEST, Work
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import refusal
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, alike_but_for, focused, value_of
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
@@ -106,7 +106,7 @@ class OrbitStability(JobView[Found]):
     )
 
     def build(self, packed: PackedSource) -> Any:
-        self._sides = {name: Side.of(quantity) for name, quantity in SWEEPABLE.items()}
+        self._sides = {key: Side.of(field) for key, field in SWEEPABLE.items()}
         speed, extent = self._sides["shaft_speed_hz"], self._sides["extent_deg"]
         plot = style.make_figure(
             style.AxisQuantity(speed.words, speed.symbol, speed.unit),
@@ -188,7 +188,7 @@ class OrbitStability(JobView[Found]):
             sources: Sources = {"stability_cells": self._image.nothing()}
             return sources | {"stability_border": empty, "stability_mark": mark}, {}
         x, y = found.x, found.y
-        sides = self._sides[x.quantity.name], self._sides[y.quantity.name]
+        sides = self._sides[x.field.key], self._sides[y.field.key]
         scene = focused(results.scene.replace(balls=MASSLESS), results.focus)
         codes = codes_of(found.map)
         own = alike_but_for(scene, found.map.scene, (x, y))
@@ -201,8 +201,8 @@ class OrbitStability(JobView[Found]):
             ),
             "stability_border": border(x.values, y.values, codes),
             "stability_mark": {
-                "x": np.array([value_of(scene, x.quantity)]),
-                "y": np.array([value_of(scene, y.quantity)]),
+                "x": np.array([value_of(scene, x.field)]),
+                "y": np.array([value_of(scene, y.field)]),
             },
         }
         return sources, {"stability_x": ends(x.values), "stability_y": ends(y.values)}
@@ -224,8 +224,8 @@ class OrbitStability(JobView[Found]):
             return {}
         y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
         return {
-            found.x.quantity.name: x.ravel(),
-            found.y.quantity.name: y.ravel(),
+            found.x.field.key: x.ravel(),
+            found.y.field.key: y.ravel(),
             **found.map.table().only("largest_multiplier", "outcome", "through").named(),
         }
 
@@ -249,7 +249,7 @@ def compute(job: Work, scene: Any, x: Sweep, y: Sweep, n: int) -> str:
             if found.cost and not done:
                 raise ValueError(found.cost)
         except ValueError as error:
-            raise ValueError(refusal(error)) from error
+            raise ValueError(sentence_of(error)) from error
         if found.cost:
             return f"{shown} Finer was not begun, {found.cost}."
         if found.completed or not done:

@@ -214,7 +214,7 @@ class VibrationSpectra(View):
     def sentence(self, results: Results) -> str:
         words = []
         if not results.late_spectra:
-            return f"There is no spectrum, as {why_ended(results.motion.status)}."
+            return f"There is no spectrum, as {why_ended(results.motion)}."
         for dof in SHOWN:
             if dof in results.late_spectra:
                 frequency, density = results.late_spectra[dof]

@@ -21,7 +21,7 @@ from bearing_explorer.plots.layers import (
     sources_of,
 )
 from bearing_explorer.plots.ranges import StickyRange
-from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest, why_ended
+from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 
@@ -165,7 +165,7 @@ class VibrationInTime(View):
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
         if shown.broke_off:
-            words = why_ended(shown.broke_off)
+            words = shown.broke_off
             return f"{words[0].upper()}{words[1:]}."
         peaks = [
             f"{style.number(float(np.max(np.abs(shown.acceleration[dof]))), 2)} m/s² along {dof}"

@@ -7,7 +7,6 @@ whatever it moves. What they ask for is judged in `bearing_explorer.state.scene_
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import asdict
 from typing import Any, ClassVar
 
 import param
@@ -15,7 +14,7 @@ import param
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice
-from bearing_explorer.state.quantity_list import CAGE_ANGLE, QUANTITY_LIST, SCENE_GROUPS
+from bearing_explorer.state.field_values import CAGE_ANGLE, SCENE_GROUPS, SHOWN_FIELDS
 
 
 def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
@@ -23,16 +22,21 @@ def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
 
     With them stand the choices of these groups, and further `choices`.
     """
-    shown = ("name", "label", "symbol", "unit", "about")
     names = list(groups)
     return {
         "groups": [
             {
                 "title": group,
                 "controls": [
-                    {key: value for key, value in asdict(quantity).items() if key in shown}
-                    for quantity in QUANTITY_LIST
-                    if quantity.group == group
+                    {
+                        "name": field.key,
+                        "label": field.label,
+                        "symbol": field.symbol_html,
+                        "unit": field.shown_unit,
+                        "about": field.meaning,
+                    }
+                    for field in SHOWN_FIELDS
+                    if field.group == group
                 ],
             }
             for group in names
@@ -88,6 +92,6 @@ class Controls(Rows):
             "turning": CAGE_ANGLE,
             "speed": "shaft_speed_hz",
             "defects": "Defect",
-            "last": [quantity.name for quantity in QUANTITY_LIST if quantity.of == "floor"],
+            "last": [field.key for field in SHOWN_FIELDS if field.part == "floor"],
         }
         super().__init__(asked, spec=spec, **params)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from bearing_explorer.state.quantities import Limits
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep, usual_range
 from bearing_explorer.widgets.form import FieldSpec
+from bearingcore.fields import Range
 
 SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
 
@@ -14,7 +14,11 @@ SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
 def plane_fields(headings: bool = False) -> list[FieldSpec]:
     """The fields of the form; with `headings` the quantities stand under those of their groups."""
     quantities = [
-        [q.name, f"{q.label} ({q.unit})" if q.unit else q.label, *([q.group] if headings else [])]
+        [
+            q.key,
+            f"{q.label} ({q.shown_unit})" if q.shown_unit else q.label,
+            *([q.group] if headings else []),
+        ]
         for q in SWEEPABLE.values()
     ]
     fields: list[FieldSpec] = []
@@ -27,7 +31,7 @@ def plane_fields(headings: bool = False) -> list[FieldSpec]:
     return fields
 
 
-def plane_fills(limits: Mapping[str, Limits]) -> dict[str, dict[str, dict[str, str]]]:
+def plane_fills(limits: Mapping[str, Range]) -> dict[str, dict[str, dict[str, str]]]:
     """What a side's fields show once a quantity is chosen there: side -> quantity -> fields."""
     usual = {
         name: [f"{v:g}".replace("-", "−") for v in usual_range(name, limits)] for name in SWEEPABLE
@@ -41,7 +45,7 @@ def plane_fills(limits: Mapping[str, Limits]) -> dict[str, dict[str, dict[str, s
 
 
 def plane_sweeps(
-    given: Mapping[str, str], counts: Sequence[int], limits: Mapping[str, Limits]
+    given: Mapping[str, str], counts: Sequence[int], limits: Mapping[str, Range]
 ) -> tuple[Sweep, Sweep]:
     """The sweeps to the right and upwards; ValueError with a sentence where there are none."""
     if given["x"] == given["y"]:

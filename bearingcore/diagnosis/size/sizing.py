@@ -50,7 +50,7 @@ from bearingcore.diagnosis.size.supports import SupportTrial, dependence, other_
 from bearingcore.diagnosis.size.synthesis import Band, comparison_band
 from bearingcore.diagnosis.size.variants import PathTolerances, Tolerances
 from bearingcore.dynamics.modes import frequency_bands
-from bearingcore.dynamics.motion import TOO_MANY_STEPS
+from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, Scene
 from bearingcore.scene.support import Support
@@ -411,7 +411,7 @@ def size_defect(
     steps = len(tried) * steps_needed(Search(scene, target, columns, tolerances, path.models))
     if steps > most_steps:
         cost = (
-            f"{TOO_MANY_STEPS}: about {thousands(steps)}, allowed are most_steps = "
+            f"{MotionStatus.TOO_MANY_STEPS}: about {thousands(steps)}, allowed are most_steps = "
             f"{thousands(most_steps)}"
         )
         return dataclasses.replace(nothing, status=cost)

@@ -65,7 +65,7 @@ def extent_error(
     checks.number("depth", scene.defect.depth, above=0.0, unit="m")
     motion = simulate(scene, duration + SETTLED, sample_rate)
     if not motion.completed:
-        raise ValueError(f"there is no signal to size: {motion.status}")
+        raise ValueError(f"there is no signal to size: {motion.reason}")
     columns = [i for i, name in enumerate(motion.dofs) if name in ("x", "y")]
     signal = motion.outer_acceleration[round(SETTLED * sample_rate) :, columns]
     level = math.sqrt(float(np.mean(signal**2))) * 10.0 ** (-noise / 20.0)

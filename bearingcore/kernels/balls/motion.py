@@ -42,7 +42,13 @@ from bearingcore.kernels.compiling import borrowing, compiled, inlined
 from bearingcore.kernels.contact import contact_load
 from bearingcore.kernels.motion.march import advance, all_finite, stage_part
 from bearingcore.kernels.motion.rings import accelerations
-from bearingcore.kernels.path import BLOCK, drops_of_balls, lay_out_balls, new_passage
+from bearingcore.kernels.path import (
+    BLOCK,
+    drops_of_balls,
+    lay_out_balls,
+    lay_out_unbalance,
+    new_passage,
+)
 from bearingcore.kernels.structs import PLANAR, VELOCITIES
 
 
@@ -59,13 +65,13 @@ def ring_velocities(y, k, rotor, work, sign):
 
 
 @inlined
-def ring_accelerations(y, k, rotor, a, work):
-    """Of inner and outer ring along active direction a (Eq. 18)."""
+def ring_accelerations(y, k, rotor, a, work, push):
+    """Of both rings along active direction a (Eq. 18), with the unbalance's push (5,)."""
     n = rotor.active.size
     d = rotor.active[a]
     # each ring feels its own contacts, so that of each pair one is left aside
-    inner, _ = accelerations(rotor, a, work.f[INNER, d], 0.0, 0.0)
-    _, outer = accelerations(rotor, a, work.f[OUTER, d], y[2 * n + a], k[2 * n + a])
+    inner, _ = accelerations(rotor, a, work.f[INNER, d], push[d], 0.0, 0.0)
+    _, outer = accelerations(rotor, a, work.f[OUTER, d], 0.0, y[2 * n + a], k[2 * n + a])
     return inner, outer
 
 
@@ -118,15 +124,15 @@ def ball_rates(y, k, passage, inner, at, system, work):
             for part in range(2):
                 k[speeds + part * n_balls + j] = work.ball[part, j] * races.inverse_mass[j]
     for a in range(n):
-        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, work)
+        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, work, passage.push[at])
 
 
 @inlined
-def record_rings(history, sample, y, k, rotor, work):
+def record_rings(history, sample, y, k, rotor, work, push):
     """Displacements, velocities and accelerations of one instant into history[sample]."""
     n = rotor.active.size
     for a in range(n):
-        inner, outer = ring_accelerations(y, k, rotor, a, work)
+        inner, outer = ring_accelerations(y, k, rotor, a, work, push)
         history[sample, 0, a] = y[a]
         history[sample, 1, a] = k[a]
         history[sample, 2, a] = inner
@@ -200,6 +206,7 @@ def march_balls(y, h, start_angle, stride, system, history, places):
             lay_out_balls(
                 angle, half_turn, instants, rotor.cage_speed, contacts, system.outer_path, passage
             )
+            lay_out_unbalance(angle, half_turn, instants, rotor, passage)
             lay_out_inner(angle, half_turn, instants, system, inner)
         if step == 0:
             smooth_start(y, passage, inner, system, work)
@@ -223,7 +230,7 @@ def march_balls(y, h, start_angle, stride, system, history, places):
             if step % stride == 0:
                 true_forces(k[0], passage, inner, at, system, work)
                 sample = step // stride
-                record_rings(history, sample, y, k[0], rotor, work)
+                record_rings(history, sample, y, k[0], rotor, work, passage.push[at])
                 for b in range(places.shape[1] * n_balls):
                     places[sample, b // n_balls, b % n_balls] = y[first + b]
             if step == n_steps:
@@ -252,6 +259,7 @@ def ball_motion_rates(times, states, start_angle, system):
             system.outer_path,
             march.passage,
         )
+        lay_out_unbalance(angle, 0.0, 1, system.rotor, march.passage)
         lay_out_inner(angle, 0.0, 1, system, march.inner)
         ball_rates(states[i], rates[i], march.passage, march.inner, 0, system, march.forces)
     return rates

@@ -37,7 +37,7 @@ from bearingcore.kernels.contact import (
 from bearingcore.kernels.motion.planar import planar_equations_of_motion, planar_forces
 from bearingcore.kernels.motion.rings import accelerations
 from bearingcore.kernels.motion.tangent import contact_slopes, new_slopes, saltation, tangent_rates
-from bearingcore.kernels.path import BLOCK, lay_out_balls, new_passage
+from bearingcore.kernels.path import BLOCK, lay_out_balls, lay_out_unbalance, new_passage
 from bearingcore.kernels.structs import (
     PLANAR,
     SMOOTH,
@@ -188,20 +188,24 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
         v[active[a]] = k[a] - k[2 * n + a]
     push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
     for a in range(n):
-        k[n + a], k[3 * n + a] = accelerations(rotor, a, f[active[a]], y[2 * n + a], k[2 * n + a])
+        push = passage.push[at, active[a]]
+        k[n + a], k[3 * n + a] = accelerations(
+            rotor, a, f[active[a]], push, y[2 * n + a], k[2 * n + a]
+        )
     return count
 
 
 @inlined
-def record(history, step, y, k, rotor, force):
+def record(history, step, y, k, rotor, force, push):
     """Displacements, velocities and accelerations (Eq. 18) of one instant into history[step].
 
-    `force` (5,) is that of the contacts.
+    `force` (5,) is that of the contacts, `push` (5,) that of the unbalance.
     """
     active = rotor.active
     n = active.size
     for a in range(n):
-        inner, outer = accelerations(rotor, a, force[active[a]], y[2 * n + a], k[2 * n + a])
+        d = active[a]
+        inner, outer = accelerations(rotor, a, force[d], push[d], y[2 * n + a], k[2 * n + a])
         history[step, 0, a] = y[a]
         history[step, 1, a] = k[a]
         history[step, 2, a] = inner
@@ -254,6 +258,7 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
             lay_out_balls(
                 angle, half_turn, instants, rotor.cage_speed, contacts, system.path, passage
             )
+            lay_out_unbalance(angle, half_turn, instants, rotor, passage)
         for stage in range(4):
             at = i + (stage + 1) // 2
             part = stage_part(stage, h)
@@ -284,7 +289,7 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
                     planar_forces(y, k[0], passage, at, rotor, contacts, forces.f)
                 elif rotor.variables == SMOOTH:
                     push_of_contacts(passage, at, rotor, contacts, forces, count, False)
-                record(history, step, y, k[0], rotor, forces.f)
+                record(history, step, y, k[0], rotor, forces.f, passage.push[at])
                 if step == n_steps:
                     break
         if step == n_steps:
@@ -370,6 +375,7 @@ def rates_at(angle, y, k, system, passage, work):
     """`equations_of_motion` at a cage angle [rad], which takes laying out the balls."""
     rotor = system.rotor
     lay_out_balls(angle, 0.0, 1, rotor.cage_speed, system.contacts, system.path, passage)
+    lay_out_unbalance(angle, 0.0, 1, rotor, passage)
     equations_of_motion(y, k, passage, 0, rotor, system.contacts, work)
 
 

@@ -25,7 +25,7 @@ from bearing_explorer.results.explore import (
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import limits_of
+from bearing_explorer.state.field_values import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
 from bearing_explorer.views.explore import ExplorePlane, summary
@@ -95,8 +95,8 @@ def test_a_point_says_what_the_solvers_say(turned: bool) -> None:
         assert found.values.shape == (7, 9)
         for j, i in ((0, 0), (1, 7), (6, 3)):
             scene = RIG.replace(
-                **{asked.x.quantity.field: found.x.in_si[1][i]},
-                **{asked.y.quantity.field: found.y.in_si[1][j]},
+                **{asked.x.field.name: found.x.in_si[1][i]},
+                **{asked.y.field.name: found.y.in_si[1][j]},
             )
             assert found.values[j, i] == pytest.approx(of_scene(scene), rel=1e-9)
 
@@ -183,8 +183,8 @@ def test_the_error_of_a_sizing_and_where_there_can_be_none() -> None:
     asked = question("extent_error", ("extent_deg", "0", "38.6"), ("depth_um", "50", "60"))
     small = Question(
         RIG,
-        Sweep(asked.x.quantity, np.array([0.0, 38.6])),
-        Sweep(asked.y.quantity, np.array([0.0, 50.0])),
+        Sweep(asked.x.field, np.array([0.0, 38.6])),
+        Sweep(asked.y.field, np.array([0.0, 50.0])),
         asked.output,
     )
     survey = Survey(small)

@@ -13,8 +13,8 @@ from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.settings import Settings
 
 from bearingcore import Scene, equilibrium, presets
-from bearingcore.dynamics.orbit import NOT_CONVERGED
 from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.dynamics.status import OrbitStatus
 
 
 def test_equal_scenes_share_their_answers() -> None:
@@ -95,7 +95,7 @@ def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
     quick, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
     assert quick is not None
     assert patient is not None
-    assert quick.status == patient.status == NOT_CONVERGED
+    assert quick.status == patient.status == OrbitStatus.NOT_CONVERGED
     assert quick.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
     usual = presets["fan-rig"]
     short = Settings(duration=0.3)  # which takes no coarser steps while a hand moves
@@ -120,7 +120,7 @@ def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
     assert len(looks) == 41
     found = Results(hopeless).orbit
     assert found is not None
-    assert found.status == NOT_CONVERGED
+    assert found.status == OrbitStatus.NOT_CONVERGED
     assert found.right_hand_side_calls > 100 * len(looks)
     monkeypatch.setattr(motions.core, "orbit", None)
     assert Results(hopeless).orbit is found

@@ -233,5 +233,5 @@ def test_more_rows_than_the_page_shows_are_refused() -> None:
     rows = (Row(-0.01), Row(), Row(0.01))
     bearing = presets["fan-rig"].bearing.replace(rows=rows)
     scene: Scene = presets["fan-rig"].replace(bearing=bearing)
-    with pytest.raises(ValueError, match="rows of balls are 3; allowed here: at most 2"):
+    with pytest.raises(ValueError, match="number of rows is 3; allowed: at most 2 here"):
         SceneEditor("fan-rig").take_scene(scene)

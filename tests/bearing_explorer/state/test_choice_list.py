@@ -14,7 +14,7 @@ from bearing_explorer.state.choice_list import (
     Choice,
     chosen_of,
 )
-from bearing_explorer.state.quantity_list import QUANTITY_LIST
+from bearing_explorer.state.field_values import SHOWN_FIELDS
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import CONTACT_LAWS, EDGES, RACES, Defect, RoughFloor, presets
@@ -34,7 +34,7 @@ def test_every_option_of_the_core_can_be_chosen() -> None:
 def test_names_are_not_those_of_numbers_and_options_have_sentences() -> None:
     names = [choice.name for choice in CHOICE_LIST]
     assert len(set(names)) == len(names)
-    assert not set(names) & {quantity.name for quantity in QUANTITY_LIST}
+    assert not set(names) & {field.key for field in SHOWN_FIELDS}
     for choice in CHOICE_LIST:
         assert len(set(choice.names)) == len(choice.names) > 1
         assert all(option.label and option.about.endswith(".") for option in choice.options)

@@ -156,7 +156,7 @@ def test_the_list_of_defects_ends(editor: SceneEditor) -> None:
     for _ in range(MOST_DEFECTS - 1):
         assert editor.choose({"defect": "add"}) == {}
     assert len(editor.scene.defects) == MOST_DEFECTS
-    assert "at most" in editor.choose({"defect": "add"})["defect"]
+    assert "the most there can be" in editor.choose({"defect": "add"})["defect"]
     edges = sorted((d.center - 0.5 * d.extent, d.center + 0.5 * d.extent) for d in editor.defects)
     assert all(end < start for (_, end), (start, _) in pairwise(edges))
 

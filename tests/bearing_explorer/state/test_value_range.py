@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.state.quantities import limits_of, values_of
+from bearing_explorer.state.field_values import limits_of, values_of
 from bearing_explorer.state.value_range import (
     SWEEPABLE,
     Sweep,

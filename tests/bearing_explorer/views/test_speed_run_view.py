@@ -11,7 +11,7 @@ import pytest
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.quantities import limits_of
+from bearing_explorer.state.field_values import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
 from bearing_explorer.views.speed_run import (

@@ -31,7 +31,8 @@ from bearingcore import (
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.rows import Row
 from bearingcore.diagnosis.part.parts import part_lines
-from bearingcore.dynamics.orbit import NO_PERIOD, common_ball_passes
+from bearingcore.dynamics.orbit import common_ball_passes
+from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene import packing
 from bearingcore.statics.ball_positions import ball_positions, static_state
 from bearingcore.statics.equilibrium import default_cage_angles
@@ -367,7 +368,7 @@ def test_heavy_balls_of_each_row_are_pressed_as_independent_sums_say() -> None:
 
 def test_nothing_repeats_where_cages_turn_at_speeds_of_their_own() -> None:
     assert common_ball_passes(UNLIKE) is None
-    assert orbit(UNLIKE).status == NO_PERIOD
+    assert orbit(UNLIKE).status == OrbitStatus.NO_PERIOD
     assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=10))) == 7
     assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=7))) == 2
     assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=9))) == 14

@@ -284,7 +284,7 @@ def test_without_a_load_nothing_touches(scene: Scene) -> None:
     assert contact_damping(scene) == 0.0
     motion = simulate(scene, 0.001)
     assert not motion.completed
-    assert motion.status.startswith("no static state to start from: nothing touches")
+    assert motion.reason.startswith("no static state to start from: nothing touches")
     assert np.isnan(motion.outer_acceleration).all()
 
 

@@ -20,10 +20,11 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.common.table import FACTORS, SUFFIXES, ResultTable, table_of
+from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import stability_map
 from bearingcore.statics.limit import limits_table
+from bearingcore.units import UNITS
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 
@@ -70,10 +71,10 @@ def test_tables_stand_side_by_side_under_prefixes_and_never_mix_names() -> None:
         _ = one | one
 
 
-def test_every_factor_leads_to_a_unit_with_a_name() -> None:
-    for of, to in FACTORS:
-        assert of in SUFFIXES
-        assert to in SUFFIXES
+def test_every_unit_has_an_si_unit_that_is_one_itself() -> None:
+    for name, unit in UNITS.items():
+        assert UNITS[unit.si].si == unit.si, name
+        assert UNITS[unit.si].factor == 1.0, name
 
 
 def test_every_result_has_a_table_of_its_own_numbers() -> None:

@@ -11,15 +11,10 @@ from scipy.integrate import solve_ivp
 
 from bearingcore import Scene, orbit, presets, simulate, spectrum
 from bearingcore.dynamics.motion import static_start
-from bearingcore.dynamics.orbit import (
-    NO_PERIOD,
-    NOT_CONVERGED,
-    STABLE,
-    UNSTABLE,
-    common_ball_passes,
-)
 from bearingcore.dynamics.orbit import _Shooting as Shooting
+from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.problem import motion_problem
+from bearingcore.dynamics.status import OrbitStatus
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 
@@ -46,17 +41,17 @@ def marched_period(scene: Scene, passes: int = 600, longest: int = 12) -> int | 
 def test_the_largest_multiplier_at_7_hz_is_0_32() -> None:
     """As found by an independent computation with c = 130 N·s/m and published edges."""
     found = orbit(at(7.0, 12.9))
-    assert found.status == STABLE
+    assert found.status == OrbitStatus.STABLE
     assert found.largest_multiplier == pytest.approx(0.32, abs=0.005)
 
 
 def test_at_30_hz_the_orbit_doubles_its_period() -> None:
     found = orbit(at(30.0, 12.9))
-    assert (found.status, found.through) == (UNSTABLE, "-1")
+    assert (found.status, found.through) == (OrbitStatus.UNSTABLE, "-1")
     assert found.largest_multiplier == pytest.approx(1.33, abs=0.01)
     assert marched_period(at(30.0, 12.9)) == 2
     doubled = orbit(at(30.0, 12.9), ball_passes=2, start=None)
-    assert doubled.status in (STABLE, UNSTABLE)
+    assert doubled.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
 
 
 @pytest.mark.parametrize(
@@ -80,7 +75,7 @@ def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_
     """600 ball passes of marching repeat after one pass just where the orbit is stable."""
     scene = at(shaft_hz, extent_deg)
     found = orbit(scene)
-    assert found.status in (STABLE, UNSTABLE)
+    assert found.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
     assert (marched_period(scene) == 1) == found.stable
 
 
@@ -88,7 +83,7 @@ def test_where_no_orbit_is_found_none_is_claimed() -> None:
     """At 100 Hz shooting over one pass has nothing to find: marching returns every second pass."""
     scene = at(100.0, 12.9)
     assert marched_period(scene) == 2
-    assert orbit(scene).status in (NOT_CONVERGED, UNSTABLE)
+    assert orbit(scene).status in (OrbitStatus.NOT_CONVERGED, OrbitStatus.UNSTABLE)
 
 
 @pytest.mark.parametrize("extent_deg", [12.9, 38.6])
@@ -181,14 +176,14 @@ def test_an_orbit_nearby_shortens_the_way() -> None:
     first = orbit(at(20.0, 12.9))
     nearby = at(20.0, 12.9).replace(depth=49.5e-6, fy=-101.0)
     warm, cold = orbit(nearby, start=first), orbit(nearby)
-    assert warm.status == cold.status == STABLE
+    assert warm.status == cold.status == OrbitStatus.STABLE
     assert warm.right_hand_side_calls < cold.right_hand_side_calls
     assert warm.largest_multiplier == pytest.approx(cold.largest_multiplier, rel=1e-3)
 
 
 def test_five_directions_have_an_orbit_too() -> None:
     found = orbit(presets["liew-lim"])
-    assert found.status == STABLE
+    assert found.status == OrbitStatus.STABLE
     assert found.multipliers.shape == (20,)
 
 
@@ -227,7 +222,7 @@ def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:
     assert common_ball_passes(at(7.0, 12.9)) == 1
     unlike = inner.replace(contact_angle=math.radians(15.0))
     assert common_ball_passes(unlike) is None
-    assert orbit(unlike).status == NO_PERIOD
+    assert orbit(unlike).status == OrbitStatus.NO_PERIOD
     assert math.isnan(orbit(unlike).largest_multiplier)
 
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from bearingcore import orbit, presets, simulate, spectrum
-from bearingcore.dynamics.orbit import STABLE, UNSTABLE
 from bearingcore.dynamics.speed_run import speed_run
-from bearingcore.dynamics.stability_map import OUTCOMES, REFUSED, regions, stability_map
+from bearingcore.dynamics.stability_map import OUTCOMES, regions, stability_map
+from bearingcore.dynamics.status import MapOutcome, OrbitStatus
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 SPEEDS = 2.0 * math.pi * np.array([7.0, 20.0, 30.0, 60.0])
@@ -25,9 +25,9 @@ def test_a_map_is_made_of_orbits() -> None:
             single = orbit(RIG.replace(shaft_speed=speed, extent=extent))
             assert OUTCOMES[found.outcome[j, i]] == single.status
             assert found.multiplier[j, i] == pytest.approx(single.largest_multiplier, rel=1e-4)
-    assert OUTCOMES[found.outcome[0, 2]] == UNSTABLE
+    assert OUTCOMES[found.outcome[0, 2]] == OrbitStatus.UNSTABLE
     assert found.through[0, 2] == "-1"
-    assert found.count(STABLE) == 7
+    assert found.count(OrbitStatus.STABLE) == 7
     assert any("half the ball-pass frequency" in sentence for sentence in regions(found))
 
 
@@ -76,10 +76,10 @@ def test_a_point_that_is_refused_does_not_stop_a_map() -> None:
     sizes = ("ball_diameter", [5e-3, 9e-3])
     found = stability_map(rig, sizes, ("pitch_diameter", [36e-3, 45e-3]))
     assert found.completed
-    assert found.count(REFUSED) == 1
-    assert OUTCOMES[found.outcome[0, 1]] == REFUSED
+    assert found.count(MapOutcome.REFUSED) == 1
+    assert OUTCOMES[found.outcome[0, 1]] == MapOutcome.REFUSED
     assert np.isnan(found.multiplier).tolist() == [[False, True], [False, False]]
-    reason = found.refusals[0, 1]
+    reason = str(found.refusals[0, 1])
     with pytest.raises(ValueError, match=re.escape(reason)):
         rig.replace(ball_diameter=9e-3, pitch_diameter=36e-3)
     assert any(reason in sentence for sentence in regions(found))

@@ -13,10 +13,10 @@ import pytest
 from bearingcore import Scene, equilibrium, modes, presets, simulate, stiffness_maps
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.size.sizing import size_defect
-from bearingcore.dynamics.motion import TOO_MANY_STEPS
-from bearingcore.dynamics.orbit import STABLE, orbit
+from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.stability_map import regions, stability_map
+from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.ball_positions import ball_positions
 from bearingcore.sweep.grid import Grid
@@ -49,7 +49,7 @@ def _no_marching(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("_no_marching")
 def test_an_orbit_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -> None:
     found = orbit(STIFF)
-    assert found.status == TOO_MANY_STEPS
+    assert found.status == OrbitStatus.TOO_MANY_STEPS
     assert found.cost.startswith(f"{thousands(725688)} steps a period")
     assert f"most_steps = {thousands(1e6)}" in found.cost
     assert not found.stable
@@ -61,7 +61,7 @@ def test_an_orbit_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -
 def test_a_motion_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -> None:
     motion = simulate(STIFF, 0.02, 4e7, ball_loads=True)
     assert not motion.completed
-    assert motion.status.startswith(f"too many steps: {thousands(6399992)} of 3.12 ns each")
+    assert motion.reason.startswith(f"too many steps: {thousands(6399992)} of 3.12 ns each")
     assert motion.right_hand_side_calls == 0
     assert motion.outer_acceleration.shape == (len(motion.time), 5)
     assert np.isnan(motion.outer_acceleration).all()
@@ -74,7 +74,7 @@ def test_speeds_and_points_of_too_many_steps_are_told_one_by_one() -> None:
     with pytest.raises(ValueError, match="too many steps"):
         speed_run(LESS_STIFF, [500.0, 520.0], sample_rate=1e7, duration=0.1, most_steps=100_000)
     found = stability_map(STIFF, ("fz", [100.0, 110.0]), ("extent", [0.2, 0.3]))
-    assert found.count(TOO_MANY_STEPS) == 4
+    assert found.count(OrbitStatus.TOO_MANY_STEPS) == 4
     assert "At 4 the search would take more steps than allowed." in regions(found)
 
 
@@ -95,7 +95,7 @@ def test_a_run_of_too_many_steps_in_all_is_not_begun_and_says_what_it_would_cost
         f"too many steps: about {thousands(2 * 725688 * 1e6)} at 1000000 points, allowed are "
         f"most_steps_in_all = {thousands(1e9)}"
     )
-    assert found.count(TOO_MANY_STEPS) == 1_000_000
+    assert found.count(OrbitStatus.TOO_MANY_STEPS) == 1_000_000
     assert not found.completed
 
 
@@ -103,12 +103,12 @@ def test_the_bound_in_all_is_an_argument_and_holds_while_steps_are_taken() -> No
     rig = presets["fan-rig"]
     x, y = ("fy", [-100.0, -101.0]), ("extent", [0.2, 0.21])
     whole = stability_map(rig, x, y)
-    assert whole.count(STABLE) == 4
+    assert whole.count(OrbitStatus.STABLE) == 4
     assert not whole.cost
     part = stability_map(rig, x, y, most_steps_in_all=7000)
     assert not part.cost, "that more are needed is not known before"
-    assert 0 < part.count(STABLE) < 4
-    assert part.count(STABLE) + part.count(TOO_MANY_STEPS) == 4
+    assert 0 < part.count(OrbitStatus.STABLE) < 4
+    assert part.count(OrbitStatus.STABLE) + part.count(OrbitStatus.TOO_MANY_STEPS) == 4
     speeds = [260.0, 262.0, 264.0]
     short = {"sample_rate": 16384.0, "duration": 0.004, "resolution": 256.0}
     run = speed_run(rig, speeds, **short)
@@ -117,7 +117,7 @@ def test_the_bound_in_all_is_an_argument_and_holds_while_steps_are_taken() -> No
     run = speed_run(rig, speeds, **short, most_steps_in_all=1300)
     assert not run.cost
     assert run.from_orbit.tolist() == [True, True, False]
-    assert "too many steps" in run.refusals[2]
+    assert "too many steps" in str(run.refusals[2])
     for ask in (lambda n: stability_map(rig, x, y, most_steps_in_all=n),
                 lambda n: speed_run(rig, speeds, most_steps_in_all=n)):  # fmt: skip
         with pytest.raises(ValueError, match="most_steps_in_all"):
@@ -157,10 +157,10 @@ def test_the_bound_is_an_argument() -> None:
     steps = orbit(rig).right_hand_side_calls // 4
     assert orbit(rig, most_steps=steps).stable
     short = orbit(rig, most_steps=steps - 1)
-    assert short.status == TOO_MANY_STEPS
+    assert short.status == OrbitStatus.TOO_MANY_STEPS
     assert f"allowed are most_steps = {steps - 1}" in short.cost
     assert short.right_hand_side_calls // 4 < steps
-    assert simulate(rig, 0.01, most_steps=10).status.startswith("too many steps")
+    assert simulate(rig, 0.01, most_steps=10).status is MotionStatus.TOO_MANY_STEPS
     assert simulate(rig, 0.01, most_steps=1000).completed
     for refused in (0, -3, 2.5):
         with pytest.raises(ValueError, match="most_steps"):

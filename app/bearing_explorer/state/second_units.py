@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bearing_explorer.state.quantities import Values, defects_of
+from bearing_explorer.state.field_values import Values, defects_of
 from bearingcore import Scene
 
 
-def twins_of(scene: Scene, selected: int, draft: Values) -> dict[str, dict[str, Any]]:
+def second_units(scene: Scene, selected: int, draft: Values) -> dict[str, dict[str, Any]]:
     """The second unit of quantities that have one, by name: its unit, words and factor.
 
     `draft`: dimensions that wait; the ratio of a groove among them is to the ball among them.

@@ -4,24 +4,25 @@ import math
 import re
 
 import pytest
-from bearing_explorer.state.quantities import (
-    QUANTITIES,
+from bearing_explorer.state.field_values import (
+    FIELD_BY_KEY,
     in_si,
     limits_of,
     read,
-    refusal,
     scene_with_fields,
     values_of,
 )
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import sentence_of
 
 from bearingcore import Scene, presets
+from bearingcore.fields import SCENE_PARTS
 
 
 def scene_with(scene: Scene, values: dict[str, float], **others: object) -> Scene:
     """`scene` with numbers of the page, and other fields by name, changed."""
-    own = {name: QUANTITIES[name] for name in values if QUANTITIES[name].of == "scene"}
-    fields = {quantity.field: in_si(quantity, values[name]) for name, quantity in own.items()}
+    own = {key: FIELD_BY_KEY[key] for key in values if FIELD_BY_KEY[key].part in SCENE_PARTS}
+    fields = {field.name: in_si(field, values[key]) for key, field in own.items()}
     return scene_with_fields(scene, {**fields, **others})
 
 
@@ -38,7 +39,7 @@ def test_a_preset_survives_the_way_to_the_page_and_back(name: str) -> None:
 @pytest.mark.parametrize("name", list(presets))
 def test_the_sliders_reach_what_a_preset_starts_with(name: str) -> None:
     values, limits = values_of(presets[name]), limits_of(presets[name])
-    assert set(values) == set(limits) == set(QUANTITIES)
+    assert set(values) == set(limits) == set(FIELD_BY_KEY)
     for quantity, value in values.items():
         if not math.isnan(value):
             assert limits[quantity].least <= value <= limits[quantity].most, quantity
@@ -114,7 +115,7 @@ def test_what_the_core_refuses_is_said_in_the_units_of_the_page(
 ) -> None:
     with pytest.raises(ValueError, match=" is ") as refused:
         presets["6205"].replace(**change)
-    said = refusal(refused.value)
+    said = sentence_of(refused.value)
     for part in words:
         assert part in said, said
     assert not re.search(r"\d ?(m|rad|rad/s)\b", said), said

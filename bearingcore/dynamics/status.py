@@ -1,0 +1,58 @@
+"""How a simulated motion, the search for an orbit and a point of a map ended."""
+
+from __future__ import annotations
+
+from enum import unique
+
+from bearingcore.errors import Status
+
+
+@unique
+class MotionStatus(Status):
+    """How a simulated motion ended."""
+
+    COMPLETED = "completed"
+    TOO_MANY_STEPS = "too many steps"
+    NO_START = "no static state to start from"
+    DIVERGED = "diverged"
+    STEP_VANISHED = "no step is small enough"
+
+    @property
+    def sentence(self) -> str:
+        """The status as a clause that can follow "as"."""
+        return _MOTION_CLAUSES[self]
+
+
+_MOTION_CLAUSES = {
+    MotionStatus.COMPLETED: "the simulated motion is complete",
+    MotionStatus.TOO_MANY_STEPS: "the simulated motion takes too many steps",
+    MotionStatus.NO_START: "there is no static state to start from",
+    MotionStatus.DIVERGED: "the simulated motion diverged",
+    MotionStatus.STEP_VANISHED: "no step of the simulation is small enough",
+}
+
+
+@unique
+class OrbitStatus(Status):
+    """How the search for a periodic motion ended."""
+
+    STABLE = "stable orbit"
+    UNSTABLE = "unstable orbit"
+    NOT_CONVERGED = "not converged"
+    NO_PERIOD = "no common period"
+    NO_START = "no static state to start from"
+    TOO_MANY_STEPS = "too many steps"
+
+
+@unique
+class MapOutcome(Status):
+    """What became of a point of a stability map; its place in this list is its code."""
+
+    STABLE = "stable orbit"
+    UNSTABLE = "unstable orbit"
+    NOT_CONVERGED = "not converged"
+    NO_PERIOD = "no common period"
+    NO_START = "no static state to start from"
+    REFUSED = "refused"
+    NOT_COMPUTED = "not computed"
+    TOO_MANY_STEPS = "too many steps"

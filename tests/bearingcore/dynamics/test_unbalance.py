@@ -1,0 +1,98 @@
+"""A force that turns with the shaft, against a linear oscillator and an independent integrator."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from bearingcore import Defect, Scene, contact_damping, equilibrium, presets, simulate
+from bearingcore.dynamics.motion import moving_system, static_start
+from bearingcore.dynamics.orbit import common_ball_passes
+from tests.bearingcore.kernels.numpy_twin import rate_of_velocities
+
+SAMPLE_RATE = 65536.0
+SPEED = 2.0 * math.pi * 100.0
+
+
+def pushed_along_the_shaft() -> Scene:
+    """An angular contact bearing whose balls are loaded alike: one stiffness whatever the angle."""
+    return presets["7208-25deg"].replace(
+        fx=0.0, fy=0.0, fz=2000.0, defect=Defect.none(), dofs=("x", "y", "z"), shaft_speed=SPEED
+    )
+
+
+def linear_response(scene: Scene) -> complex:
+    """Amplitude x + iy [m] of the housing at the shaft's speed, two bodies on springs.
+
+    The dampers of the contacts turn with the cage: seen from there the rings turn at ω_s − ω_c.
+    """
+    state = equilibrium(scene, [0.0])
+    carried = scene.bearing.n_balls * math.cos(float(state.contact_angle[0, 0])) ** 2 / 2.0
+    damping = contact_damping(scene) * carried
+    contact = state.term("k_xx")[0] + 1j * damping * (SPEED - scene.cage_speed)
+    support = scene.support
+    ground = support.stiffness_x + 1j * SPEED * support.damping_x - support.outer_mass * SPEED**2
+    matrix = np.array(
+        [[contact - support.inner_mass * SPEED**2, -contact], [-contact, contact + ground]]
+    )
+    return complex(np.linalg.solve(matrix, [scene.unbalance * SPEED**2, 0.0])[1])
+
+
+@pytest.mark.parametrize("balls", ["massless", "with mass"])
+def test_a_small_unbalance_moves_the_housing_as_a_linear_oscillator(balls: str) -> None:
+    scene = pushed_along_the_shaft().replace(unbalance=2e-6, balls=balls)
+    duration = 0.25
+    found, still = (
+        simulate(scene.replace(unbalance=unbalance), duration, SAMPLE_RATE)
+        for unbalance in (scene.unbalance, 0.0)
+    )
+    x, y = (found.outer_displacement - still.outer_displacement)[:, :2].T
+    late = found.time >= duration - 10.0 * 2.0 * math.pi / SPEED  # whole turns
+    amplitude = np.mean(((x + 1j * y) * np.exp(-1j * SPEED * found.time))[late])
+    assert amplitude == pytest.approx(linear_response(scene), rel=1e-2 if "with" in balls else 1e-3)
+
+
+@pytest.mark.parametrize("preset", ["fan-rig", "liew-lim"])
+def test_a_damaged_bearing_with_unbalance_as_another_integrator_has_it(preset: str) -> None:
+    scene = presets[preset].replace(
+        unbalance=5e-4, shaft_speed=2.0 * math.pi * 40.0, contact_law="no tension"
+    )
+    duration = 0.02
+    found = simulate(scene, duration, SAMPLE_RATE, step_rate=8.0 * SAMPLE_RATE)
+    dofs = scene.active_dofs
+    system = moving_system(scene, dofs, velocities=True)
+    start = static_start(scene, dofs)
+    assert start is not None
+    force = scene.unbalance * scene.shaft_speed**2 / scene.support.inner_mass
+    n = len(dofs)
+
+    def rate(t: float, y: np.ndarray) -> np.ndarray:
+        rates = rate_of_velocities(system, t, y)
+        rates[n : n + 2] += force * np.array(
+            [math.cos(scene.shaft_speed * t), math.sin(scene.shaft_speed * t)]
+        )
+        return rates
+
+    known = solve_ivp(
+        rate, (0.0, duration), start, method="LSODA", t_eval=found.time, rtol=1e-8, atol=1e-13
+    )
+    expected = known.y[2 * n : 2 * n + 2].T
+    without = simulate(scene.replace(unbalance=0.0), duration, SAMPLE_RATE)
+    effect = np.abs(found.outer_displacement - without.outer_displacement)[:, :2].max()
+    assert np.abs(found.outer_displacement[:, :2] - expected).max() < 0.02 * effect
+
+
+def test_no_motion_repeats_with_the_ball_pass_where_the_shaft_is_unbalanced() -> None:
+    rig = presets["fan-rig"]
+    assert common_ball_passes(rig) == 1
+    assert common_ball_passes(rig.replace(unbalance=1e-4)) != 1
+
+
+def test_files_without_an_unbalance_stay_as_they_were() -> None:
+    rig = presets["fan-rig"]
+    assert "unbalance" not in rig.to_toml()
+    with_it = rig.replace(unbalance=3e-4)
+    assert Scene.from_toml(with_it.to_toml()) == with_it
+    with pytest.raises(ValueError, match="unbalance is -1"):
+        rig.replace(unbalance=-1.0)

@@ -34,9 +34,6 @@ USUAL_LEVEL = 5.0
 GRAVITY_SHARE = 0.1
 """How near a mean comes to gravity where it is that."""
 
-NOTHING_SAYS = "nothing says"
-"""So begins the reason of a unit that is not even a guess."""
-
 
 @dataclass(frozen=True)
 class FileColumns:
@@ -234,9 +231,9 @@ def _unit(
     if known.unit is not None:
         return known.unit
     if not picked:
-        return Finding("m/s²", f"{NOTHING_SAYS} it", False)
+        return Finding("m/s²", "nothing says it", False, supported=False)
     if table.full_scale_known is False:
-        return Finding("m/s²", f"{NOTHING_SAYS} what full scale is", False)
+        return Finding("m/s²", "nothing says what full scale is", False, supported=False)
     return _unit_by_level(table.columns[:, list(picked)])
 
 
@@ -250,7 +247,7 @@ def _unit_by_level(signals: NDArray[np.float64]) -> Finding[str]:
         if np.any((np.abs(means / gravity - 1.0) < GRAVITY_SHARE) & (level < gravity)):
             return Finding(unit, f"a mean of {number(means.max())} is gravity in {unit}", False)
     if not 0.0 < level < np.inf:
-        return Finding("m/s²", f"{NOTHING_SAYS} it", False)
+        return Finding("m/s²", "nothing says it", False, supported=False)
     strays = {
         unit: abs(float(np.log(level * ACCELERATIONS[unit] / USUAL_LEVEL)))
         for unit in ("g", "m/s²")
@@ -276,7 +273,7 @@ def _speed(
                     if steady
                     else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
-                return Finding(mean * SPEEDS[column.unit], words, steady)
+                return Finding(mean * SPEEDS[column.unit], words, steady, unit=column.unit)
     return facts.shaft_speed_in(named, table.name)
 
 

@@ -5,6 +5,7 @@ It stands in single numbers of MATLAB files, in lines above a table, and in the 
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -28,11 +29,17 @@ class Finding(Generic[T]):
         where it stands, or why it is likely, in a few words.
     stated
         whether the file says so; else it is a guess, and whoever knows better is to be asked.
+    supported
+        whether anything speaks for a guess; else the value is a default.
+    unit
+        the unit in which the file gives it, where that is known.
     """
 
     value: T
     reason: str
     stated: bool = True
+    supported: bool = True
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -147,27 +154,30 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             continue
         words = f"“{one.name}” in the file"
         if "rpm" in key or (one.unit == "rpm" and key in _SPEEDS | {"n"}):
-            found.append(Finding(value * SPEEDS["rpm"], words))
+            found.append(Finding(value * SPEEDS["rpm"], words, unit="rpm"))
         elif key in _FREQUENCIES:
             unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
-            found.append(Finding(value * SPEEDS[unit], words))
+            found.append(Finding(value * SPEEDS[unit], words, unit=unit))
         elif key in _SPEEDS:
             if one.unit is not None and one.unit in SPEEDS:
-                found.append(Finding(value * SPEEDS[one.unit], words))
+                found.append(Finding(value * SPEEDS[one.unit], words, unit=one.unit))
             else:
                 unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
-                found.append(Finding(value * SPEEDS[unit], f"{words}, taken as {unit}", False))
+                taken = f"{words}, taken as {unit}"
+                found.append(Finding(value * SPEEDS[unit], taken, False, unit=unit))
         elif key == "rate" and value < LEAST_RATE:
             stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
             found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
     match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower())
     if match is not None and float(match[1]) > 0.0:
-        found.append(Finding(float(match[1]) * SPEEDS["rpm"], f"“{match[0]}” in the file's name"))
+        words = f"“{match[0]}” in the file's name"
+        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, unit="rpm"))
     if not found:
         return None
     first = next((one for one in found if one.stated), found[0])
     if any(one.stated and abs(one.value / first.value - 1.0) > 0.005 for one in found):
-        return Finding(first.value, f"{first.reason}, which names another one too", False)
+        reason = f"{first.reason}, which names another one too"
+        return dataclasses.replace(first, reason=reason, stated=False)
     return first
 
 

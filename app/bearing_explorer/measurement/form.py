@@ -23,7 +23,6 @@ from bearing_explorer.measurement.signal import Origin
 from bearingcore import Recording, Table
 from bearingcore.common.numbers import number, span, with_prefix
 from bearingcore.errors import FieldError
-from bearingcore.files.contents import NOTHING_SAYS
 from bearingcore.files.facts import Finding
 from bearingcore.files.units import (
     STANDARD_GRAVITY,
@@ -90,14 +89,14 @@ def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
         "full_scale": "1",
         "sensitivity": NOT_KNOWN,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
-        "shaft_speed": f"{shaft_speed_hz:g} Hz" if speed is None else _written(speed, table),
+        "shaft_speed": f"{shaft_speed_hz:g} Hz" if speed is None else _written(speed),
     }
 
 
-def _written(speed: Finding[float], table: Table) -> str:
-    """A speed in the unit in which machines of its kind are given: rpm where the file does."""
+def _written(speed: Finding[float]) -> str:
+    """A speed in rpm where the file gives it so, else in Hz."""
     hertz = speed.value / (2.0 * math.pi)
-    return f"{60.0 * hertz:.6g} rpm" if "rpm" in speed.reason.lower() else f"{hertz:.6g} Hz"
+    return f"{60.0 * hertz:.6g} rpm" if speed.unit == "rpm" else f"{hertz:.6g} Hz"
 
 
 def reasons(table: Table) -> dict[str, str]:
@@ -140,7 +139,7 @@ def proposed_unit(table: Table) -> str | None:
     unit = table.contents.unit
     if unit.stated:
         return None
-    return "" if unit.reason.startswith(NOTHING_SAYS) else unit.value
+    return unit.value if unit.supported else ""
 
 
 def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:

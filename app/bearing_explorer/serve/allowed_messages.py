@@ -19,8 +19,11 @@ _MOST_ITEMS = 5_000
 _DEEPEST = 30
 """Lists in lists."""
 _PLAIN = (str, int, float, bool, type(None))
-_NEVER = {"code", "args", "esm", "tags", "name", "js_property_callbacks", "js_event_callbacks"}
-"""Properties that say what a model does, or by which the server finds it."""
+_NEVER = {
+    "code", "args", "esm", "tags", "name", "js_property_callbacks", "js_event_callbacks",
+    "options", "labels",
+}  # fmt: skip
+"""Properties that say what a model does or offers, or by which the server finds it."""
 _EVENTS = {
     "document_ready", "dom_event", "tap", "doubletap", "press", "pan", "panstart", "panend",
     "mousemove", "mouseenter", "mouseleave", "wheel", "reset", "selectiongeometry", "rangesupdate",
@@ -92,8 +95,21 @@ def is_allowed(event: Any, models: Any) -> bool:
             return False
         model = models.get_by_id(reference["id"])
         known = model is not None and attribute in type(model).properties()
-        return known and _is_plain(event["new"])
+        return known and _is_plain(event["new"]) and _is_offered(model, attribute, event["new"])
     return False
+
+
+def _is_offered(model: Any, attribute: str, new: Any) -> bool:
+    """Whether a choice is among those of its list; Panel raises for any other one."""
+    offers = type(model).properties()
+    if attribute == "value" and "options" in offers:
+        groups = model.options.values() if isinstance(model.options, dict) else [model.options]
+        values = [one[0] if isinstance(one, tuple) else one for group in groups for one in group]
+        return new in values
+    if attribute == "active" and "labels" in offers:
+        chosen = new if isinstance(new, list) else [new]
+        return all(type(one) is int and 0 <= one < len(model.labels) for one in chosen)
+    return True
 
 
 def _is_plain(value: Any) -> bool:

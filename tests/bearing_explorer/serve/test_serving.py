@@ -10,6 +10,7 @@ import signal
 from pathlib import Path
 from typing import Any
 
+import panel as pn
 import pytest
 from bearing_explorer.serve.allowed_messages import by_id, component_message, is_allowed
 from bearing_explorer.serve.headers import policy
@@ -136,6 +137,29 @@ def test_new_models_and_code_are_dropped(event: Any) -> None:
     assert not is_allowed(event, document.models)
     assert is_allowed(changed("width", 300, {"id": known.id}), document.models)
     assert not is_allowed(changed("code", "alert(1)", {"id": script.id}), document.models)
+
+
+def test_only_choices_that_are_offered_are_taken() -> None:
+    document = Document()
+    plain = pn.widgets.Select(options={"one": "1", "two": "2"}).get_root(document)
+    grouped = pn.widgets.Select(groups={"few": {"one": "1"}, "many": {"ten": "10"}}).get_root()
+    boxes = pn.widgets.CheckBoxGroup(options=["a", "b"]).get_root()
+    for root in (plain, grouped, boxes):
+        document.add_root(root)
+
+    def taken(model: Any, attribute: str, new: Any) -> bool:
+        return is_allowed(changed(attribute, new, {"id": model.id}), document.models)
+
+    assert taken(plain, "value", "2")
+    assert taken(grouped, "value", "10")
+    assert taken(boxes, "active", [0, 1])
+    for wrong in ("3", "two", None, 1, ["1"], {"type": "map", "entries": []}):
+        assert not taken(plain, "value", wrong)
+        assert not taken(grouped, "value", wrong)
+    for outside in ([2], [-1], [True], ["a"], "a", None):
+        assert not taken(boxes, "active", outside)
+    assert not taken(plain, "options", ["3"])
+    assert not taken(boxes, "labels", [])
 
 
 def test_a_button_that_is_written_out_is_taken_by_its_id() -> None:

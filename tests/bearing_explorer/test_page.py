@@ -9,9 +9,9 @@ import pytest
 from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.diagnoses import answered
 from bearing_explorer.page import SECTIONS
+from bearing_explorer.pictures import BROKEN, drawing_of
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.session import _BROKEN, _drawing
 from bearing_explorer.views.base import View, first_sentence
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.views.diagnosis import PartDiagnosis
@@ -91,9 +91,9 @@ def test_a_scene_without_an_answer_gets_words_from_every_view(view: type[View]) 
     made = view(PackedSource())
     if isinstance(made, MeasuredView):  # which say nothing before there is a signal
         made.measure(measuring(signal()))
-    drawing = _drawing(results, made)
+    drawing = drawing_of(results, made)
     assert drawing.sentence.endswith(".")
-    assert drawing.sentence != _BROKEN
+    assert drawing.sentence != BROKEN
 
 
 @pytest.mark.parametrize("view", VIEWS, ids=lambda view: view.name)

@@ -48,12 +48,22 @@ def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
     return run(live())
 
 
+def changing(message: object) -> Callable[[Explorer], None]:
+    """The controls send a message."""
+    return lambda explorer: explorer.requests.change_scene(message)
+
+
+def showing(tab: str) -> Callable[[Explorer], None]:
+    """A tab is opened."""
+    return lambda explorer: explorer.show_tab({"show": tab})
+
+
 def drawn(explorer: Explorer, section: str) -> list[float]:
     return explorer._views[section][0].drawn  # type: ignore[attr-defined]
 
 
 def test_a_slider_reaches_the_view(news: list[dict]) -> None:
-    explorer = session(lambda e: e._asked({"mark": 4, "set": {"depth_um": 80}}))
+    explorer = session(changing({"mark": 4, "set": {"depth_um": 80}}))
     assert explorer.scene.defect.depth == pytest.approx(80e-6)
     assert drawn(explorer, "one")[-1] == explorer.scene.defect.depth
     assert explorer._drawn_mark == 4
@@ -63,9 +73,9 @@ def test_a_slider_reaches_the_view(news: list[dict]) -> None:
 
 
 def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
-    explorer = session(lambda e: e._asked({"mark": 1, "set": {"depth_um": 80}}))
+    explorer = session(changing({"mark": 1, "set": {"depth_um": 80}}))
     assert "two" not in explorer._views
-    shown = session(lambda e: e._tab_asked({"show": "two"}))
+    shown = session(showing("two"))
     assert drawn(shown, "two") == [pytest.approx(50e-6)], "a view that appears is up to date"
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
@@ -84,29 +94,29 @@ def test_sources_are_introduced_with_their_figures(
         return size
 
     monkeypatch.setattr(PackedSource, "send", looked_at)
-    session(lambda e: e._tab_asked({"show": "two"}))
+    session(showing("two"))
     assert len(found) > 1
     assert all(found)
 
 
 def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> None:
     """A motion is megabytes: a session that has seen all tabs held a hundred of them."""
-    away = session(lambda e: e._tab_asked({"show": "two"}))
+    away = session(showing("two"))
     assert away._views["one"][0]._results is None
     assert away._views["one"][0].csv() == ""
-    back = session(lambda e: e._tab_asked({"show": "two"}), lambda e: e._tab_asked({"show": "one"}))
+    back = session(showing("two"), showing("one"))
     assert back._views["one"][0].csv()
 
 
 def test_numbers_are_offered_again_after_a_way_back_and_only_where_there_are_any(
     news: list[dict],
 ) -> None:
-    there_and_back = [lambda e, n=name: e._tab_asked({"show": n}) for name in ("two", "one")]
+    there_and_back = [showing(name) for name in ("two", "one")]
     view = session(*there_and_back)._views["one"][0]
     assert view.csv() == "depth_m\n5e-05\n"
     assert not view._caption.empty
     away, back = there_and_back
-    refused = lambda e: e._asked({"mark": 1, "set": {"depth_um": 400}})  # noqa: E731
+    refused = changing({"mark": 1, "set": {"depth_um": 400}})
     view = session(away, refused, back)._views["one"][0]
     assert "more than this view can show" in view._sentence.text
     assert view.csv() == ""
@@ -133,10 +143,10 @@ def test_the_tab_that_was_asked_for_last_is_shown(
         explorer.draw()
         while not explorer._loop.drawn:
             await asyncio.sleep(0.002)
-        explorer._tab_asked({"show": "two"})
+        explorer.show_tab({"show": "two"})
         while not making.is_set():
             await asyncio.sleep(0.002)
-        explorer._tab_asked({"show": "one"})
+        explorer.show_tab({"show": "one"})
         go_on.set()
         while not explorer._loop.drawn:
             await asyncio.sleep(0.002)
@@ -147,13 +157,13 @@ def test_the_tab_that_was_asked_for_last_is_shown(
 
 
 def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:
-    explorer = session(lambda e: e._asked({"mark": 1, "typed": {"extent_deg": "33,5"}}))
+    explorer = session(changing({"mark": 1, "typed": {"extent_deg": "33,5"}}))
     assert explorer.values["extent_deg"] == 33.5
     assert len(news) == 1
     assert news[0]["state"]["values"] == {"extent_deg": 33.5}
     news.clear()
     before = presets["fan-rig"]
-    explorer = session(lambda e: e._asked({"mark": 9, "typed": {"extent_deg": "500"}}))
+    explorer = session(changing({"mark": 9, "typed": {"extent_deg": "500"}}))
     assert explorer.scene.defect.extent == pytest.approx(before.defect.extent)
     assert list(news[0]["refused"]) == ["extent_deg"]
     assert explorer._drawn_mark == 9, "a refusal is answered too, or the browser would wait"
@@ -167,7 +177,7 @@ def test_what_the_scene_refuses_stays_as_it_was(
 
     def act(explorer: Explorer) -> None:
         monkeypatch.setattr("bearing_explorer.state.scene_editor.scene_with_fields", refuse)
-        explorer._asked({"mark": 1, "set": {"extent_deg": 40}})
+        explorer.requests.change_scene({"mark": 1, "set": {"extent_deg": 40}})
 
     explorer = session(act)
     assert explorer.values["extent_deg"] == pytest.approx(12.9)
@@ -175,18 +185,18 @@ def test_what_the_scene_refuses_stays_as_it_was(
 
 
 def test_choosing_a_preset_brings_its_values_and_ranges(news: list[dict]) -> None:
-    explorer = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "liew-lim"}}))
+    explorer = session(changing({"mark": 1, "choose": {"preset": "liew-lim"}}))
     assert explorer.scene.bearing == presets["liew-lim"].bearing
     assert news[0]["state"]["values"]["fy_n"] == -2000
     assert news[0]["state"]["limits"]["fy_n"]["most"] >= 2000
-    explorer = session(lambda e: e._asked({"mark": 1, "choose": {"edge": "exact"}}))
+    explorer = session(changing({"mark": 1, "choose": {"edge": "exact"}}))
     assert explorer.scene.defect.edge == "exact"
 
 
 def test_reset_brings_the_preset_back(news: list[dict]) -> None:
     def act(explorer: Explorer) -> None:
-        explorer._asked({"mark": 1, "set": {"extent_deg": 90}})
-        explorer._asked({"mark": 2, "reset": True})
+        explorer.requests.change_scene({"mark": 1, "set": {"extent_deg": 90}})
+        explorer.requests.change_scene({"mark": 2, "reset": True})
 
     explorer = session(act)
     assert explorer.values["extent_deg"] == pytest.approx(12.9)
@@ -199,7 +209,7 @@ def test_reset_brings_the_preset_back(news: list[dict]) -> None:
 def test_a_view_that_fails_says_so_and_keeps_its_picture(
     news: list[dict], depth_um: float, words: str
 ) -> None:
-    explorer = session(lambda e: e._asked({"mark": 3, "set": {"depth_um": depth_um}}))
+    explorer = session(changing({"mark": 3, "set": {"depth_um": depth_um}}))
     view = explorer._views["one"][0]
     assert words in view._sentence.text
     assert "Traceback" not in view._sentence.text
@@ -232,7 +242,7 @@ def test_a_view_that_fails_says_so_and_keeps_its_picture(
     ],
 )
 def test_strangers_messages_change_nothing(news: list[dict], message: object) -> None:
-    explorer = session(lambda e: e._asked(message))
+    explorer = session(changing(message))
     untouched = session(lambda e: None)
     assert explorer.scene == untouched.scene
     assert explorer.inputs.mark == 0
@@ -240,7 +250,7 @@ def test_strangers_messages_change_nothing(news: list[dict], message: object) ->
 
 @pytest.mark.parametrize("message", [None, {}, {"show": "nowhere"}, {"show": ["one"]}, 5])
 def test_strangers_tabs_do_not_exist(news: list[dict], message: object) -> None:
-    assert session(lambda e: e._tab_asked(message))._shown == "one"
+    assert session(lambda e: e.show_tab(message))._shown == "one"
 
 
 def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> None:
@@ -248,7 +258,7 @@ def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> No
 
     async def live(text: str) -> Explorer:
         explorer = Explorer(SECTIONS)
-        explorer._asked({"mark": 2, "floor": {"name": "wear.txt", "text": text}})
+        explorer.requests.change_scene({"mark": 2, "floor": {"name": "wear.txt", "text": text}})
         while explorer._tasks or not explorer._loop.drawn:
             await asyncio.sleep(0.002)
         return explorer
@@ -265,7 +275,7 @@ def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> No
 
 def test_what_is_shown_names_the_change_it_answers(news: list[dict]) -> None:
     """The browser passes over it where a hand has moved on meanwhile."""
-    session(lambda e: e._asked({"mark": 7, "typed": {"extent_deg": "20"}}))
+    session(changing({"mark": 7, "typed": {"extent_deg": "20"}}))
     assert news[-1]["state"]["mark"] == 7
 
 
@@ -281,7 +291,7 @@ def test_limits_are_looked_at_when_the_hand_rests(
 
     monkeypatch.setattr(Results.limits, "func", looking)
     monkeypatch.setattr("bearing_explorer.session._LIMITS_EVERY", math.inf)
-    calm = session(lambda e: e._asked({"mark": 1, "choose": {"preset": "6205"}}), rest=True)
+    calm = session(changing({"mark": 1, "choose": {"preset": "6205"}}), rest=True)
     # no motion has been simulated on this tab and no oil given: what depends on them says so
     unknown = {row["name"] for row in calm.limits.rows if row["state"] == "unknown"}
     assert unknown <= {"contact pressure in motion", "compression in motion", "film parameter"}
@@ -289,10 +299,7 @@ def test_limits_are_looked_at_when_the_hand_rests(
     assert calm.limits.summary.endswith("not known" if unknown else "kept")
     looked.clear()
     heavy = session(
-        *(
-            lambda e, fy=fy: e._asked({"mark": 1, "typed": {"fy_n": f"{fy}"}})
-            for fy in (-120, -130, -140, -20000)
-        ),
+        *(changing({"mark": 1, "typed": {"fy_n": f"{fy}"}}) for fy in (-120, -130, -140, -20000)),
         rest=True,
     )
     assert heavy.limits.rows[0]["state"] == "crossed"

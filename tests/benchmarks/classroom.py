@@ -163,9 +163,9 @@ class Person:
 def differences(notes: Notes, tab: str) -> int:
     """How many of the pictures kept are not those of their scene."""
     from bearing_explorer.page import SECTIONS
+    from bearing_explorer.pictures import picture_of
     from bearing_explorer.results.results import Results
     from bearing_explorer.serve.packed_source import PackedSource
-    from bearing_explorer.session import _picture
     from bearing_explorer.state.scene_editor import SceneEditor
 
     packed = PackedSource()
@@ -175,7 +175,7 @@ def differences(notes: Notes, tab: str) -> int:
         editor = SceneEditor("fan-rig")
         for name, value in values.items():
             editor.set({name: value})
-        picture = _picture(Results(editor.scene, 0.0), views)
+        picture = picture_of(Results(editor.scene, 0.0), views)
         for drawing in picture.drawings:
             assert drawing.data is not None
             for source, columns in drawing.data[0].items():

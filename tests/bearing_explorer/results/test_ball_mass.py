@@ -37,7 +37,7 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
     async def live() -> tuple[str, str]:
         explorer = Explorer((Section("one", "One", (WhichMechanism,)),))
         explorer.start()
-        explorer._asked({"typed": {"fy_n": "-103"}})
+        explorer.requests.change_scene({"typed": {"fy_n": "-103"}})
         sentence = lambda: explorer._views["one"][0]._sentence.text  # noqa: E731
         await until(lambda: "one" in explorer._views and sentence())
         waiting = sentence()

@@ -608,15 +608,15 @@ def test_an_address_names_a_lesson(tmp_path: Path) -> None:
 def test_words_asked_for_again_leave_the_scene_alone() -> None:
     explorer = Explorer(SECTIONS, lessons=lessons_in(own_folder(), TABS))
     explorer.draw = lambda: None  # type: ignore[method-assign]
-    explorer._asked({"mark": 1, "typed": {"fy_n": -77.0}})
+    explorer.requests.change_scene({"mark": 1, "typed": {"fy_n": -77.0}})
     before = explorer.scene
-    explorer._lesson_asked({"mark": 2, "lesson": 2, "words_only": True})
+    explorer.requests.change_lesson({"mark": 2, "lesson": 2, "words_only": True})
     assert explorer.lesson.lesson["number"] == 2
     assert explorer.scene == before
-    explorer._lesson_asked({"mark": 3, "lesson": ""})
+    explorer.requests.change_lesson({"mark": 3, "lesson": ""})
     assert explorer.scene == before
     assert "lesson" not in explorer.share.state["address"]
-    explorer._lesson_asked({"mark": 4, "lesson": 2})
+    explorer.requests.change_lesson({"mark": 4, "lesson": 2})
     assert explorer.scene != before
 
 
@@ -760,18 +760,18 @@ def test_a_teachers_folder_on_the_page(tmp_path: Path) -> None:
     assert [(title, name) for title, _, name in panel.titles] == [("A title", "1"), ("2.md", "")]
     assert panel.titles[1][1].startswith("2.md, line 18: “nothing” is not a tab")
     asked: list[object] = []
-    explorer._asked = asked.append  # type: ignore[method-assign]
+    explorer.requests.change_scene = asked.append  # type: ignore[method-assign]
     explorer.draw = lambda: None  # type: ignore[method-assign]
     for nonsense in (None, "0", {"lesson": 1}, {"lesson": 7}, {"lesson": -1}, {"lesson": "0"},
                      {"lesson": "2"}, {"lesson": [1]}):  # fmt: skip
-        explorer._lesson_asked(nonsense)
+        explorer.requests.change_lesson(nonsense)
         assert panel.lesson == {}
         assert explorer.scene == FAN
-    explorer._lesson_asked({"mark": 1, "lesson": 0})
+    explorer.requests.change_lesson({"mark": 1, "lesson": 0})
     assert panel.lesson["title"] == "A title"
     assert explorer.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
     assert asked[-1] == {"mark": 1, "lesson": 0}
-    explorer._lesson_asked({"show": "maps"})
+    explorer.requests.change_lesson({"show": "maps"})
     assert explorer._shown == "maps"
     assert explorer.scene.defect.edge == "chord"
 

@@ -38,8 +38,12 @@ def session(*acts: Callable[[Explorer], None], address: str = "") -> Explorer:
     return run(live())
 
 
+def changing(message: dict) -> Callable[[Explorer], None]:
+    return lambda explorer: explorer.requests.change_scene(message)
+
+
 def asking(mark: int, **message: object) -> Callable[[Explorer], None]:
-    return lambda explorer: explorer._share_asked({"mark": mark, **message})
+    return lambda explorer: explorer.requests.change_links({"mark": mark, **message})
 
 
 def test_the_address_is_told_when_the_hand_lets_go(answers: list[dict]) -> None:
@@ -49,13 +53,13 @@ def test_the_address_is_told_when_the_hand_lets_go(answers: list[dict]) -> None:
         seen.append(explorer.share.state["address"])
 
     session(
-        lambda e: e._asked({"mark": 1, "set": {"depth_um": 60}}),
+        changing({"mark": 1, "set": {"depth_um": 60}}),
         look,
-        lambda e: e._asked({"mark": 2, "set": {"depth_um": 70}}),
+        changing({"mark": 2, "set": {"depth_um": 70}}),
         look,
-        lambda e: e._asked({"mark": 3, "set": {}, "released": True}),
+        changing({"mark": 3, "set": {}, "released": True}),
         look,
-        lambda e: e._tab_asked({"show": "two"}),
+        lambda e: e.show_tab({"show": "two"}),
         look,
     )
     assert seen == [
@@ -68,14 +72,14 @@ def test_the_address_is_told_when_the_hand_lets_go(answers: list[dict]) -> None:
 
 def test_undo_is_drawn_and_answered(answers: list[dict]) -> None:
     explorer = session(
-        lambda e: e._asked({"mark": 1, "typed": {"depth_um": 60}}),
+        changing({"mark": 1, "typed": {"depth_um": 60}}),
         asking(2, undo=True),
     )
     assert explorer.scene == presets["fan-rig"]
     assert explorer._views["one"][0].drawn[-1] == presets["fan-rig"].defect.depth  # type: ignore
     assert explorer._drawn_mark == 2
     again = session(
-        lambda e: e._asked({"mark": 1, "typed": {"depth_um": 60}}),
+        changing({"mark": 1, "typed": {"depth_um": 60}}),
         asking(2, undo=True),
         asking(3, redo=True),
     )
@@ -110,7 +114,7 @@ def test_a_file_is_opened_and_a_scene_pinned(answers: list[dict]) -> None:
 def test_one_report_at_a_time(answers: list[dict]) -> None:
     def ask_twice(explorer: Explorer) -> None:
         for _ in range(2):
-            explorer._share_asked({"report": "http://localhost:5006/"})
+            explorer.requests.change_links({"report": "http://localhost:5006/"})
 
     session(ask_twice)
     assert [list(news) for news in answers] == [["report"]]
@@ -137,7 +141,7 @@ def test_one_report_at_a_time(answers: list[dict]) -> None:
     ],
 )
 def test_strangers_change_nothing(answers: list[dict], message: object) -> None:
-    explorer = session(lambda e: e._share_asked(message))
+    explorer = session(lambda e: e.requests.change_links(message))
     assert explorer.scene == presets["fan-rig"]
     assert explorer.inputs.pinned is None
     assert answers == []

@@ -481,6 +481,6 @@ def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
     )
     wish = {"noise": "20", "machine": "same"}
     for junk in ("now", None, 3):
-        explorer._lesson_asked({"mark": 1, "simulate": junk})
-    explorer._lesson_asked({"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
+        explorer.requests.change_lesson({"mark": 1, "simulate": junk})
+    explorer.requests.change_lesson({"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
     assert wishes == [(("20", "same", "scene"), "inner")]

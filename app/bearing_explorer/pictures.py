@@ -1,0 +1,120 @@
+"""A picture of what is on screen: computed off the event loop, failures as sentences."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from bearing_explorer.results import compiling
+from bearing_explorer.results.cache import Overtaken
+from bearing_explorer.results.endurance import LifeInputs
+from bearing_explorer.results.results import Results
+from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.sentences import words_of
+from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.widgets.status import status_of
+from bearingcore import Limit, Scene
+
+log = logging.getLogger(__name__)
+
+BROKEN = "This could not be computed; what is shown belongs to an earlier position."
+_DRAWN_LATER = "This is drawn by itself as soon as that is done."
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What is to be drawn.
+
+    Parameters
+    ----------
+    scene, cage_angle
+        cage angle in [rad].
+    mark
+        number of the newest change of the browser that it holds.
+    focus
+        which of the scene's defects the sliders move.
+    settings
+        how finely it is computed.
+    rested
+        whether the slider is at rest, and it is drawn as finely as can be.
+    pinned
+        a scene that is drawn in grey, instead of the one without the defect.
+    before
+        the scene before the last change.
+    life_inputs
+        steel, oil and surfaces as a person has entered them.
+    """
+
+    scene: Scene
+    cage_angle: float
+    mark: int
+    focus: int = 0
+    settings: Settings = field(default_factory=Settings)
+    rested: bool = False
+    pinned: Reference | None = None
+    before: Scene | None = None
+    life_inputs: LifeInputs = field(default_factory=LifeInputs)
+
+    def results(self, give_up: Callable[[], bool] | None = None) -> Results:
+        """What is known about them; `give_up` may end long searches."""
+        return Results(
+            self.scene,
+            self.cage_angle,
+            self.settings,
+            self.focus,
+            moving=not self.rested,
+            pinned=self.pinned,
+            before=self.before,
+            life_inputs=self.life_inputs,
+            give_up=give_up,
+        )
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a view has to say about some results; without `data` it could not say anything."""
+
+    view: View
+    data: tuple[Sources, Ranges] | None
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What some views have to say, how the computation went, and how long it took [s]."""
+
+    results: Results
+    drawings: list[Drawing]
+    status: dict[str, Any]
+    limits: tuple[Limit, ...] | None
+    seconds: float
+
+
+def picture_of(results: Results, views: Sequence[View], limits: bool = False) -> Picture:
+    """Compute what the views need and have them say it, and what `limits` of the model say."""
+    started, worked = time.perf_counter(), time.thread_time()  # of this thread: waiting is no cost
+    shown = frozenset[str]().union(*(view.needs for view in views))
+    results.prefetch(shown)
+    drawings = [drawing_of(results, view) for view in views]
+    checked = results.limits if limits else None
+    status = status_of(results, time.thread_time() - worked, shown)
+    return Picture(results, drawings, status, checked, time.perf_counter() - started)
+
+
+def drawing_of(results: Results, view: View) -> Drawing:
+    try:
+        return Drawing(view, view.data(results), view.sentence(results))
+    except Overtaken:
+        raise
+    except compiling.StillCompiling as wait:
+        words = str(wait)
+        return Drawing(view, None, f"{words[0].upper()}{words[1:]}. {_DRAWN_LATER}")
+    except ValueError as error:
+        return Drawing(view, None, f"Not shown for this scene: {words_of(error)}.")
+    except Exception:
+        log.exception("the view %s failed", view.name)
+        return Drawing(view, None, BROKEN)

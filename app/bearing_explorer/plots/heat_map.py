@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Glyph
 from bearing_explorer.serve.packed_source import PackedSource
 from bearingcore.fields import Field
 
@@ -68,6 +69,11 @@ class Side:
     def of(cls, field: Field) -> Side:
         """The side for a field of the scene."""
         return cls(field.key, field.label, field.symbol.replace("_", ""), field.shown_unit)
+
+    @property
+    def quantity(self) -> style.AxisQuantity:
+        """The side for an axis."""
+        return style.AxisQuantity(self.words, self.symbol, self.unit)
 
     @property
     def label(self) -> str:
@@ -192,13 +198,13 @@ def color_bar(mapper: ColorMapper, title: str = "", **options: Any) -> ColorBar:
     return ColorBar(color_mapper=mapper, title=title, **{**BAR_LOOK, **options})
 
 
-def ring_this_scene(plot: figure, mark: ColumnDataSource, level: str) -> None:
+def ring_at(source: str) -> list[Glyph]:
     """A ring at the place of the scene: dark on light, so that it shows on every colour."""
-    for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0)):
-        plot.scatter(
-            "x", "y", source=mark, size=15, fill_color=None, line_color=color, line_width=width,
-            level=level,
-        )  # fmt: skip
+    ring = {"size": 15, "fill_color": None, "level": "annotation"}
+    return [
+        Glyph("scatter", source, ("x", "y"), {**ring, "line_color": color, "line_width": width})
+        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0))
+    ]
 
 
 class GridImage:

@@ -1,4 +1,4 @@
-"""Layers of a figure as declarations: lines, strips, dots and words over the packed source.
+"""Layers of a figure as declarations: curves, strips, shapes and words over the packed source.
 
 A view lists what its figure shows, from the lowest layer to the highest; `draw` declares the
 sources with the columns that the layers name, once each, and draws them.
@@ -8,9 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
-from bokeh.models import ColumnDataSource, GlyphRenderer, LinearColorMapper, Range1d
+import numpy as np
+from bokeh.models import (
+    CheckboxGroup,
+    ColumnDataSource,
+    CustomJS,
+    GlyphRenderer,
+    LinearColorMapper,
+    Range1d,
+)
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
@@ -33,93 +41,89 @@ class Layer(Protocol):
 
 
 @dataclass(frozen=True)
-class Line:
-    """A curve; NaN is a gap."""
+class Glyph:
+    """A glyph of Bokeh's, drawn by the figure's method of the name `kind`.
 
-    source: str
-    x: str
-    y: str
-    color: str
-    width: float = 2.0
-    dash: Sequence[int] = ()
-    alpha: float = 1.0
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The columns that it reads."""
-        return self.x, self.y
-
-    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
-        """Draw it."""
-        look = {"line_color": self.color, "line_width": self.width, "line_alpha": self.alpha}
-        return plot.line(self.x, self.y, source=source, line_dash=list(self.dash), **look)
-
-
-@dataclass(frozen=True)
-class Strips:
-    """Shaded stretches of an axis: of the horizontal one, or with `level` of the vertical one.
-
-    `reads`: columns that the colour reads besides.
+    `places`: its first arguments, columns or numbers. `reads`: columns that its `look` reads
+    besides.
     """
 
+    kind: str
     source: str
-    low: str
-    high: str
-    color: Any
-    alpha: float
-    level: bool = False
+    places: tuple[str | float, ...]
+    look: Mapping[str, Any] = field(default_factory=dict)
     reads: tuple[str, ...] = ()
 
     @property
     def columns(self) -> tuple[str, ...]:
         """The columns that it reads."""
-        return self.low, self.high, *self.reads
+        return *(place for place in self.places if isinstance(place, str)), *self.reads
 
     def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
         """Draw it."""
-        strip = plot.hstrip if self.level else plot.vstrip
-        look = {"fill_color": self.color, "fill_alpha": self.alpha, "line_color": None}
-        return strip(self.low, self.high, source=source, **look)
+        drawn = getattr(plot, self.kind)(*self.places, source=source, **self.look)
+        return cast(GlyphRenderer, drawn)
 
 
-@dataclass(frozen=True)
-class Balls:
+def curve(
+    source: str,
+    x: str,
+    y: str,
+    color: str,
+    width: float = 2.0,
+    dash: Sequence[int] = (),
+    alpha: float = 1.0,
+) -> Glyph:
+    """A curve; NaN is a gap."""
+    look = {"line_color": color, "line_width": width, "line_alpha": alpha, "line_dash": list(dash)}
+    return Glyph("line", source, (x, y), look)
+
+
+def strips(
+    source: str,
+    color: Any,
+    alpha: float,
+    *,
+    low: str = "low",
+    high: str = "high",
+    level: bool = False,
+    reads: tuple[str, ...] = (),
+    **look: Any,
+) -> Glyph:
+    """Shaded stretches of the horizontal axis, or with `level` of the vertical one."""
+    filled = {"fill_color": color, "fill_alpha": alpha, "line_color": None, **look}
+    return Glyph("hstrip" if level else "vstrip", source, (low, high), filled, reads)
+
+
+def ball_dots(source: str, x: str, y: str) -> Glyph:
     """Balls at this cage angle: white dots that the frame does not cut."""
-
-    source: str
-    x: str
-    y: str
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The columns that it reads."""
-        return self.x, self.y
-
-    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
-        """Draw it."""
-        look = {"fill_color": "white", "line_color": style.INK, "line_width": 1.6}
-        return plot.scatter(self.x, self.y, source=source, size=8, level="annotation", **look)
+    look = {"fill_color": "white", "line_color": style.INK, "line_width": 1.6}
+    return Glyph("scatter", source, (x, y), {"size": 8, "level": "annotation", **look})
 
 
-@dataclass(frozen=True)
-class Uprights:
+def uprights(
+    source: str,
+    x: str = "now",
+    color: str = style.INK,
+    width: float = 1.2,
+    alpha: float = 0.75,
+    **look: Any,
+) -> Glyph:
     """Upright lines through the whole frame; as it is at the current cage angle."""
+    line = {"line_color": color, "line_width": width, "line_alpha": alpha}
+    return Glyph("vspan", source, (x,), {**line, **look})
 
-    source: str
-    x: str = "now"
-    color: str = style.INK
-    width: float = 1.2
-    alpha: float = 0.75
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The columns that it reads."""
-        return (self.x,)
+def filled(source: str, color: str, alpha: float = 1.0, **line: Any) -> Glyph:
+    """Polygons with NaN between them; `line`: look of their edges, which have none otherwise."""
+    look = {"fill_color": color, "fill_alpha": alpha, "line_color": None, **line}
+    return Glyph("patch", source, ("x", "y"), look)
 
-    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
-        """Draw it."""
-        look = {"line_color": self.color, "line_width": self.width, "line_alpha": self.alpha}
-        return plot.vspan(x=self.x, source=source, **look)
+
+def segments(source: str, color: Any, width: float, **look: Any) -> Glyph:
+    """Straight lines from ``x0, y0`` to ``x1, y1``."""
+    line = {"line_color": color, "line_width": width, **look}
+    return Glyph("segment", source, ("x0", "y0", "x1", "y1"), line)
 
 
 @dataclass(frozen=True)
@@ -178,6 +182,8 @@ class Words:
 
 ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}
 """Look of words that lie on lines."""
+CENTERED = {"text_align": "center"}
+"""Look of words that lie to both sides of their place."""
 
 
 def sources_of(packed: PackedSource, layers: Iterable[Layer]) -> dict[str, ColumnDataSource]:
@@ -204,3 +210,28 @@ def by_number(column: str, colors: Sequence[str]) -> dict[str, Any]:
     """The colour of what a column numbers, from 0."""
     mapper = LinearColorMapper(palette=list(colors), low=-0.5, high=len(colors) - 0.5)
     return {"field": column, "transform": mapper}
+
+
+def nothing(layers: Iterable[Layer]) -> dict[str, dict[str, Any]]:
+    """The sources that layers name, with empty columns."""
+    columns: dict[str, dict[str, Any]] = {}
+    for layer in layers:
+        columns.setdefault(layer.source, {}).update(dict.fromkeys(layer.columns, np.zeros(0)))
+    return columns
+
+
+def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> CheckboxGroup:
+    """A box that shows and hides layers that are drawn, in the browser alone."""
+    for one in drawn:
+        one.update(visible=shown, syncable=False)
+    # a group of one: its box and its words belong together for screen readers and fingers
+    box = CheckboxGroup(
+        labels=[label],
+        active=[0] if shown else [],
+        syncable=False,
+        margin=(4, 5, 8, 5),
+        stylesheets=[style.BUTTONS],
+    )
+    code = "for (const one of drawn) one.visible = cb_obj.active.length > 0"
+    box.js_on_change("active", CustomJS(args={"drawn": list(drawn)}, code=code))
+    return box

@@ -398,6 +398,11 @@ def in_degrees(angle: float, digits: int = 1) -> str:
     return text.rstrip("0").rstrip(".") + "°" if "." in text else text + "°"
 
 
+def color_along(direction: str) -> str:
+    """Colour of a direction of motion."""
+    return DIRECTION_COLORS[DIRECTIONS.index(direction)]
+
+
 def css_color(color: str) -> str:
     """A colour for a style in HTML that follows light and dark as it does in figures."""
     return f"var(--in-dark-{color[1:].upper()}, {color})"

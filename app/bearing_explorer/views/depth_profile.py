@@ -9,7 +9,7 @@ import numpy as np
 from bearing_explorer.plots import style
 from bearing_explorer.plots.defect_words import extent_words
 from bearing_explorer.plots.element_words import row_words
-from bearing_explorer.plots.layers import Balls, Line, draw
+from bearing_explorer.plots.layers import ball_dots, curve, draw
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -26,8 +26,8 @@ EDGE_WORDS = {
 
 
 LAYERS = (
-    Line("depth_profile_path", "angle", "drop", style.DEFECTIVE, dash=(6, 4)),
-    Balls("depth_profile_balls", "angle", "drop"),
+    curve("depth_profile_path", "angle", "drop", style.DEFECTIVE, dash=(6, 4)),
+    ball_dots("depth_profile_balls", "angle", "drop"),
 )
 """Over the race."""
 
@@ -56,7 +56,7 @@ class DepthProfile(View):
         plot.varea(
             "angle", "depth", "bottom", source=surface, fill_color=style.STEEL, fill_alpha=1.0
         )
-        Line("", "angle", "depth", style.FAINT_INK, 1.6).add(plot, surface)
+        curve("", "angle", "depth", style.FAINT_INK, 1.6).add(plot, surface)
         draw(plot, packed, LAYERS)
         return plot
 

@@ -19,7 +19,7 @@ from bokeh.models import CustomJS, LayoutDOM, Plot, Spacer
 
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import Places, Side, goes_there, ring_this_scene
+from bearing_explorer.plots.heat_map import Places, Side, goes_there, ring_at
 from bearing_explorer.plots.style import AxisQuantity
 from bearing_explorer.results.explore import (
     BUDGET,
@@ -397,7 +397,8 @@ class _Marks:
             "left", "right", "top", "bottom", source=self._old, fill_color=style.PAPER,
             fill_alpha="alpha", line_color=None, level="overlay",
         )  # fmt: skip
-        ring_this_scene(figure, self._mark, "overlay")
+        for ring in ring_at(""):
+            ring.add(figure, self._mark).level = "overlay"
         goes_there(figure, Places(plot.handles["source"], self._sides))
 
 
@@ -407,13 +408,12 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
 
     question = plane.question
     sides = [Side.of(sweep.field) for sweep in (plane.x, plane.y)]
-    axes = [AxisQuantity(side.words, side.symbol, side.unit) for side in sides]
     output = question.output
     words = output.label[0].upper() + output.label[1:] if output.label[0] != "k" else output.label
     value = AxisQuantity(words, "", output.unit, prefixed=output.unit not in ("", "°"))
     return Field(
-        (sides[0].name, axes[0], plane.x.values),
-        (sides[1].name, axes[1], plane.y.values),
+        (sides[0].name, sides[0].quantity, plane.x.values),
+        (sides[1].name, sides[1].quantity, plane.y.values),
         (output.name.replace(":", "_"), value),
         plane.values,
         plane.reasons,

@@ -141,7 +141,7 @@ class FrequencyView(MeasuredView):
         }
         for scale, plot in self._plots.items():
             for dof, source in simulated.items():
-                color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+                color = style.color_along(dof)
                 plot.line("frequency", scale, source=source, line_color=color, line_width=2.4)
             plot.line(
                 "frequency", scale, source=measured, line_color=MEASURED, line_width=1.2,

@@ -11,7 +11,7 @@ from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import elements
-from bearing_explorer.plots.layers import Balls, Line, Strips, Words, draw
+from bearing_explorer.plots.layers import Words, ball_dots, curve, draw, strips
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.defect_shape import pieces, spans
 from bearing_explorer.results.load_curve import curves_table, load_curve, row_name
@@ -31,16 +31,16 @@ OTHER_ROWS = style.DIRECTION_COLORS[1]
 
 
 CURVES = (
-    Line("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
-    Line("load_distribution_curve", "angle", "load", style.DEFECTIVE),
+    curve("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
+    curve("load_distribution_curve", "angle", "load", style.DEFECTIVE),
 )
 LAYERS = (
-    Strips("load_distribution_defect", "start", "end", style.DEFECT, 0.16),
-    Line("load_distribution_healthy", "angle", "load", style.HEALTHY),
-    Line("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
-    Line("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
+    strips("load_distribution_defect", style.DEFECT, 0.16, low="start", high="end"),
+    curve("load_distribution_healthy", "angle", "load", style.HEALTHY),
+    curve("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
+    curve("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
     *CURVES,
-    Balls("load_distribution_balls", "angle", "load"),
+    ball_dots("load_distribution_balls", "angle", "load"),
     Words(
         "load_distribution_rows",
         "angle",

@@ -13,13 +13,13 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import (
     ON_PAPER,
     Layer,
-    Line,
-    Strips,
-    Uprights,
     Words,
     add_all,
     by_number,
+    curve,
     sources_of,
+    strips,
+    uprights,
 )
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.ball_mass import BallMass
@@ -53,7 +53,7 @@ MASSLESS: dict[str, Any] = {"color": style.INK, "alpha": 0.35, "width": 3.0}
 """Look of what moves without the mass of the balls."""
 
 
-EVENTS = Uprights("mass_events", "time", style.FAINT_INK, 1.0, 0.55)
+EVENTS = uprights("mass_events", "time", style.FAINT_INK, 1.0, 0.55)
 NAMES_OF_EVENTS = Words(
     "mass_events",
     "label_from",
@@ -68,11 +68,11 @@ NAMES_OF_EVENTS = Words(
 
 def layers_above(dof: str) -> list[Layer]:
     """Acceleration along a direction, with and without mass."""
-    color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+    color = style.color_along(dof)
     return [
         EVENTS,
-        Line("mass_motion", "time", f"{dof}_massless", **MASSLESS),
-        Line("mass_motion", "time", dof, color, 1.4),
+        curve("mass_motion", "time", f"{dof}_massless", **MASSLESS),
+        curve("mass_motion", "time", dof, color, 1.4),
     ]
 
 
@@ -81,9 +81,9 @@ def layers_below() -> list[Layer]:
     colors = by_number("slot", style.BALL_COLORS)
     balls = list(enumerate(style.BALL_COLORS))
     return [
-        Strips("mass_flights", "from", "to", colors, 0.13, reads=("slot",)),
-        *(Line("mass_loads", "time", f"inner{i}", color, 1.3, (5, 3)) for i, color in balls),
-        *(Line("mass_loads", "time", f"outer{i}", color, 1.8) for i, color in balls),
+        strips("mass_flights", colors, 0.13, low="from", high="to", reads=("slot",)),
+        *(curve("mass_loads", "time", f"inner{i}", color, 1.3, (5, 3)) for i, color in balls),
+        *(curve("mass_loads", "time", f"outer{i}", color, 1.8) for i, color in balls),
         Words(
             "mass_ball_names",
             "from",

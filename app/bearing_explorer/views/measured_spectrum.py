@@ -22,8 +22,8 @@ from bearing_explorer.views.frequency_view import (
     Shown,
 )
 from bearing_explorer.views.measured_view import write_over
-from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
-from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
+from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
+from bearing_explorer.views.vibration_spectrum import HIGHEST, SHOWN, decibels
 from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class MeasuredSpectrum(FrequencyView):
             bands = packed.source(
                 f"{self.prefix}_bands_{dof}", "low", "high", "direction", "number", "label_at"
             )
-            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+            color = style.color_along(dof)
             for plot in plots:
                 plot.vstrip(
                     "low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None,
@@ -76,19 +76,15 @@ class MeasuredSpectrum(FrequencyView):
         measured = self.measured
         if results is None or shown is None or measured is None:
             return sources
-        bands = band_rows(Simulated(results, measured).results.bands)
-        index = style.DIRECTIONS.index(shown.direction)
-        own = {name: column[bands["direction"] == index] for name, column in bands.items()}
-        middle = 0.5 * (own["low"] + own["high"])
-        own["label_at"] = spread(middle, LABEL_WIDTH * shown.top, 0.0, shown.top)
+        bands = Simulated(results, measured).results.bands
+        own = bands_along(bands, shown.direction, shown.top)
         return sources | {f"{self.prefix}_bands_{shown.direction}": own}
 
     def shown(self, results: Results, measured: Measured) -> Shown:
         model = Simulated(results, measured)
         direction = self.direction(measured)
         resolution = measured.finest(float(self.look.resolution))
-        bands = band_rows(model.results.bands)
-        top = max(HIGHEST, 1.05 * float(np.max(bands["high"], initial=0.0)))
+        top = max(HIGHEST, 1.05 * highest(model.results.bands))
         top = min(top, 0.5 * measured.recording.sample_rate)
         spectrum = measured.spectrum(direction, resolution)
         try:

@@ -73,7 +73,7 @@ class MeasuredSignal(MeasuredView):
         # the weaker direction is drawn over the stronger one
         source = packed.source(f"measurement_{part}", "time", *SHOWN)
         for dof in reversed(SHOWN):
-            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+            color = style.color_along(dof)
             plot.line("time", dof, source=source, line_color=color, line_width=1.2)
         return plot
 

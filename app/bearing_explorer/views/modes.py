@@ -10,7 +10,7 @@ from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.layers import Layer, Line, Strips, Uprights, Words, by_number, draw
+from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips, uprights
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
+LABEL_WIDTH = 0.17  # that a name needs of the width of a spectrum
 LABEL_PIXELS = 16.0  # height that a label needs
 BESIDE = 148
 """[px] right of the frame, for the names of bands."""
@@ -45,13 +46,13 @@ SHORT_BAND_WORDS = f"{_BAND_NAME}\nif (narrow) return name\n{_BAND_SPAN}"
 def layers(colors: Any) -> Sequence[Layer]:
     """From the lowest to the highest; `colors` of what has a direction."""
     return (
-        Strips("modes_bands", "low", "high", colors, 0.10, level=True),
-        Line("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
+        strips("modes_bands", colors, 0.10, level=True),
+        curve("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
         *(
-            Line(f"modes_{direction}", "angle", "frequency", color)
+            curve(f"modes_{direction}", "angle", "frequency", color)
             for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True)
         ),
-        Uprights("modes_now"),
+        uprights("modes_now"),
         # at the right edge of the frame, not cut off by it, also when it is zoomed
         Words(
             "modes_bands",
@@ -165,6 +166,20 @@ def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]
     ]
     low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T
     return {"low": low, "high": high, "direction": direction, "number": number}
+
+
+def highest(bands: Mapping[str, tuple[float, float]]) -> float:
+    """The upper end [Hz] of the highest band; 0 without one."""
+    return float(np.max(band_rows(bands)["high"], initial=0.0))
+
+
+def bands_along(
+    bands: Mapping[str, tuple[float, float]], dof: str, top: float
+) -> dict[str, np.ndarray]:
+    """`band_rows` of one direction, with the places of their names up to `top` [Hz]."""
+    rows = band_rows({label: ends for label, ends in bands.items() if label[:-1] == dof})
+    middle = 0.5 * (rows["low"] + rows["high"])
+    return {**rows, "label_at": spread(middle, LABEL_WIDTH * top, 0.0, top)}
 
 
 def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.ndarray]:

@@ -12,18 +12,19 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Glyph, curve, draw, filled
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.verdict import of_orbit
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.vibration_spectrum import (
-    DEPTH_OF_VIEW,
     FREQUENCY,
     HIGHEST,
-    LEVEL_FLOOR,
     SHOWN,
     decibels,
+    density_axis,
     drawn_levels,
+    seen_levels,
 )
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore.common.numbers import count, scientific
@@ -42,6 +43,21 @@ MARCHED_PASSES = 8
 
 FAR_APART = 3.0
 """[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
+
+_DOTS = {"size": 10, "fill_alpha": 0.85, "line_color": "white", "line_width": 1.0}
+MULTIPLIERS = [
+    Glyph("scatter", name, ("x", "y"), {"fill_color": color, **_DOTS})
+    for name, color in (("orbit_inside", style.DEFECTIVE), ("orbit_outside", "#D55E00"))
+]
+PATHS = [
+    curve("orbit_marched", "x", "y", style.HEALTHY, 3.0),
+    curve("orbit_path", "x", "y", style.DEFECTIVE, 1.4),
+]
+SPECTRA = [
+    *(curve("orbit_marched_levels", "frequency", dof, style.HEALTHY, 4.0) for dof in SHOWN),
+    *(curve("orbit_levels", "frequency", dof, style.color_along(dof), 1.6) for dof in SHOWN),
+]
+"""Layers of the three figures, from the lowest to the highest."""
 
 _LOST_LONG = {
     "-1": (
@@ -91,23 +107,16 @@ class SteadyOrbit(View):
         return pn.Column(self.status, plots, sizing_mode="stretch_width", margin=0)
 
     def _multipliers(self, packed: PackedSource) -> figure:
-        shown = packed.range("orbit_multipliers", -1.2, 1.2)
         plot = _square(
-            style.AxisQuantity("", "", ""),
-            style.AxisQuantity("", "", ""),
-            shown,
+            style.AxisQuantity("Multipliers, real part", "", ""),
+            style.AxisQuantity("Imaginary part", "", ""),
+            packed.range("orbit_multipliers", -1.2, 1.2),
             packed.range("orbit_multipliers_up", -1.2, 1.2),
         )
-        plot.xaxis.axis_label, plot.yaxis.axis_label = "Multipliers, real part", "Imaginary part"
         turn = np.linspace(0.0, 2.0 * math.pi, 121)
         circle = ColumnDataSource({"x": np.cos(turn), "y": np.sin(turn)})
-        plot.patch("x", "y", source=circle, fill_color="#E6F3EE", line_color=None)
-        plot.line("x", "y", source=circle, line_color="#00704F", line_width=1.5)
-        for name, color in (("orbit_inside", style.DEFECTIVE), ("orbit_outside", "#D55E00")):
-            plot.scatter(
-                "x", "y", source=packed.source(name, "x", "y"), size=10, fill_color=color,
-                fill_alpha=0.85, line_color="white", line_width=1.0,
-            )  # fmt: skip
+        filled("", "#E6F3EE", line_color="#00704F", line_width=1.5).add(plot, circle)
+        draw(plot, packed, MULTIPLIERS)
         return plot
 
     def _path(self, packed: PackedSource) -> figure:
@@ -117,33 +126,20 @@ class SteadyOrbit(View):
             packed.range("orbit_x", -1.0, 1.0),
             packed.range("orbit_y", -1.0, 1.0),
         )
-        plot.line(
-            "x", "y", source=packed.source("orbit_marched", "x", "y"), line_color=style.HEALTHY,
-            line_width=3.0,
-        )  # fmt: skip
-        plot.line(
-            "x", "y", source=packed.source("orbit_path", "x", "y"), line_color=style.DEFECTIVE,
-            line_width=1.4,
-        )  # fmt: skip
+        draw(plot, packed, PATHS)
         return plot
 
     def _spectrum(self, packed: PackedSource) -> figure:
         plot = style.make_figure(
             FREQUENCY,
-            style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
+            density_axis("S"),
             Range1d(0.0, HIGHEST, syncable=False),
             packed.range("orbit_level", -80.0, -20.0),
             height=HEIGHT + 40,
         )
         # beside the squares where there is room, else as wide as the card
         plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
-        marched = packed.source("orbit_marched_levels", "frequency", *SHOWN)
-        found = packed.source("orbit_levels", "frequency", *SHOWN)
-        for dof in SHOWN:
-            plot.line("frequency", dof, source=marched, line_color=style.HEALTHY, line_width=4.0)
-        for dof in SHOWN:
-            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            plot.line("frequency", dof, source=found, line_color=color, line_width=1.6)
+        draw(plot, packed, SPECTRA)
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -159,9 +155,6 @@ class SteadyOrbit(View):
         )
         found = drawn_levels(results.orbit_spectra, HIGHEST)
         late = drawn_levels(results.late_spectra, HIGHEST)
-        in_view = np.concatenate([spectrum[dof] for spectrum in (found, late) for dof in SHOWN])
-        loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
-        low_high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 3.0)
         return {
             "orbit_inside": _points(multipliers[~outside]),
             "orbit_outside": _points(multipliers[outside]),
@@ -174,7 +167,7 @@ class SteadyOrbit(View):
             "orbit_multipliers_up": round_about,
             "orbit_x": x_range,
             "orbit_y": y_range,
-            "orbit_level": low_high,
+            "orbit_level": self._levels.fit(*seen_levels(3.0, found, late)),
         }
 
     def say(self, results: Results | None, sentence: str) -> None:

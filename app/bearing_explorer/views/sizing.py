@@ -147,7 +147,7 @@ class DefectSize(JobView[Sized], MeasuredView):
             height=HEIGHT,
             title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
         )
-        color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+        color = style.color_along(dof)
         bands = packed.source(
             f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at"
         )
@@ -159,7 +159,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     def _curves(
         self, packed: PackedSource, plot: figure, dof: str, what: str, along: str, value: str
     ) -> None:
-        color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+        color = style.color_along(dof)
         for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
             source = packed.source(f"sizing_{what}_{who}_{dof}", along, value)
             plot.line(along, value, source=source, line_color=line, line_width=width)

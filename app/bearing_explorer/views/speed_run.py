@@ -11,20 +11,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import (
-    CheckboxGroup,
-    CustomJS,
-    GlyphRenderer,
-    LinearColorMapper,
-    RadioButtonGroup,
-    Range1d,
-)
+from bokeh.models import CustomJS, GlyphRenderer, LinearColorMapper, RadioButtonGroup
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends
+from bearing_explorer.plots.layers import (
+    Glyph,
+    Layer,
+    Words,
+    add_all,
+    curve,
+    nothing,
+    sources_of,
+    strips,
+    toggle,
+)
 from bearing_explorer.plots.ranges import nice_range
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.serve.packed_source import PackedSource
@@ -41,8 +45,8 @@ from bearing_explorer.state.value_range import (
 )
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.modes import SHORT_BAND_WORDS, band_rows, spread
-from bearing_explorer.views.vibration_spectrum import HIGHEST, LABEL_WIDTH, SHOWN, decibels
+from bearing_explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
+from bearing_explorer.views.vibration_spectrum import FREQUENCY, HIGHEST, SHOWN, decibels
 from bearing_explorer.widgets.form import FieldSpec
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
 
@@ -63,10 +67,61 @@ _SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABL
 _SAY = "return isNaN(cell[0]) ? 'not computed' : `${cell[0].toFixed(1).replace('-', '\\u2212')} dB`"
 _HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
 _HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
-_SWITCH = """
-const shown = cb_obj.active
-parts.forEach((own, which) => { for (const part of own) part.visible = which == shown })
-"""
+_SWITCH = "plots.forEach((plot, which) => { plot.visible = which == cb_obj.active })"
+_ON_PICTURE = {
+    "text_align": "center",
+    "text_color": style.LIGHT,
+    "background_fill_color": style.SHADE,
+    "background_fill_alpha": 0.6,
+}
+"""Look of words that lie on the picture."""
+
+
+def expected(dof: str) -> list[Layer]:
+    """The bands of the natural frequencies and the harmonics of the ball-pass frequency."""
+    bands, names = f"speed_run_bands_{dof}", "speed_run_harmonic_names"
+    edge: dict[str, Any] = {"line_color": style.LIGHT, "line_alpha": 0.9, "line_width": 1.0}
+    below = {"text_baseline": "top", "y_offset": 36, "padding": 1}
+    return [
+        strips(bands, style.LIGHT, 0.13, **edge),
+        Words(
+            bands,
+            "label_at",
+            0.965,
+            SHORT_BAND_WORDS,
+            reads=("direction", "number"),
+            y_share=True,
+            fitting=style.NARROW,
+            look={**_ON_PICTURE, "padding": 2},
+        ),
+        curve("speed_run_harmonics", "frequency", "speed", style.LIGHT, 1.0, (5, 4), 0.75),
+        Words(
+            names,
+            "frequency",
+            "speed",
+            _HARMONIC_WORDS,
+            reads=("number", "inner"),
+            fitting=style.NARROW,
+            look={**_ON_PICTURE, **below},
+        ),
+    ]
+
+
+_TRIANGLE = {"marker": "triangle", "angle": -0.5 * math.pi, "size": 7, "level": "annotation"}
+SCENE: list[Layer] = [
+    Glyph(
+        "scatter",
+        "speed_run_marched",
+        ("frequency", "speed"),
+        {"fill_color": style.DEFECT, "line_color": None, **_TRIANGLE},
+    ),
+    *(
+        Glyph("hspan", "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
+        for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6))
+    ),
+]
+"""Speeds whose motion was integrated in time, and the speed of this scene."""
+ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
 
 
 @dataclass(frozen=True)
@@ -96,7 +151,28 @@ class SpeedRunSpectra(JobView[Found]):
 
     def build(self, packed: PackedSource) -> Any:
         frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
-        plot_parts = {dof: self._plot(packed, frequency, dof) for dof in SHOWN}
+        speed = packed.range("speed_run_speed", 0.0, 60.0)
+        self._images: dict[str, GridImage] = {}
+        sources = sources_of(packed, ALL_LAYERS)
+        plots: list[figure] = []
+        marks: list[GlyphRenderer] = []
+        for dof in SHOWN:
+            plot = style.make_figure(
+                FREQUENCY,
+                _SIDES[SPEED].quantity,
+                frequency,
+                speed,
+                height=HEIGHT,
+                name=f"speed_run_drawing_{dof}",
+            )
+            plot.grid.visible = False
+            plot.stylesheets = [":host { cursor: crosshair; }"]
+            plot.visible = dof == SHOWN[1]
+            plot.syncable = False  # which of them is seen is the browser's business
+            self._add_map(plot, packed, dof)
+            marks += add_all(plot, sources, expected(dof))
+            add_all(plot, sources, SCENE)
+            plots.append(plot)
         switch = RadioButtonGroup(
             labels=[f"Along {dof}" for dof in SHOWN],
             active=1,
@@ -104,120 +180,28 @@ class SpeedRunSpectra(JobView[Found]):
             margin=(2, 5, 6, 5),
             stylesheets=[style.BUTTONS],
         )
-        toggle = CheckboxGroup(
-            labels=["Mark bands and ball-pass harmonics"],
-            active=[0],
-            syncable=False,
-            margin=(8, 5, 6, 12),
-            stylesheets=[style.BUTTONS],
-        )
-        plots = [[plot] for plot, _ in plot_parts.values()]
-        switch.js_on_change("active", CustomJS(args={"parts": plots}, code=_SWITCH))
-        marks = [mark for _, own in plot_parts.values() for mark in own]
-        toggle.js_on_change(
-            "active",
-            CustomJS(
-                args={"marks": marks},
-                code="for (const mark of marks) mark.visible = cb_obj.active.length > 0",
-            ),
-        )
-        return pn.Column(
-            self.job,
-            pn.Row(switch, toggle, margin=0, stylesheets=[style.WRAPPED]),
-            *(plot for plot, _ in plot_parts.values()),
-            sizing_mode="stretch_width",
-            margin=0,
-        )
+        switch.js_on_change("active", CustomJS(args={"plots": plots}, code=_SWITCH))
+        box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
+        choices = pn.Row(switch, box, margin=0, stylesheets=[style.WRAPPED])
+        return pn.Column(self.job, choices, *plots, sizing_mode="stretch_width", margin=0)
 
-    def _plot(
-        self, packed: PackedSource, frequency: Range1d, dof: str
-    ) -> tuple[figure, list[GlyphRenderer]]:
-        speed = _SIDES[SPEED]
-        if dof == SHOWN[0]:
-            self._images: dict[str, GridImage] = {}
-            self._speeds = packed.range("speed_run_speed", 0.0, 60.0)
-            self._harmonics = packed.source("speed_run_harmonics", "frequency", "speed")
-            self._names = packed.source(
-                "speed_run_harmonic_names", "frequency", "speed", "number", "inner"
-            )
-            self._now = packed.source("speed_run_now", "speed")
-            self._marched = packed.source("speed_run_marched", "frequency", "speed")
-        plot = style.make_figure(
-            style.AxisQuantity("Frequency", "f", "Hz"),
-            style.AxisQuantity(speed.words, speed.symbol, speed.unit),
-            frequency,
-            self._speeds,
-            height=HEIGHT,
-            name=f"speed_run_drawing_{dof}",
-        )
-        plot.grid.visible = False
-        plot.stylesheets = [":host { cursor: crosshair; }"]
-        plot.visible = dof == SHOWN[1]
-        plot.syncable = False  # which of them is seen is the browser's business
+    def _add_map(self, plot: figure, packed: PackedSource, dof: str) -> None:
+        """The spectra as colours, with their scale."""
         shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
         mapper = LinearColorMapper(
             palette=list(Viridis256), low=-80.0, high=-20.0, nan_color=CLEAR, syncable=False
         )
+        follow = CustomJS(
+            args={"mapper": mapper, "shown": shown},
+            code="mapper.setv({low: shown.start, high: shown.end})",
+        )
         for end in ("start", "end"):
-            shown.js_on_change(
-                end,
-                CustomJS(
-                    args={"mapper": mapper, "shown": shown},
-                    code="mapper.setv({low: shown.start, high: shown.end})",
-                ),
-            )
+            shown.js_on_change(end, follow)
         self._images[dof] = GridImage(
             plot, packed, f"speed_run_cells_{dof}", [mapper], list(_SIDES.values()), _SAY
         )
-        marks = [*self._mark_bands(plot, packed, dof), *self._mark_harmonics(plot)]
-        for mark in marks:
-            mark.syncable = False
-        plot.scatter(
-            "frequency", "speed", source=self._marched, marker="triangle", angle=-0.5 * math.pi,
-            size=7, fill_color=style.DEFECT, line_color=None, level="annotation",
-        )  # fmt: skip
-        for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6)):
-            plot.hspan(y="speed", source=self._now, line_color=color, line_width=width)
         title = f"S{dof} (dB re 1 (m/s²)²/Hz)"
         plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
-        return plot, marks
-
-    def _mark_bands(self, plot: figure, packed: PackedSource, dof: str) -> list[GlyphRenderer]:
-        bands = packed.source(
-            f"speed_run_bands_{dof}", "low", "high", "direction", "number", "label_at"
-        )
-        plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
-        strips = plot.vstrip(
-            "low", "high", source=bands, fill_color=style.LIGHT, fill_alpha=0.13,
-            line_color=style.LIGHT,
-            line_alpha=0.9, line_width=1.0,
-        )  # fmt: skip
-        names = plot.text(
-            "label_at", 0.965, y_range_name="rows",
-            text=style.fitting_words(plot, bands, SHORT_BAND_WORDS),
-            source=bands, text_align="center", text_baseline="middle",
-            text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.LIGHT, background_fill_color=style.SHADE,
-            background_fill_alpha=0.6,
-            padding=2,
-        )  # fmt: skip
-        return [strips, names]
-
-    def _mark_harmonics(self, plot: figure) -> list[GlyphRenderer]:
-        lines = plot.line(
-            "frequency", "speed", source=self._harmonics, line_color=style.LIGHT,
-            line_alpha=0.75,
-            line_width=1.0, line_dash=[5, 4],
-        )  # fmt: skip
-        names = plot.text(
-            "frequency", "speed", text=style.fitting_words(plot, self._names, _HARMONIC_WORDS),
-            source=self._names, text_align="center", text_baseline="top", y_offset=36,
-            text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.LIGHT, background_fill_color=style.SHADE,
-            background_fill_alpha=0.6,
-            padding=1,
-        )  # fmt: skip
-        return [lines, names]
 
     # The job
 
@@ -249,12 +233,14 @@ class SpeedRunSpectra(JobView[Found]):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = self.found
         if found is None:
-            return self._nothing(), {}
+            images = {image.name: image.nothing() for image in self._images.values()}
+            return {**images, **nothing(ALL_LAYERS)}, {}
         run, speeds = found.run, found.speeds
         scene = focused(results.scene, results.focus)
         alpha = 1.0 if alike_but_for(scene, run.scene, (speeds,)) else 0.35
         seen = run.frequency <= top_frequency(run)
         frequency = run.frequency[seen]
+        top = float(frequency[-1])
         level_ranges = {}
         sources: Sources = {}
         for dof in SHOWN:
@@ -263,33 +249,19 @@ class SpeedRunSpectra(JobView[Found]):
             sources[f"speed_run_cells_{dof}"] = self._images[dof].columns(
                 (_SIDES["frequency"], frequency), (_SIDES[SPEED], speeds.values), [level], alpha
             )
-            sources[f"speed_run_bands_{dof}"] = band_columns(run, dof, float(frequency[-1]))
+            sources[f"speed_run_bands_{dof}"] = bands_along(run.bands, dof, top)
         limits = ends(speeds.values)
-        sources |= harmonics(run, speeds, float(frequency[-1]))
+        sources |= harmonics(run, speeds, top)
         not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).all(axis=(1, 2))]
         sources["speed_run_now"] = {"speed": np.array([value_of(scene, speeds.field)])}
         sources["speed_run_marched"] = {
-            "frequency": np.full(not_proven.size, 0.006 * frequency[-1]),
+            "frequency": np.full(not_proven.size, 0.006 * top),
             "speed": not_proven,
         }
         return sources, {
-            "speed_run_frequency": (0.0, float(frequency[-1])),
+            "speed_run_frequency": (0.0, top),
             "speed_run_speed": limits,
             **level_ranges,
-        }
-
-    def _nothing(self) -> Sources:
-        none = np.zeros(0)
-        bands = dict.fromkeys(("low", "high", "direction", "number", "label_at"), none)
-        return {
-            **{f"speed_run_cells_{dof}": self._images[dof].nothing() for dof in SHOWN},
-            **{f"speed_run_bands_{dof}": bands for dof in SHOWN},
-            "speed_run_harmonics": {"frequency": none, "speed": none},
-            "speed_run_harmonic_names": dict.fromkeys(
-                ("frequency", "speed", "number", "inner"), none
-            ),
-            "speed_run_now": {"speed": none},
-            "speed_run_marched": {"frequency": none, "speed": none},
         }
 
     def sentence(self, results: Results) -> str:
@@ -312,7 +284,7 @@ class SpeedRunSpectra(JobView[Found]):
         if marched:
             text += (
                 f" At {marched} of {run.shaft_speed.size} speeds (triangles) no stable orbit was "
-                "found, and the motion was marched."
+                "found; their motion was integrated in time."
             )
         scene = focused(results.scene, results.focus)
         if not alike_but_for(scene, run.scene, (found.speeds,)):
@@ -327,7 +299,7 @@ class SpeedRunSpectra(JobView[Found]):
             self._begin_coarse()
 
     def _begin_coarse(self) -> None:
-        """A first picture that nobody had to ask for."""
+        """Compute a first picture at once."""
         self._begun = True
         with contextlib.suppress(ValueError):  # the button says why
             self.begin({**self.job.values, "count": str(FIRST_COUNT)})
@@ -376,8 +348,7 @@ def compute(job: Work, scene: Any, speeds: Sweep) -> str:
 
 def top_frequency(run: SpeedRun) -> float:
     """Highest frequency that is drawn [Hz]: more than usual where a band lies higher."""
-    high = np.array([band[1] for band in run.bands.values()])
-    return max(HIGHEST, 1.05 * float(np.nanmax(high, initial=0.0)))
+    return max(HIGHEST, 1.05 * highest(run.bands))
 
 
 def levels_of(run: SpeedRun, dof: str) -> NDArray[np.float64]:
@@ -394,13 +365,6 @@ def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> t
         return -80.0, -20.0
     top = nice_range(float(np.nanmax(heard)) - DEPTH_OF_VIEW, float(np.nanmax(heard)))[1]
     return top - DEPTH_OF_VIEW, top
-
-
-def band_columns(run: SpeedRun, dof: str, top: float) -> dict[str, np.ndarray]:
-    """Bands of the modes of one direction as columns, with the places of their labels."""
-    bands = band_rows({label: ends for label, ends in run.bands.items() if label[:-1] == dof})
-    middle = 0.5 * (bands["low"] + bands["high"])
-    return {**bands, "label_at": spread(middle, LABEL_WIDTH * top, 0.0, top)}
 
 
 def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:

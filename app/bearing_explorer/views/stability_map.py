@@ -20,8 +20,9 @@ from bearing_explorer.plots.heat_map import (
     Side,
     color_bar,
     ends,
-    ring_this_scene,
+    ring_at,
 )
+from bearing_explorer.plots.layers import draw, nothing, segments
 from bearing_explorer.results.jobs import LONGEST, Work
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -80,6 +81,10 @@ return kinds[kind] + (isNaN(size) ? "" : `, |μ| = ${rounded(size, 3)}`)
 """
 
 
+LAYERS = [segments("stability_border", style.SHADE, 1.6), *ring_at("stability_mark")]
+"""Over the map: |μ| = 1, and this scene."""
+
+
 @dataclass(frozen=True)
 class Found:
     """A map with the quantities of its sides."""
@@ -107,10 +112,9 @@ class OrbitStability(JobView[Found]):
 
     def build(self, packed: PackedSource) -> Any:
         self._sides = {key: Side.of(field) for key, field in SWEEPABLE.items()}
-        speed, extent = self._sides["shaft_speed_hz"], self._sides["extent_deg"]
         plot = style.make_figure(
-            style.AxisQuantity(speed.words, speed.symbol, speed.unit),
-            style.AxisQuantity(extent.words, extent.symbol, extent.unit),
+            self._sides["shaft_speed_hz"].quantity,
+            self._sides["extent_deg"].quantity,
             packed.range("stability_x", 0.0, 60.0),
             packed.range("stability_y", 0.0, 60.0),
             height=HEIGHT,
@@ -132,17 +136,7 @@ class OrbitStability(JobView[Found]):
         self._image = GridImage(
             plot, packed, "stability_cells", [size, kind], list(self._sides.values()), said
         )
-        plot.segment(
-            "x0",
-            "y0",
-            "x1",
-            "y1",
-            source=packed.source("stability_border", "x0", "y0", "x1", "y1"),
-            line_color=style.SHADE,
-            line_width=1.6,
-        )
-        mark = packed.source("stability_mark", "x", "y")
-        ring_this_scene(plot, mark, "annotation")
+        draw(plot, packed, LAYERS)
         ticks = FixedTicker(ticks=[0.0, 0.25, 0.5, 0.75, 1.0])
         bar = color_bar(size, "|μ|, stable", ticker=ticks, bar_line_color=style.STEEL_EDGE)
         plot.add_layout(bar, "right")
@@ -183,16 +177,13 @@ class OrbitStability(JobView[Found]):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = self.found
         if found is None:
-            empty = dict.fromkeys(("x0", "y0", "x1", "y1"), np.zeros(0))
-            mark = {"x": np.zeros(0), "y": np.zeros(0)}
-            sources: Sources = {"stability_cells": self._image.nothing()}
-            return sources | {"stability_border": empty, "stability_mark": mark}, {}
+            return {"stability_cells": self._image.nothing(), **nothing(LAYERS)}, {}
         x, y = found.x, found.y
         sides = self._sides[x.field.key], self._sides[y.field.key]
         scene = focused(results.scene.replace(balls=MASSLESS), results.focus)
         codes = codes_of(found.map)
         own = alike_but_for(scene, found.map.scene, (x, y))
-        sources = {
+        sources: Sources = {
             "stability_cells": self._image.columns(
                 (sides[0], x.values),
                 (sides[1], y.values),

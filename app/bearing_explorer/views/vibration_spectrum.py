@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import CheckboxGroup, CustomJS, GlyphRenderer, Range1d
-from bokeh.plotting import figure
+from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import (
+    CENTERED,
+    ON_PAPER,
+    Layer,
+    Words,
+    add_all,
+    curve,
+    sources_of,
+    strips,
+    toggle,
+    uprights,
+)
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
-from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
+from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore.dynamics.ball_motion import contact_resonance_band
@@ -29,7 +40,6 @@ if TYPE_CHECKING:
 FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz")
 SHOWN = ("x", "y")
 HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
-LABEL_WIDTH = 0.17  # of the width of the figure
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 
@@ -47,14 +57,51 @@ return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)} Hz`
 """
 
 
+def spectra(dof: str) -> list[Layer]:
+    """Along a direction: the spectra over the bands of the natural frequencies."""
+    color = style.color_along(dof)
+    bands = f"spectrum_bands_{dof}"
+    return [
+        strips(bands, color, 0.12),
+        Words(
+            bands,
+            "label_at",
+            0.94,
+            BAND_WORDS,
+            reads=("direction", "number"),
+            y_share=True,
+            look={"text_color": color, **CENTERED},
+        ),
+        curve("spectrum_healthy", "frequency", dof, style.HEALTHY, 1.5),
+        curve("spectrum_lines", "frequency", dof, color),
+    ]
+
+
+PASSES: list[Layer] = [
+    uprights("spectrum_passes", "frequency", style.DEFECT, 1.0, 0.4, level="underlay"),
+    Words(
+        "spectrum_first_pass",
+        "frequency",
+        0.06,
+        _PASS_WORDS,
+        reads=("inner", "row"),
+        y_share=True,
+        in_view="x",
+        share=1.0,
+        look={"x_offset": 4, "level": "annotation", **ON_PAPER},
+    ),
+]
+"""Marks of the ball-pass frequencies."""
+
+
 class VibrationSpectra(View):
     """Power spectral density of the housing's acceleration along x and y."""
 
     name = "vibration-spectrum"
     title = "Spectrum of the vibration"
     about = (
-        "Spectrum of the housing's acceleration. Power spectral density along x and y once the "
-        "start is forgotten, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
+        "Spectrum of the housing's acceleration. Power spectral density along x and y after the "
+        "start has died away, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
         "frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
@@ -71,53 +118,21 @@ class VibrationSpectra(View):
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         frequency = packed.range("spectrum_frequency", 0.0, HIGHEST)
         level = packed.range("spectrum_level", -80.0, -20.0)
-        lines = packed.source("spectrum_lines", "frequency", *SHOWN)
-        healthy = packed.source("spectrum_healthy", "frequency", *SHOWN)
-        passes = packed.source("spectrum_passes", "frequency", "inner", "row")
-        first = packed.source("spectrum_first_pass", "frequency", "inner", "row")
-        plots, marks = [], []
+        sources = sources_of(packed, [layer for dof in SHOWN for layer in [*spectra(dof), *PASSES]])
+        plots, passes = [], []
         for dof in SHOWN:
-            plot = style.make_figure(
-                FREQUENCY,
-                style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
-                frequency,
-                level,
-                height=HEIGHT,
-            )
-            plot.extra_y_ranges["rows"] = Range1d(0.0, 1.0, syncable=False)
-            color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
-            self._shade_bands(plot, packed, dof, color)
-            marks.append(
-                plot.vspan("frequency", source=passes, line_color=style.DEFECT, line_alpha=0.4)
-            )
-            marks.append(self._name_pass(plot, first))
-            plot.line("frequency", dof, source=healthy, line_color=style.HEALTHY, line_width=1.5)
-            plot.line("frequency", dof, source=lines, line_color=color, line_width=2.0)
+            density = density_axis(f"S{dof}")
+            plot = style.make_figure(FREQUENCY, density, frequency, level, height=HEIGHT)
+            add_all(plot, sources, spectra(dof))
+            passes += add_all(plot, sources, PASSES)
             plots.append(plot)
-        for mark in marks:
-            mark.visible = False
-            mark.syncable = False
-        # a group of one: its box and its words belong together for screen readers and fingers
-        toggle = CheckboxGroup(
-            labels=["Mark the ball-pass frequency and its harmonics"],
-            active=[],
-            syncable=False,
-            margin=(4, 5, 8, 5),
-            stylesheets=[style.BUTTONS],
-        )
-        toggle.js_on_change(
-            "active",
-            CustomJS(
-                args={"marks": marks},
-                code="for (const mark of marks) mark.visible = cb_obj.active.length > 0",
-            ),
-        )
-        self._narrow = [toggle, *plots]
+        box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
+        self._narrow = [box, *plots]
         self._wide = WideSpectra(packed, "spectrum_wide", {})
         self._axis = LookPanel(self.look_changed, [AXIS])
         self._show_axis()
         return pn.Column(
-            self._axis, toggle, *plots, *self._wide.plots, sizing_mode="stretch_width", margin=0
+            self._axis, *self._narrow, *self._wide.plots, sizing_mode="stretch_width", margin=0
         )
 
     def look_changed(self, _: str, value: str) -> None:
@@ -126,8 +141,21 @@ class VibrationSpectra(View):
         if self._draw is not None:
             self._draw()
 
+    def choices(self) -> dict[str, Any]:
+        return {"axis": "logarithmic"} if self.wide else {}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        axes = [value for value, _ in AXIS["options"]]
+        axis = choices.get("axis", axes[0])
+        if axis not in axes:
+            raise ValueError(f"axis is {axis!r}; it can be {' or '.join(axes)}")
+        self.wide = axis == "logarithmic"
+
+    def still_figures(self) -> Sequence[LayoutDOM]:
+        return self._wide.plots if self.wide else self._narrow[1:]
+
     def _show_axis(self) -> None:
-        """The figures of the axis that was chosen."""
+        """Show the figures of the axis that was chosen."""
         for part in self._narrow:
             part.visible = not self.wide
         for plot in self._wide.plots:
@@ -139,7 +167,7 @@ class VibrationSpectra(View):
         self._show_axis()
 
     def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
-        """Up to half the sample rate, where that was asked for."""
+        """Up to half the sample rate, where that was chosen."""
         if not self.wide:
             return self._wide.nothing(), {}
         band = (0.0, 0.0)
@@ -149,67 +177,21 @@ class VibrationSpectra(View):
             results.late_spectra, results.healthy_late_spectra, band, results.motion.sample_rate
         )
 
-    def _shade_bands(self, plot: figure, packed: PackedSource, dof: str, color: str) -> None:
-        bands = packed.source(
-            f"spectrum_bands_{dof}", "low", "high", "direction", "number", "label_at"
-        )
-        plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.12, line_color=None)
-        plot.text(
-            "label_at",
-            0.94,
-            y_range_name="rows",
-            text=style.words_of(bands, BAND_WORDS),
-            source=bands,
-            text_align="center",
-            text_baseline="middle",
-            text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=color,
-        )
-
-    def _name_pass(self, plot: figure, first: Any) -> GlyphRenderer:
-        return plot.text(
-            "frequency",
-            0.06,
-            y_range_name="rows",
-            text=style.words_in_view(plot, first, _PASS_WORDS, "frequency", share=1.0),
-            source=first,
-            x_offset=4,
-            text_baseline="middle",
-            text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.INK,
-            background_fill_color="white",
-            background_fill_alpha=0.85,
-            level="annotation",
-        )
-
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        bands = band_rows(results.bands)
-        top = self._frequency.fit(HIGHEST, 1.05 * np.max(bands["high"], initial=0.0))[1]
+        top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
         drawn = drawn_levels(results.late_spectra, top)
-        in_view = np.concatenate([drawn[dof] for dof in SHOWN])
-        # a level far below everything is silence, not something to make room for
-        loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
-        low, high = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 6.0)
         passing = pass_frequencies(results.scene, top)
         which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
-        first = {name: column[which] for name, column in passing.items()}
-        sources: Sources = {
+        sources, ranges = self._wide_data(results)
+        sources |= {
             "spectrum_lines": drawn,
             "spectrum_healthy": drawn_levels(results.healthy_late_spectra, top),
-            "spectrum_passes": passing,
-            "spectrum_first_pass": first,
+            "spectrum_passes": {"frequency": passing["frequency"]},
+            "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
+            **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
         }
-        for index, dof in enumerate(style.DIRECTIONS):
-            if dof in SHOWN:
-                own = {name: column[bands["direction"] == index] for name, column in bands.items()}
-                middle = 0.5 * (own["low"] + own["high"])
-                own["label_at"] = spread(middle, LABEL_WIDTH * top, 0.0, top)
-                sources[f"spectrum_bands_{dof}"] = own
-        wide, ranges = self._wide_data(results)
-        ranges |= {"spectrum_frequency": (0.0, top), "spectrum_level": (low, high)}
-        return sources | wide, ranges
+        shown = self._levels.fit(*seen_levels(6.0, drawn))
+        return sources, {**ranges, "spectrum_frequency": (0.0, top), "spectrum_level": shown}
 
     def sentence(self, results: Results) -> str:
         words = []
@@ -253,6 +235,21 @@ class VibrationSpectra(View):
                 columns = one.table([dof], unit).named()
                 table |= {f"{who}{name}": values for name, values in columns.items()}
         return table
+
+
+def density_axis(symbol: str) -> style.AxisQuantity:
+    """What the axis of a power spectral density shows."""
+    return style.AxisQuantity("Density", symbol, "dB re 1 (m/s²)²/Hz")
+
+
+def seen_levels(room: float, *spectra: dict[str, np.ndarray]) -> tuple[NDArray[np.float64], float]:
+    """Levels [dB] for which an axis makes room, and `room` above the loudest.
+
+    Far below the loudest line is silence, for which no axis has to make room.
+    """
+    levels = np.concatenate([spectrum[dof] for spectrum in spectra for dof in SHOWN])
+    loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))
+    return np.maximum(levels, loudest - DEPTH_OF_VIEW), loudest + room
 
 
 def decibels(density: Any) -> Any:

@@ -13,12 +13,12 @@ from bearing_explorer.plots.element_words import element_name
 from bearing_explorer.plots.layers import (
     ON_PAPER,
     Layer,
-    Line,
-    Uprights,
     Words,
     add_all,
     by_number,
+    curve,
     sources_of,
+    uprights,
 )
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest
@@ -49,7 +49,7 @@ return narrow ? `${{row.ball}} ${{does}}` : `{_BALL} ${{does}}`
 """
 
 
-EVENTS = Uprights("vibration_events", "time", style.FAINT_INK, 1.0, 0.55)
+EVENTS = uprights("vibration_events", "time", style.FAINT_INK, 1.0, 0.55)
 
 
 def layers_above() -> list[Layer]:
@@ -57,7 +57,7 @@ def layers_above() -> list[Layer]:
     colors = dict(zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True))
     return [
         EVENTS,
-        *(Line("vibration_motion", "time", dof, colors[dof], 1.4) for dof in reversed(SHOWN)),
+        *(curve("vibration_motion", "time", dof, colors[dof], 1.4) for dof in reversed(SHOWN)),
         Words(
             "vibration_events",
             "label_from",
@@ -75,9 +75,9 @@ def layers_below() -> list[Layer]:
     """Loads of the balls, moving and at rest, with their names."""
     return [
         EVENTS,
-        Line("vibration_static_loads", "time", "load", style.INK, 1.0),
+        curve("vibration_static_loads", "time", "load", style.INK, 1.0),
         *(
-            Line("vibration_loads", "time", f"load{i}", color, alpha=0.9)
+            curve("vibration_loads", "time", f"load{i}", color, alpha=0.9)
             for i, color in enumerate(style.BALL_COLORS)
         ),
         Words(

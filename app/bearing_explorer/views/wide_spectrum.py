@@ -11,11 +11,11 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import (
     ON_PAPER,
     Layer,
-    Line,
-    Strips,
     Words,
     add_all,
+    curve,
     sources_of,
+    strips,
 )
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
@@ -76,12 +76,12 @@ class WideSpectra:
     def _layers(self, dof: str, other: dict[str, Any]) -> list[Layer]:
         """Along a direction, from the lowest to the highest."""
         name = self._name
-        color = style.DIRECTION_COLORS[style.DIRECTIONS.index(dof)]
+        color = style.color_along(dof)
         beneath = {"color": style.HEALTHY, "width": 1.5, **other}
         return [
-            Strips(f"{name}_resonance", "low", "high", style.DEFECT, 0.22, reads=("above",)),
-            Line(f"{name}_others", "frequency", dof, **beneath),
-            Line(f"{name}_lines", "frequency", dof, color, 1.4),
+            strips(f"{name}_resonance", style.DEFECT, 0.22, reads=("above",)),
+            curve(f"{name}_others", "frequency", dof, **beneath),
+            curve(f"{name}_lines", "frequency", dof, color, 1.4),
             Words(
                 f"{name}_resonance",
                 "label_at",

@@ -14,12 +14,12 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.field_values import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.views.modes import bands_along
 from bearing_explorer.views.speed_run import (
     COUNTS,
     SPEED,
     Found,
     SpeedRunSpectra,
-    band_columns,
     compute,
     harmonics,
     levels_of,
@@ -67,7 +67,7 @@ def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Found) -> Non
 
 def test_bands_are_those_of_the_modes(found: Found) -> None:
     for dof in ("x", "y"):
-        columns = band_columns(found.run, dof, 2500.0)
+        columns = bands_along(found.run.bands, dof, 2500.0)
         bands = [band for label, band in found.run.bands.items() if label[0] == dof]
         assert sorted(zip(columns["low"], columns["high"], strict=True)) == sorted(bands)
 

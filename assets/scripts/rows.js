@@ -47,7 +47,7 @@ function fit(input) {
 // Rows of one panel. `changed` hears of every change of a value, `touched` of the control in use.
 function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
-  let limits = {}, values = {}, twins = {}
+  let limits = {}, values = {}, second_units = {}
   let pending = null, sent_at = 0, waiting = false
   let released = false, held = false
 
@@ -133,7 +133,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   // The same number in its second unit, which can be typed too.
   const show_twin = (name) => {
-    const { twin } = rows[name], known = twins[name]
+    const { twin } = rows[name], known = second_units[name]
     if (twin.root.hidden !== !known) twin.root.hidden = !known
     if (!known || twin.root.contains(twin.number.getRootNode().activeElement)) return
     const value = values[name]
@@ -221,7 +221,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     twin.number.addEventListener("change", () => {
       const given = Number(twin.number.value.replace("\u2212", "-").replace(",", "."))
       const text = twin.number.value.trim() && isFinite(given)
-        ? String(Number((given / twins[name].factor).toPrecision(12))) : twin.number.value
+        ? String(Number((given / second_units[name].factor).toPrecision(12))) : twin.number.value
       send({ typed: { [name]: text } })
     })
     number.addEventListener("keydown", (event) => {
@@ -273,7 +273,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
 
   // Values and choices that this panel does not show are other panels' business.
   const take = (state) => {
-    Object.assign(twins, state.twins ?? {})
+    Object.assign(second_units, state.second_units ?? {})
     for (const [name, limit] of Object.entries(state.limits ?? {})) {
       if (!rows[name]) continue
       limits[name] = limit
@@ -293,7 +293,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       refuse(name, "")
       selects[name].show(value)
     }
-    if (state.twins) for (const name of Object.keys(rows)) show_twin(name)
+    if (state.second_units) for (const name of Object.keys(rows)) show_twin(name)
     if (state.draft) show_draft(state.draft)
     if (state.bearing) show_own(state.bearing, state.changed)
     if (state.hidden)

@@ -15,6 +15,7 @@ from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.ball_positions import static_balls
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
 
@@ -63,7 +64,7 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
     there is no static state.
     """
     massless = equilibrium(scene, [0.0], dofs)
-    if massless.status[0] >= kernels.NOT_CARRIED:
+    if massless.status[0] >= StaticStatus.NOT_CARRIED:
         return None
     system = ball_system(scene, dofs)
     q, _, _, place, _, status, _, _ = kernels.ball_positions(
@@ -72,7 +73,7 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
         static_balls(scene, system.races),
         packing.static_load(scene, dofs),
     )
-    if status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+    if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
     bodies = packing.body_numbers(scene, dofs)
     number = packing.direction_numbers(dofs)

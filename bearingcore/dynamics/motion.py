@@ -27,6 +27,7 @@ from bearingcore.scene import packing
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
+from bearingcore.statics.status import StaticStatus
 
 STEPS_A_CYCLE = 16.0
 """Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
@@ -406,7 +407,7 @@ def moving_system(
 def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
     """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state."""
     start = equilibrium(scene, [0.0], dofs)
-    if start.status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+    if start.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
     bodies = packing.body_numbers(scene, dofs)
     y = np.zeros((4, len(dofs)))

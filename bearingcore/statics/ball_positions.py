@@ -19,11 +19,11 @@ from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
-    REASONS,
     TERM_INDICES,
     Equilibrium,
     equilibrium,
 )
+from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ BALANCED = 1e-8
 CARRYING = 0.05
 """Part of the heaviest load above which a ball counts as carrying."""
 
-UNSETTLED = kernels.NOT_CONVERGED
+UNSETTLED = StaticStatus.NOT_CONVERGED
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class BallPositions:
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
         """(n,) True where there is one equilibrium and it was found."""
-        return self.status == kernels.CONVERGED
+        return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:
         """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
@@ -90,9 +90,8 @@ class BallPositions:
 
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""
-        return self.cost or REASONS[int(self.status[i])].format(
-            free=" or ".join(self.dofs), residual=self.residual[i]
-        )
+        status = StaticStatus(int(self.status[i]))
+        return self.cost or status.sentence(" or ".join(self.dofs), float(self.residual[i]))
 
     def table(self) -> ResultTable:
         """A row a cage angle: displacements, stiffness, and of each ball both loads and angles."""
@@ -175,18 +174,18 @@ def ball_positions(
             static_balls(scene, races),
             packing.static_load(scene, active),
         )
-    status = np.where(massless.status == kernels.NOT_CARRIED, kernels.NOT_CARRIED, status)
+    status[massless.status == StaticStatus.NOT_CARRIED] = StaticStatus.NOT_CARRIED
     left = _unbalanced(scene, races, massless.cage_angles, load, angle)
-    status = np.where((status < kernels.NOT_CARRIED) & (left > BALANCED), UNSETTLED, status)
+    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = UNSETTLED
     residual = np.maximum(residual, left)
     units = packing.length_units(scene)
-    gone = status >= kernels.NOT_CARRIED
+    gone = status >= StaticStatus.NOT_CARRIED
     displacement = q / units
     stiffness *= units[:, None] * units
     for values in (displacement, place, stiffness):
         values[gone] = math.nan
     load[:, gone] = angle[:, gone] = math.nan
-    loose = np.isin(status, (kernels.NOTHING_TOUCHES, kernels.FREE_DIRECTION))
+    loose = np.isin(status, (StaticStatus.NOTHING_TOUCHES, StaticStatus.FREE_DIRECTION))
     displacement[np.ix_(loose, packing.direction_numbers(active))] = math.nan
     return BallPositions(
         scene,
@@ -251,7 +250,7 @@ def static_state(
     if scene.balls != WITH_MASS:
         return equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
     found = ball_positions(scene, cage_angles, dofs, most_contacts=most_contacts)
-    known = found.status < kernels.NOT_CARRIED
+    known = found.status < StaticStatus.NOT_CARRIED
     carries = (found.load[0] > 0.0) & (found.load[1] > 0.0)
     return EquilibriumWithMass(
         scene=scene,

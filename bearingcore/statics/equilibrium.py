@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.numbers import scientific, thousands
+from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.load_capacity import runs_away
+from bearingcore.statics.status import StaticStatus
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
 """Names of the 15 independent terms of the symmetric 5×5 stiffness matrix, row by row."""
@@ -45,19 +46,6 @@ MOST_CONTACTS = 20_000_000
 """Contacts, those of all balls at all cage angles, that are solved at most unless asked otherwise:
 some seconds of one core and a gigabyte of answers."""
 
-REASONS = {
-    kernels.CONVERGED: "converged",
-    kernels.NOTHING_TOUCHES: (
-        "nothing touches: no load acts along the free directions, so no ball is pressed and the "
-        "ring's place within its clearance is not determined"
-    ),
-    kernels.FREE_DIRECTION: "the ring can move without resistance along {free}",
-    kernels.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
-    kernels.NOT_CONVERGED: "not converged: relative residual {residual}",
-    kernels.TOO_MANY: "too many contacts",
-}
-"""What each status means."""
-
 
 @dataclass(frozen=True)
 class Equilibrium:
@@ -78,7 +66,7 @@ class Equilibrium:
     loaded_balls : (n,)
         how many balls carry load.
     status : (n,)
-        codes of `kernels`; `reason(i)` puts them into words.
+        each a `StaticStatus`; `reason(i)` puts it into words.
     residual : (n,)
         size of the unbalanced load over the size of the load, moments over r_d; to the load counts
         what the held directions take. Converged is 1e-9 or less, or what the digits of a
@@ -108,7 +96,7 @@ class Equilibrium:
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
         """(n,) True where there is one equilibrium and it was found."""
-        return self.status == kernels.CONVERGED
+        return self.status == StaticStatus.CONVERGED
 
     @cached_property
     def ball_angle(self) -> NDArray[np.float64]:
@@ -124,7 +112,7 @@ class Equilibrium:
             packing.contacts(self.scene.bearing),
             packing.path(self.scene),
         )
-        angles[self.status >= kernels.NOT_CARRIED] = math.nan
+        angles[self.status >= StaticStatus.NOT_CARRIED] = math.nan
         return angles
 
     def term(self, name: str) -> NDArray[np.float64]:
@@ -154,13 +142,11 @@ class Equilibrium:
 
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""
-        code = int(self.status[i])
         free = [
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
-        return self.cost or REASONS[code].format(
-            free=", ".join(free), residual=scientific(float(self.residual[i]), 2)
-        )
+        status = StaticStatus(int(self.status[i]))
+        return self.cost or status.sentence(", ".join(free), float(self.residual[i]))
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
@@ -233,10 +219,10 @@ def equilibrium(
     failed = np.flatnonzero(status)
     if failed.size:
         _explain(scene, angles, load, status, stiffness, displacement, failed)
-        gone = status >= kernels.NOT_CARRIED
+        gone = status >= StaticStatus.NOT_CARRIED
         loads[gone] = math.nan
         loaded[gone] = 0
-        loose = status == kernels.NOTHING_TOUCHES
+        loose = status == StaticStatus.NOTHING_TOUCHES
         loads[loose] = 0.0
         loaded[loose] = 0
         nowhere = gone | loose
@@ -289,7 +275,7 @@ def _not_begun(
         ball_load=all_of(math.nan, balls),
         stiffness=all_of(math.nan, 5, 5),
         loaded_balls=none,
-        status=all_of(kernels.TOO_MANY, kind=np.int8),
+        status=all_of(StaticStatus.TOO_MANY_CONTACTS, kind=np.int8),
         residual=all_of(math.nan),
         iterations=none,
         evaluations=none,
@@ -310,15 +296,15 @@ def _explain(
     """Find the true reason of each failure: the free directions, or a load nothing can carry."""
     active = load.active
     for k in failed:
-        if status[k] == kernels.FREE_DIRECTION:
+        if status[k] == StaticStatus.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
             if not np.isfinite(K).all():  # numbers beyond those of a computer: nothing is free
-                status[k] = kernels.NOT_CONVERGED
+                status[k] = StaticStatus.NOT_CONVERGED
                 continue
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif status[k] == kernels.NOT_CONVERGED and runs_away(
+        elif status[k] == StaticStatus.NOT_CONVERGED and runs_away(
             scene, angles[k], active, load.force[active]
         ):
-            status[k] = kernels.NOT_CARRIED
+            status[k] = StaticStatus.NOT_CARRIED

@@ -22,13 +22,13 @@ from bearingcore.scene.defect import TWO_PI, Defect, floor_bytes, path_tables
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
-    REASONS,
     STIFFNESS_TERMS,
     TERM_UNITS,
     default_cage_angles,
     too_many_contacts,
 )
 from bearingcore.statics.load_capacity import runs_away
+from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class Maps:
     greatest_load : (m, n) [N]
         load of the ball that carries most.
     status : (m, n)
-        codes of `kernels`; `reason(i, k)` puts them into words.
+        each a `StaticStatus`; `reason(i, k)` puts it into words.
     residual : (m, n)
         size of the unbalanced load over the size of the load, moments over r_d.
     solved, evaluations
@@ -84,7 +84,7 @@ class Maps:
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
         """(m, n) True where there is one equilibrium and it was found."""
-        return self.status == kernels.CONVERGED
+        return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:
         """(m, n) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
@@ -114,11 +114,9 @@ class Maps:
         """In words, what became of extent i and cage angle k."""
         if self.cost:
             return self.cost
-        if self.status[i, k] == kernels.REFUSED:
+        if self.status[i, k] == StaticStatus.REFUSED:
             return self.refusals[i]
-        return REASONS[int(self.status[i, k])].format(
-            free="some direction", residual=self.residual[i, k]
-        )
+        return StaticStatus(int(self.status[i, k])).sentence(residual=float(self.residual[i, k]))
 
 
 def stiffness_maps(
@@ -176,15 +174,15 @@ def stiffness_maps(
         nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
         return Maps(
             scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
-            np.broadcast_to(np.int8(kernels.TOO_MANY), shape), nothing[0], 0, 0,
+            np.broadcast_to(np.int8(StaticStatus.TOO_MANY_CONTACTS), shape), nothing[0], 0, 0,
             ("",) * sizes.size, cost,
         )  # fmt: skip
 
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
-    status = np.full(shape, kernels.OPEN, dtype=np.int8)
+    status = np.full(shape, StaticStatus.NOT_COMPUTED, dtype=np.int8)
     refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
-    status[refused] = kernels.REFUSED
+    status[refused] = StaticStatus.REFUSED
     stiffness = np.full((15, *shape), math.nan)
     loaded = np.zeros(shape, dtype=np.int64)
     greatest, residual = np.full(shape, math.nan), np.full(shape, math.nan)
@@ -207,11 +205,11 @@ def stiffness_maps(
     begun = min(start + 1, sizes.size)
     solved, evaluations = solve(start, begun)
     gone = _run_away(scene, angles, load, status[start:begun])
-    status[:, gone] = np.where(refused[:, None], kernels.REFUSED, kernels.NOT_CARRIED)
+    status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
     more, calls = solve(begun, sizes.size)
     gone = _run_away(scene, angles, load, status)
     status[:, gone] = np.where(
-        status[:, gone] == kernels.NOT_CONVERGED, kernels.NOT_CARRIED, status[:, gone]
+        status[:, gone] == StaticStatus.NOT_CONVERGED, StaticStatus.NOT_CARRIED, status[:, gone]
     )
     return Maps(
         scene=scene,
@@ -236,7 +234,7 @@ def _run_away(
     status: NDArray[np.int8],
 ) -> NDArray[np.int64]:
     """Indices of the cage angles without an answer at which nothing can carry the load."""
-    failed = np.flatnonzero((status == kernels.NOT_CONVERGED).any(axis=0))
+    failed = np.flatnonzero((status == StaticStatus.NOT_CONVERGED).any(axis=0))
     active, force = load.active, load.force[load.active]
     gone = [k for k in failed if runs_away(scene, float(angles[k]), active, force)]
     return np.array(gone, dtype=np.int64)

@@ -46,12 +46,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
 
@@ -83,13 +83,13 @@ class RaceLoads(NamedTuple):
     """The load [N] that tires each race as much as all that it carries, and the greatest of all.
 
     Of inner and outer race one for each row. NaN where the loads of some cage angle are not known;
-    `status` (a code of `kernels`) and `reason` then say why, and are CONVERGED and empty otherwise.
+    `status` and `reason` then say why, and are CONVERGED and empty otherwise.
     """
 
     inner: tuple[float, ...]
     outer: tuple[float, ...]
     heaviest: float
-    status: int = kernels.CONVERGED
+    status: int = StaticStatus.CONVERGED
     reason: str = ""
 
 

@@ -7,12 +7,13 @@ grids of this package: what needs them is imported when `sweep` is first asked f
 
 from typing import TYPE_CHECKING, Any
 
-from bearingcore.sweep.outputs import OUTPUTS, STATUSES
+from bearingcore.sweep.outputs import OUTPUTS
+from bearingcore.sweep.status import STATUSES, SweepStatus
 
 if TYPE_CHECKING:
     from bearingcore.sweep.run import sweep
 
-__all__ = ["OUTPUTS", "STATUSES", "sweep"]
+__all__ = ["OUTPUTS", "STATUSES", "SweepStatus", "sweep"]
 
 
 def __getattr__(name: str) -> Any:

@@ -12,8 +12,9 @@ import numpy as np
 from bearingcore.common.scene_file import LARGEST_TEXT
 from bearingcore.sweep.file import grid_from_toml
 from bearingcore.sweep.grid import Grid
-from bearingcore.sweep.outputs import OUTPUTS, STATUSES
+from bearingcore.sweep.outputs import OUTPUTS
 from bearingcore.sweep.run import needs_extra, run
+from bearingcore.sweep.status import STATUSES
 
 ASK_ABOVE = 10_000_000
 """More scenes than this are computed only when told so."""

@@ -36,8 +36,8 @@ from bearingcore.sweep.outputs import (
     mode_labels,
     of_row,
     of_scene,
-    refused,
 )
+from bearingcore.sweep.status import SweepStatus
 
 MOST_AXES = 8
 MOST_VALUES = 1_000_000
@@ -236,7 +236,7 @@ class Grid:
         try:
             scene = self.scene_at(index)
         except ValueError:
-            return refused(), {}
+            return SweepStatus.SCENE_REFUSED.code, {}
         return of_scene(scene, self.needs, self.labels, self.settings)
 
     def _rows(self) -> Iterator[tuple[Any, Any, Numbers]]:

@@ -13,16 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.modes import undamped_bands
 from bearingcore.dynamics.motion import simulate
-from bearingcore.dynamics.orbit import (
-    orbit,
-)
+from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import SETTLING
-from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
@@ -34,6 +30,14 @@ from bearingcore.statics.equilibrium import (
 from bearingcore.statics.life import dynamic_load_rating, life
 from bearingcore.statics.maps import stiffness_maps
 from bearingcore.statics.pressure import contact_pressures
+from bearingcore.statics.status import StaticStatus
+from bearingcore.sweep.status import (
+    OF_MOTION,
+    OF_ORBIT,
+    OF_STATICS,
+    STATUSES,
+    SweepStatus,
+)
 
 Array = NDArray[np.float64]
 
@@ -47,53 +51,8 @@ fifteen times as long with a defect of the inner race."""
 SECONDS_IN_A_ROW = {STATICS: 1e-4, MODES: 4e-4}
 """[s] where the extent varies: a row of extents is solved together."""
 
-STATUSES = (
-    "not_computed",
-    "complete",
-    "nothing_touches",
-    "free_direction",
-    "load_not_carried",
-    "static_state_not_converged",
-    "scene_refused",
-    "computation_refused",
-    "no_static_start",
-    "motion_diverged",
-    "orbit_not_converged",
-    "no_common_period",
-    "arithmetic_failed",
-    "too_many_steps",
-    "too_many_contacts",
-)
-"""What became of a scene, by code: `complete`, or the first thing that kept something from being
-known. Nothing touches, a free direction and what follows: at some cage angle at least; a free
-direction still has a stiffness. Refused: the scene, or a computation of it, cannot be (a standing
-shaft has no motion and no hours). What is not known is NaN."""
-
-_CODE = {name: code for code, name in enumerate(STATUSES)}
-# the solver's codes in this table, in which "not computed" must be 0, what an empty file says
-_FROM_KERNELS = {
-    kernels.CONVERGED: "complete",
-    kernels.NOTHING_TOUCHES: "nothing_touches",
-    kernels.FREE_DIRECTION: "free_direction",
-    kernels.NOT_CARRIED: "load_not_carried",
-    kernels.NOT_CONVERGED: "static_state_not_converged",
-    kernels.REFUSED: "scene_refused",
-    kernels.TOO_MANY: "too_many_contacts",
-}
-_STATIC_CODES = np.array([_CODE[_FROM_KERNELS[code]] for code in sorted(_FROM_KERNELS)], np.int8)
-_FROM_ORBIT = {
-    OrbitStatus.NOT_CONVERGED: "orbit_not_converged",
-    OrbitStatus.NO_PERIOD: "no_common_period",
-    OrbitStatus.NO_START: "no_static_start",
-    OrbitStatus.TOO_MANY_STEPS: "too_many_steps",
-}
-_FROM_MOTION = {
-    MotionStatus.COMPLETED: "complete",
-    MotionStatus.NO_START: "no_static_start",
-    MotionStatus.TOO_MANY_STEPS: "too_many_steps",
-    MotionStatus.DIVERGED: "motion_diverged",
-    MotionStatus.STEP_VANISHED: "motion_diverged",
-}
+_STATIC_CODES = np.array([OF_STATICS[code].code for code in sorted(OF_STATICS)], np.int8)
+"""Code of a sweep for each status of a static state."""
 
 MODE = "mode"
 """Name of the dimension of the band edges."""
@@ -314,7 +273,7 @@ def of_scene(
 
     `labels` are the modes that the band edges are given for.
     """
-    codes: list[str] = []
+    ended: list[SweepStatus] = []
     numbers: Numbers = {}
     if STATICS in needs or MODES in needs:
         state = equilibrium(scene, default_cage_angles(scene, settings.cage_angles))
@@ -322,15 +281,15 @@ def of_scene(
         code, numbers = _statics(
             state.status, terms, state.loaded_balls, state.ball_load.max(axis=1)
         )
-        codes.append(STATUSES[int(code)])
+        ended.append(STATUSES[int(code)])
     try:
         if LIFE in needs:
-            codes.append(_life(scene, settings, numbers))
+            ended.append(_life(scene, settings, numbers))
         if MODES in needs:
             edges = _bands(scene, terms[:, None], labels)
             numbers |= {name: values[0] for name, values in edges.items()}
         if MOTION in needs:
-            codes.append(_motion(scene, settings, numbers))
+            ended.append(_motion(scene, settings, numbers))
         if MASS in needs:
             if settings.band_high > 0.5 * settings.sample_rate:
                 raise checks.refuse("band_high", settings.band_high, "at most half the sample_rate")
@@ -345,13 +304,13 @@ def of_scene(
         if ORBIT in needs:
             found = orbit(scene)
             numbers["floquet_multiplier_greatest"] = np.array(found.largest_multiplier)
-            codes.append(_FROM_ORBIT.get(found.status, "complete"))
+            ended.append(OF_ORBIT[found.status])
     except ValueError:
-        codes.append("computation_refused")
+        ended.append(SweepStatus.COMPUTATION_REFUSED)
     except (ArithmeticError, np.linalg.LinAlgError):
-        codes.append("arithmetic_failed")
-    first = next((code for code in codes if code != "complete"), "complete")
-    return _CODE[first], numbers
+        ended.append(SweepStatus.ARITHMETIC_FAILED)
+    known = SweepStatus.COMPLETE
+    return next((status for status in ended if status is not known), known).code, numbers
 
 
 IN_ROWS = frozenset({STATICS, MODES})
@@ -371,7 +330,8 @@ def of_row(
         try:
             numbers |= _bands(scene, maps.stiffness, labels)
         except ValueError:
-            codes = np.where(codes == _CODE["complete"], _CODE["computation_refused"], codes)
+            complete = codes == SweepStatus.COMPLETE.code
+            codes = np.where(complete, SweepStatus.COMPUTATION_REFUSED.code, codes)
     return codes, numbers
 
 
@@ -386,11 +346,6 @@ def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
     return {"band_least": edges[0], "band_greatest": edges[1]}
 
 
-def refused() -> int:
-    """Code of a scene that cannot be."""
-    return _CODE["scene_refused"]
-
-
 def _statics(
     status: NDArray[np.int8],
     stiffness: Array,
@@ -402,11 +357,11 @@ def _statics(
     NaN at any of the angles makes NaN of the statistic: a mean over what happens to be known would
     look like that of a period.
     """
-    gone = status >= kernels.NOT_CARRIED
+    gone = status >= StaticStatus.NOT_CARRIED
     balls = np.where(gone, math.nan, loaded_balls)
     numbers: Numbers = {
         "ball_load_greatest": np.where(gone, math.nan, greatest_load).max(axis=-1),
-        "converged_share": np.asarray(np.mean(status == kernels.CONVERGED, axis=-1)),
+        "converged_share": np.asarray(np.mean(status == StaticStatus.CONVERGED, axis=-1)),
         "loaded_balls_mean": _period_mean(balls),
         "loaded_balls_least": balls.min(axis=-1),
         "loaded_balls_greatest": balls.max(axis=-1),
@@ -424,7 +379,7 @@ def _statics(
     return _STATIC_CODES[status.max(axis=-1)], numbers
 
 
-def _life(scene: Scene, settings: Settings, numbers: Numbers) -> str:
+def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """Put life and pressures into `numbers`; say what became of them.
 
     Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
@@ -442,10 +397,10 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> str:
     for contact in (pressures.inner, pressures.outer):
         numbers[f"contact_pressure_{contact.race}"] = np.array(contact.greatest_pressure)
     if math.isinf(turns):
-        return "nothing_touches"
+        return SweepStatus.NOTHING_TOUCHES
     if known and math.isnan(found.hours):
-        return "computation_refused"
-    return _FROM_KERNELS[found.status]
+        return SweepStatus.COMPUTATION_REFUSED
+    return OF_STATICS[StaticStatus(found.status)]
 
 
 def _period_mean(values: Array) -> Array:
@@ -454,11 +409,11 @@ def _period_mean(values: Array) -> Array:
     return np.asarray(inner / (values.shape[-1] - 1))
 
 
-def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> str:
+def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """Put what the motion gives into `numbers`; say what became of it."""
     motion = simulate(scene, settings.duration, settings.sample_rate)
     late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()
-    return _FROM_MOTION[motion.status]
+    return OF_MOTION[motion.status]

@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.sweep.grid import Grid, program_version
-from bearingcore.sweep.outputs import MODE, OUTPUTS, STATUSES, Numbers
+from bearingcore.sweep.outputs import MODE, OUTPUTS, Numbers
+from bearingcore.sweep.status import STATUSES
 
 PROGRAM = "bearing-explorer"
 

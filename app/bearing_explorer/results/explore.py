@@ -41,11 +41,11 @@ from bearingcore.sweep.outputs import (
     OUTPUTS,
     SECONDS,
     STATICS,
-    STATUSES,
     Settings,
     mode_labels,
     mode_symbol,
 )
+from bearingcore.sweep.status import STATUSES, SweepStatus
 from bearingcore.units import UNITS
 
 Array = NDArray[np.float64]
@@ -74,24 +74,6 @@ _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
 
-_REASONS = {
-    "nothing_touches": "nothing touches: no load presses a ball",
-    "free_direction": "the ring can move without resistance in some direction",
-    "load_not_carried": "no contact can carry this load",
-    "static_state_not_converged": "no static state was found",
-    "computation_refused": "this cannot be computed here: the shaft must turn, mass, stiffness "
-    "and damping be known in each direction that moves, for life and pressure the groove radii, "
-    "and balls be massless for orbits",
-    "no_static_start": "there is no static state to start from",
-    "motion_diverged": "the motion does not stay finite",
-    "orbit_not_converged": "no orbit was found",
-    "no_common_period": "the motion never repeats",
-    "arithmetic_failed": "the numbers are too extreme",
-    "too_many_steps": "the motion takes too many steps",
-    "too_many_contacts": "there are too many contacts to solve",
-    "complete": "this scene has no such mode",
-}
-"""Why there is no number, by the status of a sweep."""
 NOT_COMPUTED = "not computed"
 _TOO_LONG_MOTION = "the defect is passed so fast that the motion takes too many steps"
 _TOO_LONG_WITH_MASS = "balls swing so fast between their races that it takes too many steps"
@@ -453,13 +435,13 @@ class Survey:
         (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
         return self.question.scene.replace(**{x: x_values[column], y: y_values[row]})
 
-    def _why(self, status: str, row: int, column: int) -> str:
-        if status == "scene_refused":
+    def _why(self, status: SweepStatus, row: int, column: int) -> str:
+        if status is SweepStatus.SCENE_REFUSED:
             try:
                 self._scene(row, column)
             except ValueError as error:
                 return sentence_of(error)
-        return _REASONS.get(status, status.replace("_", " "))
+        return status.sentence
 
     def _without_too_long(
         self, rows: NDArray[np.intp], columns: NDArray[np.intp]

@@ -540,7 +540,7 @@ class SceneEditor:
                 if name in wanted
             },
             "changed": self.changed,
-            "twins": second_units(self.scene, self.selected, self.draft),
+            "second_units": second_units(self.scene, self.selected, self.draft),
             "draft": {
                 "waiting": list(self.draft),
                 "faults": self.faults,

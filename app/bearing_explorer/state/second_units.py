@@ -22,17 +22,17 @@ def second_units(scene: Scene, selected: int, draft: Values) -> dict[str, dict[s
     on_race = 1e3 * defect.raceway_radius(scene.bearing) * math.pi / 180.0
     ball = 1e3 * scene.bearing.ball_diameter
 
-    def twin(unit: str, words: str, factor: float) -> dict[str, Any]:
+    def unit_of(unit: str, words: str, factor: float) -> dict[str, Any]:
         return {"unit": unit, "words": words, "factor": factor}
 
-    twins = {
-        "extent_deg": twin("mm", "along the race", on_race),
-        "shaft_speed_hz": twin("rpm", "turns a minute", 60.0),
-        "radial_clearance_um": twin("µm dia.", "diametral clearance", 2.0),
+    units = {
+        "extent_deg": unit_of("mm", "along the race", on_race),
+        "shaft_speed_hz": unit_of("rpm", "turns a minute", 60.0),
+        "radial_clearance_um": unit_of("µm dia.", "diametral clearance", 2.0),
     }
     for race in ("inner", "outer"):
         name = f"{race}_groove_radius_mm"
         own = draft.get("ball_diameter_mm", ball) if name in draft else ball
         if own > 0.0:
-            twins[name] = twin("× ball", "groove radius over ball diameter", 1.0 / own)
-    return twins
+            units[name] = unit_of("× ball", "groove radius over ball diameter", 1.0 / own)
+    return units

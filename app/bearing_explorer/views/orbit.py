@@ -184,12 +184,9 @@ class SteadyOrbit(View):
     def _orbit_words(self, results: Results) -> str:
         orbit = results.orbit
         if orbit is None:
-            turning = (
-                "the defect on the inner race" if results.over_shaft else "rows of unlike balls"
-            )
             return (
-                f"With {turning} all repeats only after {results.ball_passes} ball passes, too "
-                "many to look for while sliders move; grey is the marched motion."
+                f"With {_turning_part(results)} all repeats only after {results.ball_passes} ball "
+                "passes, too many to look for while sliders move; grey is the marched motion."
             )
         if orbit.status is OrbitStatus.NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
             return (
@@ -198,8 +195,8 @@ class SteadyOrbit(View):
             )
         if orbit.status is OrbitStatus.NO_PERIOD:
             return (
-                "A defect of the inner race turns with the shaft, and shaft and cage never come "
-                "round together: no motion repeats itself, so grey shows the marched one."
+                f"With {_turning_part(results)} nothing repeats itself: shaft and cage never come "
+                "round together, so grey shows the simulated motion."
             )
         if orbit.status is OrbitStatus.NO_START:
             return "There is no static state to begin from, so no orbit was looked for."
@@ -314,3 +311,12 @@ def _square(
     plot.width = plot.min_width = HEIGHT + 70
     plot.min_border_right = 8
     return plot
+
+
+def _turning_part(results: Results) -> str:
+    """What makes a motion repeat later than with every ball pass, or never."""
+    if results.over_shaft:
+        return "a defect on the inner race, which turns with the shaft,"
+    if results.scene.unbalance > 0.0:
+        return "an unbalance, which turns with the shaft,"
+    return "rows of unlike balls"

@@ -18,6 +18,7 @@ from bearingcore.dynamics.motion import moving_system
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses, coefficients
+from bearingcore.statics.status import StaticStatus
 
 SETTLING = 0.12
 """[s] of a simulated motion that is thrown away: several times the slowest mode's decay."""
@@ -218,7 +219,7 @@ class Simulator:
         q, _, _, _, status, *_ = kernels.static_states(
             np.zeros(1), system.contacts, system.path, load
         )
-        if status[0] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+        if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
             return None
         rotor = system.rotor
         state = np.zeros((4, len(rotor.active)))

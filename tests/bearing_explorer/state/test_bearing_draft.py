@@ -213,18 +213,18 @@ def test_a_bearing_has_the_name_that_was_typed() -> None:
 
 def test_second_units_are_the_first_times_a_factor() -> None:
     editor = SceneEditor("6205")
-    twins = editor.state()["twins"]
+    units = editor.state()["second_units"]
     bearing, defect = editor.scene.bearing, editor.scene.defects[0]
     values = editor.values
-    assert values["shaft_speed_hz"] * twins["shaft_speed_hz"]["factor"] == pytest.approx(1797.0)
+    assert values["shaft_speed_hz"] * units["shaft_speed_hz"]["factor"] == pytest.approx(1797.0)
     on_race = defect.extent * bearing.outer_raceway_radius * 1e3
-    assert values["extent_deg"] * twins["extent_deg"]["factor"] == pytest.approx(on_race)
-    assert values["radial_clearance_um"] * twins["radial_clearance_um"]["factor"] == 10.0
+    assert values["extent_deg"] * units["extent_deg"]["factor"] == pytest.approx(on_race)
+    assert values["radial_clearance_um"] * units["radial_clearance_um"]["factor"] == 10.0
     name = "inner_groove_radius_mm"
-    assert values[name] * twins[name]["factor"] == pytest.approx(0.52)
+    assert values[name] * units[name]["factor"] == pytest.approx(0.52)
     editor.choose({"race": "inner"})
-    shorter = editor.state()["twins"]["extent_deg"]["factor"]
-    assert shorter / twins["extent_deg"]["factor"] == pytest.approx(
+    shorter = editor.state()["second_units"]["extent_deg"]["factor"]
+    assert shorter / units["extent_deg"]["factor"] == pytest.approx(
         bearing.inner_raceway_radius / bearing.outer_raceway_radius
     )
 

@@ -83,3 +83,9 @@ def test_a_race_that_never_comes_round_has_no_orbit() -> None:
     assert results.ball_passes is None
     assert orbit_status(results)["words"] == "No common period"
     assert "never come round together" in SteadyOrbit(PackedSource()).sentence(results)
+
+
+def test_an_unbalance_turns_with_the_shaft_and_is_named() -> None:
+    words = SteadyOrbit(PackedSource()).sentence(Results(RIG.replace(unbalance=1e-4)))
+    assert words.startswith("With an unbalance, which turns with the shaft,")
+    assert "inner race" not in words

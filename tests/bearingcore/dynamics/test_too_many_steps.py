@@ -19,8 +19,9 @@ from bearingcore.dynamics.stability_map import regions, stability_map
 from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.ball_positions import ball_positions
+from bearingcore.sweep import STATUSES
 from bearingcore.sweep.grid import Grid
-from bearingcore.sweep.outputs import STATUSES, Settings
+from bearingcore.sweep.outputs import Settings
 from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 
 STIFF = presets["liew-lim"].replace(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 
@@ -26,5 +27,9 @@ def asset_text(name: str) -> str:
 
 
 def scripts(*names: str) -> str:
-    """The assets of these names as one script: what a component runs, after what it calls."""
-    return "".join(asset_text(name) for name in names)
+    """The assets of these names as one script: what a component runs, after what it calls.
+
+    Without their comments, as each component brings its script to each page.
+    """
+    text = "".join(asset_text(name) for name in names)
+    return re.sub(r"^ *//.*\n", "", text, flags=re.MULTILINE)

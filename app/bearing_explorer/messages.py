@@ -1,4 +1,4 @@
-"""Messages of the browser's scripts, as data: one class for each, checked when they arrive.
+"""Messages of the page's scripts: one class for each, checked when they arrive.
 
 The scripts of the page send maps of plain values. `read` makes one of the classes here of a map, or
 refuses it; the receivers see only messages that are whole.
@@ -6,21 +6,132 @@ refuses it; the receivers see only messages that are whole.
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Callable
 from typing import Annotated, Any, TypeVar
 
 import msgspec
 
+log = logging.getLogger(__name__)
+
 Kind = TypeVar("Kind")
 
-Name = Annotated[str, msgspec.Meta(max_length=400)]
+Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
 
 
 def read(kind: type[Kind], data: Any) -> Kind | None:
-    """A message of a kind out of what a browser sent; None where it is no such message."""
+    """A message of a kind out of what a browser sent; None, with a line of the log, if it fails."""
     try:
         return msgspec.convert(data, kind, builtin_types=(bytes,))
-    except msgspec.ValidationError:
+    except (msgspec.ValidationError, UnicodeError) as error:
+        log.info("a message was ignored: %s", error)
         return None
+
+
+def take(act: Callable[[dict[str, Any]], None], kind: type[msgspec.Struct], data: Any) -> None:
+    """Call `act` with a message of a kind, as a dictionary of its fields without their defaults."""
+    message = read(kind, data)
+    if message is not None:
+        act(msgspec.to_builtins(message))
+
+
+class TextFile(msgspec.Struct):
+    """A text file that was chosen, or a scene that was kept: its name and its text."""
+
+    name: str
+    text: str
+
+
+class SceneChange(msgspec.Struct, omit_defaults=True):
+    """A change of the scene: numbers, choices, a reset, a measured floor, a table of bearings.
+
+    Attributes
+    ----------
+    mark
+        number of the change; the picture that shows it carries the same.
+    set, typed
+        numbers by the keys of their fields, in the units of the page: dragged, or as text.
+    choose
+        options by the names of their lists.
+    released
+        whether a drag has ended with it, as one step to undo.
+    """
+
+    mark: Mark | None = None
+    set: dict[str, Any] | None = None
+    typed: dict[str, Any] | None = None
+    choose: dict[str, str] | None = None
+    reset: bool = False
+    released: bool = False
+    floor: TextFile | None = None
+    catalogue: TextFile | None = None
+
+
+class LinksChange(SceneChange, omit_defaults=True):
+    """A message of the bar above the controls: steps, scenes that are kept or pinned, files.
+
+    Attributes
+    ----------
+    open, file, pin
+        a scene that is to be opened, from the browser or from a file, or drawn in grey.
+    pin_here
+        the name under which the current scene is drawn in grey.
+    keep
+        the name under which the browser keeps the current scene.
+    want
+        kind of a file to download.
+    report
+        address of the page, for the link in a report; `title`, `machine` and `remarks` go in it.
+    """
+
+    undo: bool = False
+    redo: bool = False
+    open: TextFile | None = None
+    file: TextFile | None = None
+    pin: TextFile | None = None
+    pin_here: str | None = None
+    unpin: bool = False
+    keep: str | None = None
+    want: str | None = None
+    report: str | None = None
+    title: str = ""
+    machine: str = ""
+    remarks: str = ""
+
+
+class Simulation(msgspec.Struct):
+    """A simulated measurement, by the names of its options."""
+
+    noise: str = "scene"
+    machine: str = "scene"
+    pit: str = "scene"
+
+
+class LessonChange(SceneChange, omit_defaults=True):
+    """A lesson begins, its words are shown, or a button among them is pressed.
+
+    Attributes
+    ----------
+    lesson
+        number or name; the empty name closes it.
+    words_only
+        whether its scene stays unset.
+    show
+        name of a tab to open.
+    simulate
+        a measurement to simulate.
+    """
+
+    lesson: int | str | None = None
+    words_only: bool = False
+    show: str | None = None
+    simulate: Simulation | None = None
+
+
+class TabChange(msgspec.Struct):
+    """A tab is chosen by its name."""
+
+    show: str
 
 
 class UploadBegins(msgspec.Struct, tag="begin"):

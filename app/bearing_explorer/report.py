@@ -41,7 +41,7 @@ log = logging.getLogger(__name__)
 
 FILE = "bearing-report.html"
 _LIMIT_COLUMNS = ("name", "value", "limit", "state", "sentence")
-_STATES = {"unknown": "not known"}
+_STATES = {"crossed": "exceeded", "kept": "passed", "unknown": "not checked"}
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 _DEFECT_GROUP = "Defect"
 
@@ -122,7 +122,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
         f"{_text('; '.join(said['details'][:-1]))}.</p></section>",
         "<section><h2>Warnings</h2>",
-        _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is crossed.</p>",
+        _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is exceeded.</p>",
         _table(
             ["Check", "Value", "Limit", "", "In words"],
             [[_text(_STATES.get(row[key], row[key])) for key in _LIMIT_COLUMNS] for row in limits],

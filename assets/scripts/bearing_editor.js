@@ -4,7 +4,6 @@
 const DRAWN_WITH = { youngs_modulus_gpa: "load_deflection_factor", poisson: "load_deflection_factor" }
 
 export function render({ model }) {
-  const spec = model.spec
   const about = element("p", { class: "about", "aria-hidden": "true" })
   let last = "", one = "ball"
   // What is said of balls, with the rolling elements of this kind.
@@ -32,38 +31,25 @@ export function render({ model }) {
       group.classList.toggle("marked", group.dataset.name === (DRAWN_WITH[last] ?? last))
   }
 
-  const fields = element("form", { class: "fields", "aria-label": "Dimensions of the bearing" })
-  fields.addEventListener("submit", (event) => event.preventDefault())
-  // What the bearing is called, by whoever changed it.
   const called = element("input", { type: "text", id: "bearing-name", maxlength: "60",
     autocomplete: "off", spellcheck: "false" })
   called.addEventListener("change", () => panel.send({ choose: { name: called.value } }))
   // Dimensions that wait until they fit together.
-  const waits = element("div", { class: "waits", role: "status", hidden: "" })
-  const words = element("p", {})
-  const discard = element("button", { type: "button" }, "Discard them")
-  discard.addEventListener("click", () => panel.send({ choose: { draft: "discard" } }))
-  waits.append(words, discard)
-  fields.append(
+  const words = element("p")
+  const waits = element("div", { class: "waits", role: "status", hidden: "" }, words,
+    button("Discard them", () => panel.send({ choose: { draft: "discard" } })))
+  const boxes = model.spec.groups.map((group) => panel.group_box(group))
+  const fields = panel.form({ class: "fields", "aria-label": "Dimensions of the bearing" },
     element("div", { class: "called" }, element("label", { for: "bearing-name" }, "Name"), called),
-    panel.choice("kind"), panel.choice("numbers"), waits)
-  for (const group of spec.groups) {
-    const box = element("fieldset", { "data-group": group.title }, element("legend", {}, group.title))
-    box.append(...group.controls.map(panel.control))
-    for (const name of Object.keys(spec.choices))
-      if (spec.choices[name].group === group.title) box.append(panel.choice(name))
-    fields.append(box)
-  }
+    panel.choice("kind"), panel.choice("numbers"), waits, ...boxes)
   const facts = element("dl", { class: "facts", "aria-label": "What follows from the dimensions" })
   const note = element("p", { class: "origin" })
-  const side = element("div", { class: "side" }, picture, about, facts, note)
 
   const rename = (now) => {
     one = now
     for (const { root, label } of Object.values(panel.rows))
       root.querySelector("label").textContent = named(label)
-    for (const group of fields.querySelectorAll("fieldset"))
-      group.firstChild.textContent = named(group.dataset.group)
+    for (const box of boxes) box.firstChild.textContent = named(box.dataset.group)
     if (last) describe()
   }
   const take = (state) => {
@@ -79,26 +65,19 @@ export function render({ model }) {
       waits.hidden = !state.draft.words
       words.textContent = state.draft.words
     }
-    for (const box of fields.querySelectorAll("fieldset"))
+    for (const box of boxes)
       box.hidden = [...box.querySelectorAll(".control")].every((row) => row.hidden)
-  }
-  const show = () => {
-    picture.innerHTML = model.picture
-    mark()
-  }
-  const show_facts = () => {
-    facts.replaceChildren(...model.facts.map(({ label, symbol, value, about: sentence }) => {
-      const name = element("dt", { title: sentence }, label, " ")
-      name.append(element("i", { class: "symbol", html: symbol }))
-      return element("div", {}, name, element("dd", {}, value))
-    }))
   }
   take(model.state)
   panel.listen(take)
-  show()
-  show_facts()
+  follow(model, ["picture"], () => {
+    picture.innerHTML = model.picture
+    mark()
+  })
+  follow(model, ["facts"], () => facts.replaceChildren(
+    ...model.facts.map(({ label, symbol, value, about: sentence }) => element("div", {},
+      element("dt", { title: sentence }, label, " ", element("i", { class: "symbol", html: symbol })),
+      element("dd", {}, value)))))
   touched("ball_diameter_mm")
-  model.on("picture", show)
-  model.on("facts", show_facts)
-  return element("div", { class: "editor" }, fields, side)
+  return element("div", { class: "editor" }, fields, element("div", { class: "side" }, picture, about, facts, note))
 }

@@ -1,27 +1,33 @@
-// The controls beside the figures. What they share with other panels stands in rows.js, which is
-// put in front of this file.
+// The controls beside the figures. What they share with other panels is in rows.js, which is put in
+// front of this file.
 
 const TURN_RATE = 18      // degrees of cage angle a second while playing
 const LARGEST_FILE = 1e6  // bytes of a measured floor
+const PLAY = "M2.5 1v10l8-5z", PAUSE = "M2 1h3v10H2zM7 1h3v10H7z"
 
 export function render({ model }) {
   const spec = model.spec
   const panel = make_rows(model)
-  const { rows, control, choice, send } = panel
+  const { rows, send } = panel
 
+  // Turns the bearing until it is pressed again.
   const play = (name) => {
-    const button = element("button", { type: "button", class: "play", "aria-pressed": "false" })
     let last = 0, playing = false
+    const toggle = button("", () => {
+      playing = !playing
+      if (!playing) panel.release()
+      show()
+      last = performance.now()
+      if (playing) requestAnimationFrame(turn)
+    }, { class: "play" })
     const show = () => {
-      button.setAttribute("aria-pressed", String(playing))
-      button.setAttribute("aria-label", playing ? "Stop turning" : "Turn the bearing")
-      button.title = playing ? "Stop" : "Turn the bearing"
-      button.innerHTML = playing
-        ? '<svg viewBox="0 0 12 12" aria-hidden="true"><path d="M2 1h3v10H2zM7 1h3v10H7z"/></svg>'
-        : '<svg viewBox="0 0 12 12" aria-hidden="true"><path d="M2.5 1v10l8-5z"/></svg>'
+      toggle.setAttribute("aria-pressed", String(playing))
+      toggle.setAttribute("aria-label", playing ? "Stop turning" : "Turn the bearing")
+      toggle.title = playing ? "Stop" : "Turn the bearing"
+      toggle.innerHTML = `<svg viewBox="0 0 12 12" aria-hidden="true"><path d="${playing ? PAUSE : PLAY}"/></svg>`
     }
     const turn = (now) => {
-      if (!playing || !button.isConnected) return
+      if (!playing || !toggle.isConnected) return
       const passed = Math.min(now - last, 250)
       // The next angle is asked for when the last one is drawn: turning never outruns drawing.
       if (panel.drawn() && passed >= 30) {
@@ -33,20 +39,9 @@ export function render({ model }) {
       }
       requestAnimationFrame(turn)
     }
-    button.addEventListener("click", () => {
-      playing = !playing
-      if (!playing) panel.release()
-      show()
-      last = performance.now()
-      if (playing) requestAnimationFrame(turn)
-    })
-    const heard = () => {  // the space bar, see page.js
-      if (button.isConnected) button.click()
-      else window.removeEventListener("explorer-play", heard)
-    }
-    window.addEventListener("explorer-play", heard)
+    on_event("play", toggle, () => toggle.click())  // the space bar, see page.js
     show()
-    return button
+    return toggle
   }
 
   // The defects: which one the sliders move, one more, one less.
@@ -54,114 +49,62 @@ export function render({ model }) {
   const list_defects = ({ names, selected, most }) => {
     const focused = defects.getRootNode().activeElement
     const kept = defects.contains(focused) ? focused.dataset.choose : null
-    defects.replaceChildren(...names.map((name, index) => {
-      const chip = element("button", {
-        type: "button", class: "chip", "data-choose": String(index),
-        "aria-pressed": String(index === selected), title: `The sliders move defect ${index + 1}: ${name}`,
-        "aria-label": `Defect ${index + 1}, ${name}`,
-      }, String(index + 1))
-      return chip
-    }))
-    const add = element("button", {
-      type: "button", class: "chip", "data-choose": "add", "aria-label": "Add a defect",
-      title: "Add a defect",
-    }, "+")
-    const remove = element("button", {
-      type: "button", class: "chip", "data-choose": "remove", title: `Remove defect ${selected + 1}`,
-      "aria-label": `Remove defect ${selected + 1}`,
-    }, "\u2212")
+    const chip = (what, text, label, title = label, pressed = null) =>
+      button(text, () => send({ choose: { defect: what } }), { class: "chip", "data-choose": what, title,
+        "aria-label": label, ...(pressed === null ? {} : { "aria-pressed": String(pressed) }) })
+    const add = chip("add", "+", "Add a defect")
+    const remove = chip("remove", "\u2212", `Remove defect ${selected + 1}`)
     add.disabled = names.length >= most
     remove.disabled = names.length < 2
-    defects.append(add, remove)
+    defects.replaceChildren(...names.map((name, index) => chip(String(index), String(index + 1),
+      `Defect ${index + 1}, ${name}`, `The sliders move defect ${index + 1}: ${name}`, index === selected)), add, remove)
     const again = kept && defects.querySelector(`[data-choose="${kept}"]:not(:disabled)`)
     if (kept) (again ?? defects.querySelector('[aria-pressed="true"]')).focus()
   }
-  defects.addEventListener("click", (event) => {
-    const chosen = event.target.closest("button")?.dataset.choose
-    if (chosen !== undefined) send({ choose: { defect: chosen } })
-  })
 
-  // A measured floor: the file is read here, sent as text, and judged by the server.
-  const upload = () => {
-    const file = element("input", { type: "file", accept: ".csv,.txt,.dat,.tsv,text/plain",
-      id: "floor-file", "aria-describedby": "floor-words" })
-    const words = element("p", { class: "note", id: "floor-words", role: "status" })
-    const label = element("label", { for: "floor-file" }, "Two columns: angle in °, depth in µm, or in the units of its headings")
-    file.addEventListener("change", async () => {
-      const chosen = file.files[0]
-      if (!chosen) return
-      if (chosen.size > LARGEST_FILE) {
-        say(`${chosen.name} is larger than ${LARGEST_FILE / 1e6} MB.`, true)
-      } else {
-        say(`Reading ${chosen.name} \u2026`)
-        send({ floor: { name: chosen.name, text: await chosen.text() } })
-      }
-      file.value = ""  // so that the same file, mended, can be chosen again
-    })
-    const say = (sentence, bad = false) => {
-      words.textContent = sentence
-      words.classList.toggle("bad", bad)
-    }
-    return { root: element("div", { class: "upload" }, label, file, words), say }
-  }
-  const floor = upload()
+  // A measured floor: the file is read here, sent as text, and checked by the server.
+  const file = element("input", { type: "file", accept: ".csv,.txt,.dat,.tsv,text/plain",
+                                  id: "floor-file", "aria-describedby": "floor-words" })
+  const words = element("p", { class: "note", id: "floor-words", role: "status" })
+  sends_text(file, LARGEST_FILE, (...said) => write_note(words, ...said), (floor) => send({ floor }))
+  const floor = element("div", { class: "upload" }, element("label", { for: "floor-file" },
+    "Two columns: angle in °, depth in µm, or in the units of its headings"), file, words)
 
-  const take = (state) => {
-    panel.take(state)
-    if (state.defects) list_defects(state.defects)
-    if (state.floor) {
-      floor.root.hidden = !state.floor.shown
-      floor.say(state.floor.words, state.floor.bad)
-    }
+  const boxes = spec.groups.map((group) => panel.group_box(group, spec.last))
+  for (const box of boxes.filter((box) => box.dataset.group === spec.defects)) {
+    box.firstChild.after(defects)
+    box.append(floor)
   }
+  const all = button("", () => { whole = !whole; show_named() }, { class: "all" })
+  const form = panel.form({ "aria-label": "Scene" }, panel.choice("preset"), ...boxes, all)
+  rows[spec.turning]?.line.prepend(play(spec.turning))
 
-  // What is clicked at in a figure goes the way of typed numbers.
-  const typed = (event) => {
-    if (form.isConnected) send({ typed: event.detail })
-    else window.removeEventListener("explorer-typed", typed)
-  }
-  window.addEventListener("explorer-typed", typed)
-  const form = element("form", { "aria-label": "Scene" }, choice("preset"))
-  form.addEventListener("submit", (event) => event.preventDefault())
-  for (const group of spec.groups) {
-    const own = Object.keys(spec.choices).filter((name) => spec.choices[name].group === group.title)
-    const box = element("fieldset", {}, element("legend", {}, group.title))
-    if (group.title === spec.defects) box.append(defects)
-    box.append(...own.filter((name) => spec.choices[name].first).map((name) => choice(name)))
-    const after = group.controls.filter(({ name }) => spec.last.includes(name))
-    box.append(...group.controls.filter((entry) => !after.includes(entry)).map(control))
-    box.append(...own.filter((name) => !spec.choices[name].first).map((name) => choice(name)))
-    box.append(...after.map(control))
-    if (group.title === spec.defects) box.append(floor.root)
-    form.append(box)
-  }
-  if (rows[spec.turning]) rows[spec.turning].line.prepend(play(spec.turning))
-
-  // With a lesson only the controls that it speaks of, and all others when asked for.
-  const all = element("button", { type: "button", class: "all", "aria-expanded": "false" })
-  form.append(all)
+  // With a lesson only the controls that it names, and all others on request.
   let named = null, whole = false
-  const put_aside = () => {
+  const show_named = () => {
     const few = named !== null && named.length > 0 && !whole
-    const shown = (name) => !few || named.includes(name)
-    for (const [name, { root }] of [...Object.entries(rows), ...Object.entries(panel.selects)])
-      root.classList.toggle("put-aside", !shown(name))
-    for (const box of form.querySelectorAll("fieldset"))
-      box.classList.toggle("put-aside", few && !box.querySelector(".control:not(.put-aside), .choice:not(.put-aside)"))
-    form.classList.toggle("few", few)
+    for (const [name, { root }] of Object.entries({ ...rows, ...panel.selects }))
+      root.classList.toggle("put-aside", few && !named.includes(name))
+    form.classList.toggle("few", few)  // boxes without a control go by the style sheet
     all.hidden = named === null
     all.textContent = few ? "All controls" : "Only those of the lesson"
     all.setAttribute("aria-expanded", String(!few))
   }
-  all.addEventListener("click", () => { whole = !whole; put_aside() })
-  const lesson = (event) => {
-    if (!form.isConnected) return window.removeEventListener("explorer-lesson", lesson)
-    named = event.detail?.drag ?? null
+  on_event("lesson", form, (lesson) => {
+    named = lesson?.drag ?? null
     whole = false
-    put_aside()
+    show_named()
+  })
+  on_event("typed", form, (typed) => send({ typed }))  // what is clicked at in a figure
+  show_named()
+  const take = (state) => {
+    panel.take(state)
+    if (state.defects) list_defects(state.defects)
+    if (state.floor) {
+      floor.hidden = !state.floor.shown
+      write_note(words, state.floor.words, state.floor.bad)
+    }
   }
-  window.addEventListener("explorer-lesson", lesson)
-  put_aside()
   take(model.state)
   panel.listen(take)
   return form

@@ -7,3 +7,72 @@ function element(tag, attributes = {}, ...children) {
   return made
 }
 
+// A button; `act` is called when it is pressed.
+function button(words, act, attributes = {}) {
+  const made = element("button", { type: "button", ...attributes }, words)
+  made.addEventListener("click", act)
+  return made
+}
+
+// A button that shows and hides a part, which Escape hides too. Returns a function that opens it.
+function unfolds(opener, part, changed = () => {}) {
+  const open = (shown) => {
+    part.hidden = !shown
+    opener.setAttribute("aria-expanded", String(shown))
+    changed(shown)
+  }
+  opener.addEventListener("click", () => open(part.hidden))
+  for (const where of [opener, part]) where.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || part.hidden) return
+    open(false)
+    opener.focus()
+  })
+  open(false)
+  return open
+}
+
+// A dialog with a bar of tools. It closes by its cross, Escape, or a click outside.
+function dialog_of(label, title, tools, content) {
+  const close = button("\u00d7", () => dialog.close(), { class: "close", "aria-label": "Close" })
+  const dialog = element("dialog", { "aria-label": label, closedby: "any" },
+    element("div", { class: "bar" }, element("strong", {}, title), ...tools, close), content)
+  return dialog
+}
+
+// Calls `write` now and whenever one of these properties of the model changes.
+function follow(model, names, write) {
+  for (const name of names) model.on(name, write)
+  write()
+}
+
+// Events between the scripts of the page: "explorer-" and their name, on the window.
+function announce(name, detail) {
+  window.dispatchEvent(new CustomEvent(`explorer-${name}`, { detail }))
+}
+function on_event(name, part, act) {
+  const heard = (event) => {
+    if (part.isConnected) act(event.detail)
+    else window.removeEventListener(`explorer-${name}`, heard)
+  }
+  window.addEventListener(`explorer-${name}`, heard)
+}
+
+// A sentence in a note; a bad one in its colour.
+function write_note(note, sentence, bad = false) {
+  note.textContent = sentence
+  note.classList.toggle("bad", bad)
+}
+
+// Reads the text file that is chosen in `input` and sends its name and text.
+function sends_text(input, largest, say, send) {
+  input.addEventListener("change", async () => {
+    const [chosen] = input.files
+    if (!chosen) return
+    if (chosen.size > largest) say(`${chosen.name} is larger than ${largest / 1e6} MB.`, true)
+    else {
+      say(`Reading ${chosen.name} …`)
+      send({ name: chosen.name, text: await chosen.text() })
+    }
+    input.value = ""  // so that the same file can be chosen again
+  })
+}

@@ -1,36 +1,33 @@
-// What belongs to the page as a whole: its buttons, its keys, and marks on figures that a lesson
-// speaks of. Runs when the page stands.
+// The page as a whole: its buttons, its keys, and the figures that a lesson speaks of. Runs when the
+// page stands, behind element.js.
 {
   const root = document.documentElement
-  const lessons = document.getElementById("lessons-button")
-  const theme = document.getElementById("theme-button")
+  const main = document.querySelector("main")
+  const part = (name) => document.getElementById(name)
+  const lessons = part("lessons-button"), theme = part("theme-button")
 
-  lessons.addEventListener("click", () => window.dispatchEvent(new CustomEvent("explorer-lessons")))
-  const beside_lesson = (lesson) => {
+  lessons.addEventListener("click", () => announce("lessons"))
+  on_event("lesson", root, (lesson) => {
     lessons.setAttribute("aria-expanded", String(lesson !== null))
-    if (lesson === null && window.explorer_projector.on) window.explorer_projector.turn(false)
-    mark(lesson?.watch ?? [])
+    if (lesson === null && root.hasAttribute("data-projector")) announce("projector", false)
+    marked = lesson?.watch ?? []
     mark_as_they_come(show_marked)
-  }
-  window.addEventListener("explorer-lesson", (event) => beside_lesson(event.detail))
+  })
 
   const show_theme = () => {
-    const dark = window.explorer_theme.now === "dark"
+    const dark = root.dataset.theme === "dark"
     theme.setAttribute("aria-pressed", String(dark))
     theme.title = dark ? "Light colours" : "Dark colours"
   }
-  theme.addEventListener("click", () => window.explorer_theme.turn())
-  window.addEventListener("explorer-theme", show_theme)
+  theme.addEventListener("click", () => announce("turn-theme"))
+  on_event("theme", root, show_theme)
   show_theme()
 
-  // The first visit: what this is, and three ways in. Whoever has closed it finds it behind "?".
-  const main = document.querySelector("main")
-  const welcome = document.getElementById("welcome")
-  const what = document.getElementById("welcome-button")
-  const python = document.getElementById("python-door")
+  // The first visit: what this is, and three ways in. Once closed it is found behind "?".
   const WELCOMED = "bearing-explorer.welcomed"
-  const welcomed = () => { try { return localStorage.getItem(WELCOMED) !== null } catch { return false } }
-  let greet = !welcomed()
+  const welcome = part("welcome"), what = part("welcome-button"), python = part("python-door")
+  let greet = true
+  try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
   const room = () => {
     const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.offsetHeight + 10)
     root.style.setProperty("--room", `${height}px`)
@@ -47,11 +44,8 @@
   }
   const doors = {
     close: () => { end_welcome(); what.focus() },
-    lessons: () => {
-      end_welcome()
-      window.dispatchEvent(new CustomEvent("explorer-lessons", { detail: "first" }))
-    },
-    bearing: () => { end_welcome(); window.dispatchEvent(new CustomEvent("explorer-show", { detail: "bearing" })) },
+    lessons: () => { end_welcome(); announce("lessons", "first") },
+    bearing: () => { end_welcome(); announce("show", "bearing") },
     python: () => python.showModal(),
   }
   for (const door of welcome.querySelectorAll("[data-door]"))
@@ -60,16 +54,13 @@
     if (!welcome.hidden) return doors.close()
     greet = true
     if (root.dataset.tab === "overview") show_welcome()
-    else window.dispatchEvent(new CustomEvent("explorer-show", { detail: "overview" }))
+    else announce("show", "overview")
   })
-  python.querySelector(".close").addEventListener("click", () => python.close())
-  python.addEventListener("click", (event) => { if (event.target === python) python.close() })
-  window.addEventListener("explorer-tab", show_welcome)
-  new ResizeObserver(room).observe(main)
-  new ResizeObserver(room).observe(welcome)
+  on_event("tab", root, show_welcome)
+  for (const box of [main, welcome]) new ResizeObserver(room).observe(box)
 
-  // A tab that is asked for is built on the server, which may take a while: say so at once.
-  const waiting = document.getElementById("waiting")
+  // A tab that is asked for is built on the server, which may take a while: the page says so at once.
+  const waiting = part("waiting")
   let wanted = null  // the tab that is not drawn yet
   const wait_for = (tab, words) => {
     wanted = tab
@@ -77,36 +68,33 @@
     main.setAttribute("aria-busy", String(tab !== null))
     waiting.textContent = words
   }
-  const stands = () => root.dataset.tab === wanted
-  window.addEventListener("explorer-asked", ({ detail: { name, title } }) =>
+  const is_open = () => root.dataset.tab === wanted
+  on_event("asked", root, ({ name, title }) =>
     wait_for(name, name === root.dataset.tab ? "Computing …" : `${title} is being built …`))
-  window.addEventListener("explorer-tab", ({ detail: name }) => {
-    if (wanted === null || stands()) wait_for(name, "Computing …")
-  })
-  window.addEventListener("explorer-drawn", () => { if (wanted !== null && stands()) wait_for(null, "") })
+  on_event("tab", root, (name) => { if (wanted === null || is_open()) wait_for(name, "Computing …") })
+  on_event("drawn", root, () => { if (wanted !== null && is_open()) wait_for(null, "") })
 
   // Figures come and go with their tabs, each inside the shadow of another.
   const inside = function* (where) {
-    for (const element of where.querySelectorAll("*")) {
-      yield element
-      if (element.shadowRoot) yield* inside(element.shadowRoot)
+    for (const found of where.querySelectorAll("*")) {
+      yield found
+      if (found.shadowRoot) yield* inside(found.shadowRoot)
     }
   }
   let marked = []
-  const mark = (views) => {
-    marked = views
+  const mark = () => {
     const missing = new Set(marked)
-    for (const element of inside(document.querySelector("main")))
-      if (element.classList.contains("view")) {
-        const found = marked.find((view) => element.classList.contains(`view-${view}`))
-        element.classList.toggle("watched", found !== undefined)
-        missing.delete(found)
-      }
+    for (const view of inside(main)) {
+      if (!view.classList.contains("view")) continue
+      const found = marked.find((name) => view.classList.contains(`view-${name}`))
+      view.classList.toggle("watched", found !== undefined)
+      missing.delete(found)
+    }
     return missing.size === 0
   }
   // A tab that is opened for the first time is built on the server: its figures come when they come.
-  const mark_as_they_come = (then = () => {}, tries = 200) => {
-    if (mark(marked)) requestAnimationFrame(then)
+  const mark_as_they_come = (then, tries = 200) => {
+    if (mark()) requestAnimationFrame(then)
     else if (tries > 0) setTimeout(() => mark_as_they_come(then, tries - 1), 50)
   }
   // A card that had nothing to show grows by its answer: then it is brought into view again.
@@ -117,90 +105,69 @@
     height = now.height
     if (answered) show_marked()
   })
-  const follow_growth = (element) => {
-    if (element === followed) return
-    growth.disconnect()
-    growth.observe(element)
-    followed = element
-    height = 0
-  }
-  // The first of the marked figures is brought into view where it is not: its head, if not all of it.
+  // The first of the marked figures is brought into view: its head, where there is no room for all.
   const show_marked = () => {
-    const main = document.querySelector("main")
     const [first] = marked
-    for (const element of inside(main)) {
-      if (!first || !element.classList.contains(`view-${first}`)) continue
-      follow_growth(element)
-      const box = element.getBoundingClientRect(), room = main.getBoundingClientRect()
-      if (box.height && (box.top < room.top || box.bottom > room.bottom))
-        element.scrollIntoView({ block: box.height < room.height ? "nearest" : "start" })
-      return
+    const view = first && [...inside(main)].find((found) => found.classList.contains(`view-${first}`))
+    if (!view) return
+    if (view !== followed) {
+      growth.disconnect()
+      growth.observe(view)
+      followed = view
+      height = 0
     }
+    const box = view.getBoundingClientRect(), room = main.getBoundingClientRect()
+    if (box.height && (box.top < room.top || box.bottom > room.bottom))
+      view.scrollIntoView({ block: box.height < room.height ? "nearest" : "start" })
   }
 
   // Space turns the bearing, unless something else has a use for it.
   window.addEventListener("keydown", (event) => {
     if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.repeat) return
-    const at = event.composedPath()[0]
+    const [at] = event.composedPath()
     if (at instanceof Element && at.closest("textarea, select, button, summary, a[href], [contenteditable], "
         + "input:not([type=range]), [role=dialog], .words")) return
     event.preventDefault()
-    window.dispatchEvent(new CustomEvent("explorer-play"))
+    announce("play")
   })
 
+  // A class of Bokeh to change; undefined where Bokeh has moved it, and all is as Bokeh has it.
+  const bokeh_class = (place, name) => {
+    try { return Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
+  }
   // Bokeh writes the style sheet of every part of a figure anew at each paint, the same or not, and
-  // the browser then works out the styles of the page again, ten times a picture. Where Bokeh
-  // changes what this is hung on, it is done as before.
+  // the browser then works out the styles of the page again, ten times a picture.
   const keep_styles = () => {
-    let sheet
-    try {
-      sheet = Bokeh.require("core/dom").InlineStyleSheet.prototype
-    } catch {
-      return
-    }
-    const { _update: write } = sheet
+    const sheet = bokeh_class("core/dom", "InlineStyleSheet"), write = sheet?._update
     if (write) sheet._update = function (css) {
       if (this.el.textContent !== css) write.call(this, css)
     }
   }
-
   // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
-  // and jumps where they come together. Here it stays under them. Where Bokeh changes what this is
-  // hung on, it is done as before.
+  // and jumps where they come together. Here it stays under them.
   const pinch_with_fingers = () => {
-    let tool
-    try {
-      tool = Bokeh.require("models/tools/gestures/wheel_zoom_tool").WheelZoomToolView.prototype
-    } catch {
-      return
-    }
-    if (!tool._pinch || !tool.zoom) return
-    const pinched = new WeakMap()
-    tool._pinch_start = function () { pinched.set(this, 1) }
+    const tool = bokeh_class("models/tools/gestures/wheel_zoom_tool", "WheelZoomToolView")
+    if (!tool?._pinch || !tool.zoom) return
+    tool._pinch_start = function () { this.pinched = 1 }
     tool._pinch = function ({ sx, sy, scale }) {
-      const by = scale / (pinched.get(this) ?? 1)
-      pinched.set(this, scale)
+      const by = scale / (this.pinched ?? 1)
+      this.pinched = scale
       this.zoom(sx, sy, (1 - 1 / by) / this.model.speed)
     }
   }
 
-  // Figures that come later are marked and coloured as they come.
-  const follow = () => {
-    window.explorer_theme.follow()
-    if (marked.length) mark(marked)
-  }
-  const begun = () => {
-    if (!window.Bokeh?.documents?.length) return setTimeout(begun, 30)
+  const begin = () => {
+    if (!window.Bokeh?.documents?.length) return setTimeout(begin, 30)
     keep_styles()
     pinch_with_fingers()
-    follow()
-    let shown = root.dataset.tab
+    announce("figures")
     show_welcome()
-    window.addEventListener("explorer-tab", (event) => {
-      if (shown === event.detail) return
-      shown = event.detail
+    let shown = root.dataset.tab
+    on_event("tab", root, (tab) => {
+      if (shown === tab) return
+      shown = tab
       requestAnimationFrame(() => mark_as_they_come(show_marked))
     })
   }
-  begun()
+  begin()
 }

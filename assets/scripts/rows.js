@@ -134,7 +134,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   // The same number in its second unit, which can be typed too.
   const show_twin = (name) => {
     const { twin } = rows[name], known = second_units[name]
-    if (twin.root.hidden !== !known) twin.root.hidden = !known
+    twin.root.hidden = !known
     if (!known || twin.root.contains(twin.number.getRootNode().activeElement)) return
     const value = values[name]
     if (twin.unit.textContent !== known.unit || twin.number.title !== known.words) {
@@ -177,11 +177,11 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
       class: "number", "aria-label": `${label}${unit ? ` in ${unit}` : ""}, type a number`,
     })
-    const refusal = element("p", { class: "refusal", role: "alert", id: `${id}-refusal` })
+    const refusal = element("p", { class: "refusal", role: "alert", id: `${id}-refusal`, hidden: "" })
     const extra = element("span", { class: "extra" })
     // What it is: under the pointer at once, and to stay by a click on its symbol.
     const help = element("button", {
-      type: "button", class: "symbol", html: symbol || "?", "aria-expanded": "false",
+      type: "button", class: "symbol", html: symbol || "?",
       "aria-controls": `${id}-about`, "aria-label": `About ${label.toLowerCase()}`,
     })
     const title = element("label", { for: id }, label)
@@ -195,14 +195,10 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     }
     twin.root = element("span", { class: "entry twin", hidden: "" }, twin.number, twin.unit)
     const line = element("div", { class: "line" }, slider, twin.root)
-    const words = element("p", { class: "note", id: `${id}-about`, hidden: "" }, about)
+    const words = element("p", { class: "note", id: `${id}-about` }, about)
     const root = element("div", { class: `control control-${name}`, "data-name": name },
       head, line, refusal, words)
-    help.addEventListener("click", () => {
-      words.hidden = !words.hidden
-      help.setAttribute("aria-expanded", String(!words.hidden))
-    })
-    refusal.hidden = true
+    unfolds(help, words)
     rows[name] = { asked: 0, root, named: head.firstChild, slider, number, refusal, extra, unit, line, about, label, symbol, twin }
 
     slider.addEventListener("input", () => move(name, Number(slider.value)))
@@ -245,20 +241,15 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const choice = (name, ...extra) => {
     const { label, options } = model.spec.choices[name]
     const select = element("select", { id: `choice-${name}` })
-    const note = element("p", { class: "note" })
+    const note = element("p", { class: "note", id: `note-${name}` })
     for (const option of options)
       select.append(element("option", { value: option.value, title: option.about }, option.label))
     select.addEventListener("change", () => send({ choose: { [name]: select.value } }))
     const more = element("button", {
-      type: "button", class: "info", "aria-expanded": "false", "aria-controls": `note-${name}`,
+      type: "button", class: "info", "aria-controls": `note-${name}`,
       "aria-label": `About ${label.toLowerCase()}`, title: "About this choice",
     }, "?")
-    note.id = `note-${name}`
-    note.hidden = true
-    more.addEventListener("click", () => {
-      note.hidden = !note.hidden
-      more.setAttribute("aria-expanded", String(!note.hidden))
-    })
+    unfolds(more, note)
     const refusal = element("p", { class: "refusal", role: "alert", hidden: "" })
     const title = element("label", { for: `choice-${name}` }, label)
     const root = element("div", { class: `choice choice-${name}` }, ...(model.spec.choices[name].group
@@ -331,6 +322,22 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     for (const [name, sentence] of Object.entries(message.refused ?? {})) refuse(name, sentence)
   })
 
-  return { rows, selects, values, limits, control, choice, take, listen, send, push, put, release,
+  // The controls and choices of a group in a box; those named `last` at its end.
+  const group_box = ({ title, controls }, last = []) => {
+    const own = Object.entries(model.spec.choices).filter(([, { group }]) => group === title)
+    const chosen = (first) => own.filter(([, one]) => Boolean(one.first) === first).map(([name]) => choice(name))
+    const behind = ({ name }) => last.includes(name)
+    return element("fieldset", { "data-group": title }, element("legend", {}, title), ...chosen(true),
+      ...controls.filter((one) => !behind(one)).map(control), ...chosen(false),
+      ...controls.filter(behind).map(control))
+  }
+  // A form of which nothing is ever submitted.
+  const form = (attributes, ...parts) => {
+    const made = element("form", attributes, ...parts)
+    made.addEventListener("submit", (event) => event.preventDefault())
+    return made
+  }
+
+  return { rows, selects, values, limits, control, choice, group_box, form, take, listen, send, push, put, release,
            drawn: () => asked() <= drawn() || late() }
 }

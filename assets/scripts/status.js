@@ -1,50 +1,32 @@
-// The status line. The chip says in words what its colour says; where the line is folded, all else
-// opens above it when asked for.
+// The status line: a chip whose words say what its colour says, and details. Where the line is
+// folded, the details are a list that opens above it.
 export function render({ model }) {
+  const REST = 200  // ms after which the hidden list is written
   const chip = element("strong")
-  const rest = element("span")
-  const more = element("button", { type: "button", class: "more", "aria-expanded": "false",
-                                   "aria-controls": "status-list" }, "Details")
-  const list = element("ul", { id: "status-list", class: "list", "aria-label": "How it was computed" })
-  list.hidden = true
-  // of a folded line only the chip is live: nobody wants to hear each residual
-  const line = model.folded ? element("div", { class: "line" }, chip, more, list)
-    : element("div", { class: "line", role: "status" }, chip, rest)
-  if (model.folded) chip.setAttribute("role", "status")
-  const REST = 200  // ms: what nobody sees is written when the hand rests
+  const more = element("button", { type: "button", "aria-controls": "status-list" }, "Details")
+  const list = element(model.folded ? "ul" : "span", { id: "status-list", class: "list" })
+  const line = element("div", { class: "line" }, chip, ...(model.folded ? [more] : []), list)
+  // of a folded line only the chip is live: reading out each residual would be noise
+  const live = model.folded ? chip : line
+  live.setAttribute("role", "status")
   let later
-  const write_list = () => {
+  const write_details = () => {
     clearTimeout(later)
-    list.replaceChildren(...model.line.details.map((detail) => element("li", {}, detail)))
+    const { details } = model.line
+    if (model.folded) list.replaceChildren(...details.map((detail) => element("li", {}, detail)))
+    else list.textContent = details.join("  ·  ")
   }
-  const write_list_later = () => {
-    clearTimeout(later)
-    later = setTimeout(write_list, REST)
-  }
-  const open = (shown) => {
-    if (shown) write_list()
-    list.hidden = !shown
-    more.setAttribute("aria-expanded", String(shown))
-  }
-  more.addEventListener("click", () => open(list.hidden))
-  line.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !list.hidden) {
-      open(false)
-      more.focus()
-    }
-  })
-  const write = () => {
+  const open = model.folded && unfolds(more, list, write_details)
+  follow(model, ["line"], () => {
     const { mood, words, details, tab, resting } = model.line
     if (tab) Object.assign(window, { __tab: tab, __resting: resting })  // for tests and benchmarks
-    if (line.dataset.mood !== mood) line.dataset.mood = mood
+    line.dataset.mood = mood
     if (chip.textContent !== words) chip.textContent = words
     more.hidden = !details.length
-    if (!details.length && !list.hidden) open(false)
-    if (model.folded && list.hidden) write_list_later()
-    else if (model.folded) write_list()
-    else rest.textContent = details.join("  ·  ")
-  }
-  model.on("line", write)
-  write()
+    if (open && !details.length) open(false)
+    clearTimeout(later)
+    if (model.folded && list.hidden) later = setTimeout(write_details, REST)
+    else write_details()
+  })
   return line
 }

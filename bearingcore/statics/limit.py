@@ -54,13 +54,13 @@ def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
 
 
 def summary(found: Sequence[Limit]) -> str:
-    """How it stands in a line: "1 limit crossed, 4 kept, 2 not known"."""
+    """The limits in a line: "1 limit exceeded, 4 passed, 2 not checked" or "6 checks passed"."""
     not_known = sum(math.isnan(one.value) for one in found)
     crossed = sum(one.crossed for one in found)
     kept = len(found) - crossed - not_known
-    words = [count(crossed, "limit") + " crossed"] if crossed else []
+    words = [count(crossed, "limit") + " exceeded"] if crossed else []
     if kept or not crossed:
-        words.append(f"{kept} kept" if crossed else f"{count(kept, 'limit')} kept")
+        words.append(f"{kept} passed" if crossed else f"{count(kept, 'check')} passed")
     if not_known:
-        words.append(f"{not_known} not known")
+        words.append(f"{not_known} not checked")
     return ", ".join(words)

@@ -244,7 +244,7 @@ def choose_tab(page: Page, name: str) -> None:
     if tab.is_visible():
         tab.click()
     else:
-        page.get_by_role("combobox", name="What to look at").select_option(name)
+        page.get_by_role("combobox", name="Views").select_option(name)
 
 
 def slug(text: str) -> str:

@@ -1,6 +1,6 @@
 """Dark colours of the figures: which colour of the light page is which of the dark one.
 
-Each colour has one meaning on the whole page, so one table says it all; `assets/theme.js` applies
+Each colour has one meaning on the whole page, so one table says it all; `look.js` applies
 it in the browser. A colour that must stay, as one on top of a picture, is one that is not in the
 table (`style.LIGHT`, `style.SHADE`).
 """
@@ -57,7 +57,7 @@ def dark_properties() -> str:
 
 
 def themes() -> str:
-    """The tables as `assets/theme.js` reads them."""
+    """The tables as `look.js` reads them."""
     colors = {light.upper(): dark for light, dark in DARK_COLORS.items()}
     colors["WHITE"] = DARK_COLORS[style.PAPER]
     palettes = [[list(light), list(dark)] for light, dark in DARK_PALETTES]

@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import param
 
 from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.messages import SceneChange, take
 from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice
 from bearing_explorer.state.field_values import CAGE_ANGLE, SCENE_GROUPS, SHOWN_FIELDS
@@ -62,9 +63,9 @@ def _choice_spec(choice: Choice) -> dict[str, Any]:
 
 
 class Rows(LiveComponent):
-    """Sliders, numbers and choices. `show` moves them, `asked` hears of them.
+    """Sliders, numbers and choices. `show` moves them.
 
-    `asked` gets messages of the browser as they come, from strangers too: judge them.
+    `asked` is called with each change as a dictionary with fields of `SceneChange`.
     """
 
     spec = param.Dict(default={})
@@ -74,7 +75,7 @@ class Rows(LiveComponent):
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))
+        self.on_msg(lambda event: take(asked, SceneChange, event.data))
 
     def show(self, **news: Any) -> None:
         """Move controls in the browser (`state`), or say what was refused (`refused`)."""

@@ -9,16 +9,16 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.messages import LessonChange, take
 from bearing_explorer.state.lessons import Fault, Lesson
 
 
 class LessonPanel(JSComponent):
-    """Hidden until somebody asks for lessons; then a list of them, or the one that was open.
+    """The list of lessons, or the words of one; hidden until lessons are opened.
 
-    Nothing replaces a scene unasked: it is set when a lesson is begun, and not when its words are
-    shown again.
+    A scene is set when a lesson begins, and not when its words are shown again.
 
-    `asked` gets messages of the browser as they come, from strangers too: judge them.
+    `asked` is called with each message as a dictionary with fields of `LessonChange`.
     """
 
     #: [title, what is wrong with the file or "", name] of each
@@ -45,7 +45,7 @@ class LessonPanel(JSComponent):
         super().__init__(titles=titles, margin=0, sizing_mode="stretch_width", **params)
         self._lessons = lessons
         self._begun = 0
-        self.on_msg(lambda event: asked(event.data))
+        self.on_msg(lambda event: take(asked, LessonChange, event.data))
 
     def begin(self, which: object, *, again: bool = True) -> Lesson | None:
         """Show the lesson with this number or name and return it; None where there is none.

@@ -9,12 +9,13 @@ import param
 from panel.custom import JSComponent
 
 from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.messages import LinksChange, take
 
 
 class ShareBar(JSComponent):
     """Undo, redo, reset; share, keep, download.
 
-    `asked` gets messages of the browser as they come, from strangers too: judge them.
+    `asked` is called with each message as a dictionary with fields of `LinksChange`.
     """
 
     #: what `Bookmarks.state` says
@@ -27,7 +28,7 @@ class ShareBar(JSComponent):
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: asked(event.data))
+        self.on_msg(lambda event: take(asked, LinksChange, event.data))
 
     def answer(self, **news: Any) -> None:
         """Give the browser what it asked for: a `file` to save, a `kept` scene, a `report`."""

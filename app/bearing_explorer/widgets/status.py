@@ -9,6 +9,7 @@ import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
+from bearing_explorer.messages import TabChange, take
 from bearing_explorer.results.results import Results
 from bearing_explorer.results.verdict import verdict
 from bearing_explorer.serve.live_component import LiveComponent
@@ -44,7 +45,7 @@ class Tabs(LiveComponent):
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, **params)
-        self.on_msg(lambda event: asked(event.data))
+        self.on_msg(lambda event: take(asked, TabChange, event.data))
 
 
 def status_of(

@@ -197,12 +197,12 @@ def test_loads_in_motion_count_where_they_are_known() -> None:
 def test_the_summary_counts_all_three_kinds() -> None:
     scene = presets["6205"]
     known = limits(scene, dynamic_load=1.0, film=film(scene, viscosity=0.1))
-    assert summary(known) == f"{len(known)} limits kept"
-    assert summary(limits(scene)) == f"{len(known) - 3} limits kept, 3 not known"
-    assert summary(known[:1]) == "1 limit kept"
+    assert summary(known) == f"{len(known)} checks passed"
+    assert summary(limits(scene)) == f"{len(known) - 3} checks passed, 3 not checked"
+    assert summary(known[:1]) == "1 check passed"
     heavy = limits(HEALTHY_6205.replace(fy=-40e3))
     crossed = sum(limit.crossed for limit in heavy)
-    assert summary(heavy).startswith(f"{crossed} limits crossed, ")
+    assert summary(heavy).startswith(f"{crossed} limits exceeded, ")
 
 
 def test_the_film_counts_where_the_oil_is_given() -> None:

@@ -19,7 +19,7 @@ _short.maxstring = _short.maxother = _short.maxlong = 80  # a value may be a who
 
 
 class Status(enum.StrEnum):
-    """How a solver ended. A member equals its text, so files and tables hold that."""
+    """Outcome of a solver. A member equals its text, so files and tables hold that."""
 
     @property
     def sentence(self) -> str:
@@ -109,7 +109,7 @@ class FieldError(ValueError):
         )
 
     def allowed_words(self, name: Callable[[str], str], amount: Callable[[float, str], str]) -> str:
-        """What is allowed, in words.
+        """The allowed values, in words.
 
         Parameters
         ----------
@@ -123,12 +123,12 @@ class FieldError(ValueError):
         if not self.numbers:
             return self.allowed
         return self.allowed.format(
-            **{key: _Told(key, number, name, amount) for key, number in self.numbers.items()}
+            **{key: _InWords(key, number, name, amount) for key, number in self.numbers.items()}
         )
 
     @property
     def allowed_text(self) -> str:
-        """What is allowed, in SI units."""
+        """The allowed values, in SI units."""
         if isinstance(self.allowed, Interval):
             return self.allowed.words("{:g}".format, self.unit)
         return self.allowed_words(str, lambda number, unit: f"{number:g} {unit}".rstrip())
@@ -146,7 +146,7 @@ class FieldError(ValueError):
 
 
 @dataclass(frozen=True)
-class _Told:
+class _InWords:
     """A number inside words: formatted without a unit it is its name, else the amount."""
 
     name: str

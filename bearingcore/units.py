@@ -72,7 +72,7 @@ UNITS: Mapping[str, Unit] = {
 
 
 def factor_between(given: str, wanted: str) -> float | None:
-    """What a number in `given` is multiplied by to be one in `wanted`; None of another kind."""
+    """Factor from `given` to `wanted`; None between units of different kinds."""
     one, other = UNITS.get(given), UNITS.get(wanted)
     if one is None or other is None or one.si != other.si:
         return None

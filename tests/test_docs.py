@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import bearingcore
+from bearingcore.fields import as_markdown
 
 ROOT = Path(__file__).parents[1]
 DOCS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "assets/docs").glob("*.md"))]
@@ -32,3 +33,22 @@ def test_links_between_documents_lead_somewhere(path: Path) -> None:
     for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", path.read_text(encoding="utf-8")):
         if ":" not in target:
             assert (path.parent / target).exists(), target
+
+
+def test_the_table_of_fields_is_that_of_the_registry() -> None:
+    """CONTRIBUTING.md has the command that writes it."""
+    text = (ROOT / "assets/docs/FIELDS.md").read_text(encoding="utf-8")
+    assert text.rstrip("\n") == as_markdown()
+
+
+def test_paths_in_the_page_for_contributors_exist() -> None:
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    known = {"tests/bearingcore/bearings/test_tapered.py", "bearingcore/bearings/tapered.py"}
+    paths = set(re.findall(r"`((?:bearingcore|tests|assets)/[\w/.]+)`", text)) - known
+    paths |= {
+        f"app/bearing_explorer/{path}"
+        for path in re.findall(r"`((?:state|views|plots|results|serve)/[\w/.]+)`", text)
+    }
+    assert len(paths) > 10
+    for path in paths:
+        assert (ROOT / path).exists(), path

@@ -13,7 +13,7 @@ from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.bearing_list import read_table
-from bearing_explorer.state.bookmarks import Bookmarks, asked_for, read_asked
+from bearing_explorer.state.bookmarks import Bookmarks, open_request_of, read_request
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from bearing_explorer.views.base import View
@@ -205,9 +205,9 @@ class Requests:
             self.bookmarks.pin_here(name)
         if message.get("unpin") is True:
             self.bookmarks.unpin()
-        if (wanted := asked_for(message)) is not None:
+        if (wanted := open_request_of(message)) is not None:
             self._page.in_background(
-                lambda: read_asked(wanted),
+                lambda: read_request(wanted),
                 lambda found: self._taken(
                     lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
                 ),

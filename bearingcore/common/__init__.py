@@ -1,1 +1,1 @@
-"""What every layer uses: checks of input, progress of long work."""
+"""Used by every layer: checks of input, progress of long work."""

@@ -1,4 +1,4 @@
-"""Attributes that are computed when first asked for, in any thread, and by nobody else's leave.
+"""Attributes that are computed when first asked for, in any thread, without a lock of the class.
 
 Before Python 3.12 `functools.cached_property` holds one lock for all objects of a class while it
 computes: who asks for the attribute of one waits for that of any other, seconds where a thread has

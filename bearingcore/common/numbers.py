@@ -15,7 +15,7 @@ SMALLEST, LARGEST = 1e-4, 1e7
 """Numbers from the first up to the second are written out, others with a power of ten."""
 
 NO_VALUE = "no value"
-"""What stands for NaN and infinity."""
+"""Text for NaN and infinity."""
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -119,7 +119,7 @@ def decibels(level: float, digits: int = 2) -> str:
 
 
 def count(n: int, thing: str, plural: str = "") -> str:
-    """How many there are: "1 limit", "2 limits", "no limits"."""
+    """A count with its noun: "1 limit", "2 limits", "no limits"."""
     if n == 1:
         return f"1 {thing}"
     return f"{n or 'no'} {plural or thing + 's'}"

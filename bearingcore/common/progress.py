@@ -21,7 +21,7 @@ def in_turn(
     *,
     begin: float = 0.0,
 ) -> Iterator[T]:
-    """The tasks one after another, telling `progress` before each; ends early when cancelled.
+    """The tasks one after another, calling `progress` before each; ends early when cancelled.
 
     `begin` is the part of the work that was done before.
     """

@@ -18,8 +18,8 @@ the scene's own fields, and a table for each part::
     ...
 
 SI units and radians, as everywhere in the core. A field that is left out has its default; one that
-does not exist is refused by name. Where a field can hold one of several classes, `kind` tells
-which: each has its name there as the class attribute `kind`.
+does not exist is refused by name. Where a field can hold one of several classes, `kind` names
+it: each has its name there as the class attribute `kind`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ LARGEST_TEXT = 2_000_000
 """Characters that are read at the most: a measured floor of 100,000 points fits."""
 
 MOST_OF = {",": 220_000, "\n": 250_000, "=": 10_000, "[": 10_000, "{": 10_000}
-"""How often signs may stand in a text: reading takes time for each value, line and table, and a
+"""Largest number of each sign in a text: reading takes time for each value, line and table, and a
 measured floor of 100,000 points has no more."""
 
 MOST_PARTS = 20
@@ -49,7 +49,7 @@ MOST_PARTS = 20
 
 MOST_DIGITS = 1000
 """Digits of a number: more than any float has; whole numbers of a million take time to be read and
-more to be told."""
+more to be printed."""
 
 _LONG_NUMBER = re.compile(rf"=[ \t]*[+-]?(?:0[xob])?[0-9a-fA-F_]{{{MOST_DIGITS}}}")
 
@@ -151,7 +151,7 @@ def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:
 
 
 def short(value: object) -> str:
-    """What stands in a file, short enough for a sentence."""
+    """A value of a file, short enough for a sentence."""
     text = value if isinstance(value, str) else repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 

@@ -20,7 +20,7 @@ from bearingcore.common import checks
 from bearingcore.units import UNITS, factor_between
 
 READ_UNITS = {"rad": "deg", "m": "µm"}
-"""What people read instead of radians and metres."""
+"""Units for people instead of radians and metres."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Column:
         Raises
         ------
         ValueError
-            for a unit that it cannot be told in.
+            for a unit that it has no factor to.
         """
         if unit == self.unit:
             return self
@@ -89,7 +89,7 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return iter(self._by_name)
 
     def __len__(self) -> int:
-        """How many columns there are."""
+        """Number of columns."""
         return len(self.columns)
 
     def unit(self, name: str) -> str:
@@ -97,7 +97,7 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return self._by_name[name].unit
 
     def meaning(self, name: str) -> str:
-        """What a column is, in a few words."""
+        """Meaning of a column, in a few words."""
         return self._by_name[name].meaning
 
     def in_units(self, units: Mapping[str, str] = READ_UNITS) -> ResultTable:

@@ -1,4 +1,4 @@
-"""How a simulated motion, the search for an orbit and a point of a map ended."""
+"""Statuses of a simulated motion, of the search for an orbit and of a point of a map."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bearingcore.errors import Status
 
 @unique
 class MotionStatus(Status):
-    """How a simulated motion ended."""
+    """Outcome of a simulated motion."""
 
     COMPLETED = "completed"
     TOO_MANY_STEPS = "too many steps"
@@ -34,7 +34,7 @@ _MOTION_CLAUSES = {
 
 @unique
 class OrbitStatus(Status):
-    """How the search for a periodic motion ended."""
+    """Outcome of the search for a periodic motion."""
 
     STABLE = "stable orbit"
     UNSTABLE = "unstable orbit"
@@ -46,7 +46,7 @@ class OrbitStatus(Status):
 
 @unique
 class MapOutcome(Status):
-    """What became of a point of a stability map; its place in this list is its code."""
+    """Outcome of a point of a stability map; its place in this list is its code."""
 
     STABLE = "stable orbit"
     UNSTABLE = "unstable orbit"

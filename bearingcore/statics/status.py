@@ -1,4 +1,4 @@
-"""How the search for a static state ended, at one cage angle."""
+"""Status of a static state at one cage angle."""
 
 from __future__ import annotations
 

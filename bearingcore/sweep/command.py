@@ -17,7 +17,7 @@ from bearingcore.sweep.run import needs_extra, run
 from bearingcore.sweep.status import STATUSES
 
 ASK_ABOVE = 10_000_000
-"""More scenes than this are computed only when told so."""
+"""More scenes than this are computed only with --yes."""
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:

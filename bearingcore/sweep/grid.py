@@ -45,8 +45,8 @@ MOST_VALUES = 1_000_000
 MOST_SCENES = 10_000_000_000
 
 TASK_SECONDS = 4.0
-"""[s] that a task should take about: long beside what handing it out and writing it costs, short
-beside what a killed worker may lose."""
+"""[s] that a task should take about: long compared with handing it out and writing it, short
+enough to lose when a worker is killed."""
 TASKS_AT_LEAST = 16
 """So many tasks even where scenes are few, so that all workers have something to do."""
 TRIED = 64
@@ -60,7 +60,7 @@ WORDS = ("race", "edge", "contact_law", "balls")
 UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS} | dict.fromkeys(
     WORDS, ""
 )
-"""What a sweep can go over, and the unit of each; words have none."""
+"""Fields that a sweep can vary, and the unit of each; words have none."""
 
 _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
 
@@ -121,12 +121,12 @@ class Grid:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each axis has."""
+        """Number of values of each axis."""
         return tuple(len(axis.values) for axis in self.axes)
 
     @property
     def size(self) -> int:
-        """How many scenes."""
+        """Number of scenes."""
         return math.prod(self.shape)
 
     @property
@@ -141,7 +141,7 @@ class Grid:
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
-        """Which computations the outputs need."""
+        """Computations that the outputs need."""
         return tuple(dict.fromkeys(OUTPUTS[name].needs for name in self.outputs))
 
     @property
@@ -159,7 +159,7 @@ class Grid:
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
     def values_at(self, index: Sequence[int]) -> dict[str, Any]:
-        """What the axes say at an index."""
+        """Values of the axes at an index."""
         return {
             axis.name: axis.values[i].item() if axis.name not in WORDS else str(axis.values[i])
             for axis, i in zip(self.axes, index, strict=True)
@@ -197,7 +197,7 @@ class Grid:
         return tuple(shape)
 
     def region_counts(self, shape: Sequence[int]) -> tuple[int, ...]:
-        """How many regions of this shape lie along each axis; those at the ends may be smaller."""
+        """Number of regions of this shape along each axis; those at the ends may be smaller."""
         return tuple(-(-n // part) for n, part in zip(self.shape, shape, strict=True))
 
     def region(self, shape: Sequence[int], index: Sequence[int]) -> Region:
@@ -326,7 +326,7 @@ class Grid:
 
     @cached_property
     def request(self) -> str:
-        """What is asked for, as JSON: axes by name, outputs, settings."""
+        """The request as JSON: axes by name, outputs, settings."""
         return json.dumps(
             {
                 "over": self.dims,
@@ -392,7 +392,7 @@ def _even(n: int, most: int) -> int:
 
 
 def _or_none(scene: Scene, changes: dict[str, Any], ask: Any) -> Any:
-    """What `ask` says of the changed scene; True where there can be none, which is told later."""
+    """`ask` of the changed scene; True where there can be none, which is refused later."""
     try:
         return ask(scene.replace(**changes))
     except ValueError:

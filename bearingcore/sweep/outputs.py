@@ -1,4 +1,4 @@
-"""What a sweep can say of a scene: names, units, and how each is computed.
+"""Outputs of a sweep: names, units, and the computation of each.
 
 Every output is one number a scene, but for the band edges, which have one for each mode.
 """
@@ -221,7 +221,7 @@ def mode_labels(dofs: Iterable[str]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Settings:
-    """How finely everything is computed.
+    """Resolution of the computations.
 
     Parameters
     ----------
@@ -314,7 +314,7 @@ def of_scene(
 
 
 IN_ROWS = frozenset({STATICS, MODES})
-"""What `of_row` computes."""
+"""Computations that `of_row` does."""
 
 
 def of_row(

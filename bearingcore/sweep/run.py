@@ -246,7 +246,7 @@ def _compute(task: tuple[Any, Grid]) -> Any:
 
 
 class _Progress:
-    """How far a sweep is, for whoever wants to know."""
+    """Counts finished scenes and reports them."""
 
     def __init__(self, size: int, progress: Progress | None) -> None:
         self._size = size
@@ -291,7 +291,7 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
         # threads share the memory of their host, whose use says nothing of theirs: no limit
         else {"n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
     )
-    here = "localhost:0"  # nobody else is to reach the pages of Dask, and any free port will do
+    here = "localhost:0"  # Dask's pages are for this machine alone, on any free port
     with ExitStack() as open_:
         try:
             cluster = open_.enter_context(

@@ -1,4 +1,4 @@
-"""What became of a scene of a sweep."""
+"""Status of a scene in a sweep."""
 
 from __future__ import annotations
 

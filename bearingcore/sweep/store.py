@@ -1,7 +1,7 @@
 """The results of a sweep on disk, as Zarr, written region by region.
 
 A region is finished when its mark is there. The mark is a checksum of all its numbers, written
-after them in one step (Zarr writes a file beside its place and moves it there): what a killed
+after them in one step (Zarr writes a temporary file and moves it into place): what a killed
 process left half-written has no mark, or numbers that do not fit it, and is computed again.
 """
 
@@ -33,7 +33,7 @@ STATUS = "status"
 
 
 def attributes(grid: Grid) -> dict[str, Any]:
-    """What the results say of themselves: the scene, the request and the program."""
+    """Attributes of the results: the scene, the request and the program."""
     return {
         "title": "Sweep over " + ", ".join(grid.dims),
         "program": PROGRAM,
@@ -48,7 +48,7 @@ def variable_attributes(name: str) -> dict[str, Any]:
     """Unit and meaning of an output or of the status."""
     if name == STATUS:
         return {
-            "long_name": "what became of the scene",
+            "long_name": "status of the scene",
             "units": "1",
             "flag_values": list(range(len(STATUSES))),
             "flag_meanings": " ".join(STATUSES),

@@ -1,1 +1,1 @@
-"""What a person has set: quantities, scene, steps to undo, address, lessons. No drawing."""
+"""State that a person has set: fields, scene, steps to undo, address, lessons. No drawing."""

@@ -4,8 +4,8 @@
 
 The text says what differs from a preset, under the names and in the units of the page: so a person
 can read it, change a number by hand and see in a mail what a link is about. One packed word would
-be hardly shorter, as most scenes differ from a preset in two or three numbers, and nobody could
-mend it. Only what no person reads is packed: the points of a measured floor.
+be hardly shorter, as most scenes differ from a preset in two or three numbers, and could not
+be mended. Only the points of a measured floor are packed.
 
 The rules of version 1, which later versions go on reading:
 
@@ -29,7 +29,7 @@ The rules of version 1, which later versions go on reading:
 - `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
   whose first bytes all come first, then all second ones: neighbours have their first bytes alike.
 
-An address comes from anybody: it is never evaluated, its length and what unpacks from it are
+An address is not trusted: it is never evaluated, its length and what unpacks from it are
 bounded, and what cannot be understood is answered with a sentence.
 """
 
@@ -90,7 +90,7 @@ _LONGEST_NUMBER = 40
 TAB_OF_OLD_LINKS = "load"
 """Links that name no tab are of days when this one came first."""
 FORMER_TABS = {"sizing": "diagnosis"}
-"""What tabs were called in links that people have."""
+"""Former names of tabs, in links that people have."""
 
 _OWN_WORDS = (
     *("v", "preset", "defects", "selected", "dofs", "tab", "rows", "name", CAGE_ANGLE),
@@ -209,7 +209,7 @@ def holds_scene(text: str) -> bool:
 
 
 def place_of(editor: SceneEditor, tab: str = "") -> Place:
-    """Where the editor stands."""
+    """The place that the editor shows."""
     angle = editor.values[CAGE_ANGLE]
     return Place(editor.scene, editor.preset, editor.selected, angle, tab, name=editor.own_name)
 
@@ -523,6 +523,6 @@ def unpacked(word: str) -> MeasuredFloor:
 
 
 def _shown(text: str) -> str:
-    """A stranger's text for a sentence: short, on one line."""
+    """Untrusted text for a sentence: short, on one line."""
     clean = "".join(sign if sign.isprintable() else " " for sign in text[:60])
     return clean if len(clean) <= 30 else clean[:29] + "…"

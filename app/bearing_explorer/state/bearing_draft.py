@@ -23,7 +23,7 @@ Faults = dict[str, str]
 
 
 def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
-    """What is wrong with a draft, field by field, in the units of the page.
+    """Faults of a draft, field by field, in the units of the page.
 
     `bearing` is the one that the draft would change, `error` what the core said of it. Faults
     stand at fields of the draft, where there is one among those concerned.
@@ -78,7 +78,7 @@ def _sentence(fault: FieldError) -> str:
 
 
 def words_of(draft: Values) -> str:
-    """What is said above the fields while a draft waits."""
+    """The sentence above the fields while a draft waits."""
     if not draft:
         return ""
     labels = [FIELD_BY_KEY[name].label.lower() for name in draft]

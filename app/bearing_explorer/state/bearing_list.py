@@ -1,6 +1,6 @@
 """The list of bearings by designation: the published ones, and those of a person's own table.
 
-A table of one's own stays in the session. What comes is from strangers: it is refused as a whole,
+A table of one's own stays in the session. It is not trusted: it is refused as a whole,
 with sentences, where it is not such a table.
 """
 
@@ -17,7 +17,7 @@ from bearingcore.common.numbers import number
 
 @dataclass
 class BearingTable:
-    """What is on the list; `version` rises with each change, `words` say what became of it."""
+    """The bearings of the list; `version` rises with each change, `words` say what became of it."""
 
     own: dict[str, CatalogueBearing] = field(default_factory=dict)
     version: int = 0
@@ -78,7 +78,7 @@ def entry_words(one: CatalogueBearing) -> str:
 
 
 def origin_words(one: CatalogueBearing, own: bool) -> str:
-    """Where the numbers of a bearing come from, and what is assumed."""
+    """Sources of the numbers of a bearing, and assumptions."""
     source = one.note or ("From a table of your own." if own else "")
     assumed = f" Assumed: {', '.join(one.assumed)}." if one.assumed else ""
     return f"{source}{assumed}".strip()

@@ -1,7 +1,7 @@
-"""What a session remembers of its scenes: steps to undo, a pinned scene, the address of now.
+"""Scenes that a session remembers: steps to undo, a pinned scene, the address.
 
-Holds no Panel. What is asked for comes from the browser, from strangers too: it is judged here,
-and answered with a sentence where it cannot be. Scenes that a person keeps lie in the browser, as
+Holds no Panel. Requests come from the browser and are not trusted: they are checked here,
+and refused with a sentence. Scenes that a person keeps lie in the browser, as
 the text of `bearing_explorer.state.address` with a name; nothing of them stays on the server.
 """
 
@@ -38,46 +38,46 @@ _STEPS = ("set", "typed", "choose", "reset", "floor")
 
 
 @dataclass(frozen=True)
-class Asked:
-    """Something to open or pin that may take a while to read: `read_asked` does, in any thread."""
+class OpenRequest:
+    """A request to open or pin a scene; `read_request` reads it, in any thread."""
 
     what: str
     name: str
     text: str
 
 
-def asked_for(message: Mapping[Any, Any]) -> Asked | None:
-    """What a message wants opened ("open", "file") or pinned ("pin"), if it says so properly."""
+def open_request_of(message: Mapping[Any, Any]) -> OpenRequest | None:
+    """A valid request of a message to open ("open", "file") or pin ("pin") a scene, or None."""
     for what in ("open", "file", "pin"):
         given = message.get(what)
         if isinstance(given, dict):
             name, text = given.get("name"), given.get("text")
             if isinstance(name, str) and isinstance(text, str):
-                return Asked(what, name_of(name), text[: LONGEST_TEXT + 1])
+                return OpenRequest(what, name_of(name), text[: LONGEST_TEXT + 1])
     return None
 
 
-def read_asked(asked: Asked) -> Place | str:
-    """The place that was asked for, or a sentence."""
+def read_request(request: OpenRequest) -> Place | str:
+    """The place that is requested, or a sentence."""
     try:
-        if asked.what == "file":
-            if len(asked.text) > LARGEST_TEXT:
-                return f"{asked.name} is longer than a scene can be."
-            return Place(Scene.from_toml(asked.text), "")
-        place = read(asked.text)
+        if request.what == "file":
+            if len(request.text) > LARGEST_TEXT:
+                return f"{request.name} is longer than a scene can be."
+            return Place(Scene.from_toml(request.text), "")
+        place = read(request.text)
     except ValueError as error:
-        return f"{asked.name}: {sentence_of(error)}"
-    return f"{asked.name} holds no scene." if place is None else place
+        return f"{request.name}: {sentence_of(error)}"
+    return f"{request.name} holds no scene." if place is None else place
 
 
 def name_of(text: str) -> str:
-    """A name for a scene out of what a stranger wrote: short, on one line, not empty."""
+    """A name for a scene from untrusted text: short, on one line, not empty."""
     clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
     return " ".join(clean.split())[:LONGEST_NAME].rstrip() or "Unnamed"
 
 
 class Bookmarks:
-    """The memory of one session, beside its editor."""
+    """Undo, pinned scene, notice and address of one session."""
 
     def __init__(self, editor: SceneEditor, address: str = "") -> None:
         """`address`: what stood behind the question mark as the page was opened."""
@@ -108,7 +108,7 @@ class Bookmarks:
         return bool(self._history.moving)
 
     def say(self, sentence: str) -> None:
-        """What happened, for the person; said again it is news again."""
+        """Set the notice shown in the toolbar; the same one again counts as new."""
         self._said = (self._said[0] + 1, sentence)
 
     def show(self, tab: str) -> None:
@@ -148,30 +148,30 @@ class Bookmarks:
             self._editor.restore(kept)
         return kept is not None
 
-    def take(self, asked: Asked, found: Place | str) -> bool:
-        """Do what was asked for with what `read_asked` found; whether anything changed."""
+    def take(self, request: OpenRequest, found: Place | str) -> bool:
+        """Open or pin the place that `read_request` found; whether anything changed."""
         if isinstance(found, str):
             self.say(found)
             return False
-        if asked.what == "pin":
-            self.pinned = Reference(found.scene, asked.name)
-            self.say(f"“{asked.name}” is pinned: grey shows it beside every scene.")
+        if request.what == "pin":
+            self.pinned = Reference(found.scene, request.name)
+            self.say(f"“{request.name}” is pinned: grey shows it behind every scene.")
             return True
         try:
             self._editor.take_scene(
                 found.scene, found.preset, found.selected, found.cage_angle, found.name
             )
         except ValueError as error:
-            self.say(f"{asked.name}: {sentence_of(error)}")
+            self.say(f"{request.name}: {sentence_of(error)}")
             return False
-        self.say(found.note or f"{asked.name} is open.")
+        self.say(found.note or f"{request.name} is open.")
         self.step()
         return True
 
     def pin_here(self, name: str) -> None:
         """Pin the scene of now."""
         self.pinned = Reference(self._editor.scene, name_of(name))
-        self.say(f"“{self.pinned.name}” is pinned: grey shows it beside every scene.")
+        self.say(f"“{self.pinned.name}” is pinned: grey shows it behind every scene.")
 
     def unpin(self) -> None:
         """Grey shows the healthy bearing again."""
@@ -188,7 +188,7 @@ class Bookmarks:
         return {"name": name, "type": "application/toml", "text": self._editor.scene.to_toml()}
 
     def state(self) -> dict[str, Any]:
-        """What the browser needs to know."""
+        """State for the browser."""
         address = write(place_of(self._editor, self._tab), LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})

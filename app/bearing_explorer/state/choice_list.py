@@ -16,12 +16,12 @@ from bearingcore.bearings import KINDS
 from bearingcore.scene.presets import preset_labels
 
 NOTHING = object()
-"""What an option is in the core that is None there."""
+"""The value of an option that is None in the core."""
 
 
 @dataclass(frozen=True)
 class Option:
-    """What can be chosen: its name in messages, links and lessons, and its words on the page.
+    """One option: its name in messages, links and lessons, and its words on the page.
 
     `in_core` is what the core calls it, where that is not its name.
     """
@@ -33,7 +33,7 @@ class Option:
 
     @property
     def value(self) -> Any:
-        """What the field of the scene is then."""
+        """The value of the scene's field."""
         if self.in_core is NOTHING:
             return None
         return self.name if self.in_core is None else self.in_core
@@ -58,8 +58,8 @@ class Choice:
         how a report says it, "{}" standing for what is chosen.
     not_in_lessons
         options that a lesson cannot set; all of them where it cannot choose at all.
-    beside_words
-        whether it can stand beside the words of a lesson.
+    lesson_control
+        whether it can be a control of a lesson.
     """
 
     name: str
@@ -72,7 +72,7 @@ class Choice:
     all_alike: bool = False
     said: str = ""
     not_in_lessons: frozenset[str] = frozenset()
-    beside_words: bool = False
+    lesson_control: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -86,11 +86,11 @@ class Choice:
 
     @property
     def in_links(self) -> Mapping[str, Any]:
-        """What a link calls its values: names with lines for spaces."""
+        """Values by their names in links, with hyphens for spaces."""
         return {option.name.replace(" ", "-"): option.value for option in self.options}
 
     def value_of(self, name: str) -> Any:
-        """What the field of the scene is with an option."""
+        """The value of the scene's field with an option."""
         return next(option.value for option in self.options if option.name == name)
 
     def name_of(self, owner: Any) -> str:
@@ -102,7 +102,7 @@ class Choice:
         return next(option.name for option in self.options if option.value == value)
 
     def sentence(self, owner: Any) -> str:
-        """How a report says what a scene or a defect has; empty where it does not."""
+        """The sentence of a report about a scene or a defect; empty without one."""
         return self.said.format(self.name_of(owner)) if self.said else ""
 
 
@@ -135,7 +135,7 @@ RACE = Choice(
     of="defect",
     field="race",
     first=True,
-    beside_words=True,
+    lesson_control=True,
 )
 
 ROW = Choice(
@@ -150,7 +150,7 @@ ROW = Choice(
     of="defect",
     field="row",
     first=True,
-    beside_words=True,
+    lesson_control=True,
 )
 
 EDGE = Choice(
@@ -179,7 +179,7 @@ EDGE = Choice(
     field="edge",
     all_alike=True,  # defects that run into one another need one edge model
     said="edge model “{}”",
-    beside_words=True,
+    lesson_control=True,
 )
 
 FLOOR = Choice(
@@ -203,7 +203,7 @@ FLOOR = Choice(
         ),
     ),
     not_in_lessons=frozenset({"measured"}),
-    beside_words=True,
+    lesson_control=True,
 )
 
 LAW = Choice(
@@ -236,7 +236,7 @@ BALLS = Choice(
             "massless",
             "Massless",
             "Each ball is a spring between the rings, as in the paper. Exact at low frequencies; "
-            "how far up that goes the line at the foot of the page says.",
+            "the status line says up to which frequency.",
         ),
         Option(
             "with mass",
@@ -249,7 +249,7 @@ BALLS = Choice(
     of="scene",
     field="balls",
     said="Balls: {}",
-    beside_words=True,
+    lesson_control=True,
 )
 
 NUMBERS = Choice(

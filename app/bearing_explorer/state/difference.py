@@ -1,4 +1,4 @@
-"""What two scenes differ in, in words."""
+"""Differences of two scenes, in words."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WHOLE = 0.02
 
 
 def difference(now: Scene, before: Scene, focus: int = 0) -> str:
-    """What has changed from one scene to the other; `focus` is the defect that is looked at."""
+    """Changes from one scene to the other; `focus` is the selected defect."""
     if not (now.defects and before.defects) and now.healthy() == before.healthy():
         return "With the defect" if now.defects else "Without the defect"
     own, earlier = defects_of(now), defects_of(before)

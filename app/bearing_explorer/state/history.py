@@ -1,6 +1,6 @@
 """Steps that can be undone and done again.
 
-A drag is one step however many positions it passed: while a hand moves, `moved` only follows, and
+A drag is one step however many positions it passed: during a drag, `moved` only follows, and
 `settle` ends the step. What ends where it began is no step.
 """
 
@@ -35,7 +35,7 @@ class History(Generic[State]):
 
     @property
     def moving(self) -> str:
-        """What is being moved: a step has begun and not ended."""
+        """Name of the control being moved; empty between steps."""
         return self._moving
 
     def moved(self, now: State, what: str) -> None:
@@ -75,7 +75,7 @@ class History(Generic[State]):
 
     @property
     def _idle_move(self) -> bool:
-        """Whether a hand moves something that is where it was."""
+        """Whether a drag is back where it began."""
         return bool(self._moving) and self._past[-1] == self._now
 
     def _go(

@@ -1,4 +1,4 @@
-"""Which scene was there before the last change."""
+"""The scene before the last change."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class LastState:
         self.before: Scene | None = None
 
     def follow(self, scene: Scene, moving: bool) -> None:
-        """Note the scene of now, and whether a hand is still `moving` it."""
+        """Note the scene of now, and whether a drag is still `moving` it."""
         if scene != self._settled and not self._moving:
             self.before = self._settled
             self._moving = True

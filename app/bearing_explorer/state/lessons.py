@@ -93,7 +93,7 @@ CHOICES: Mapping[str, Sequence[str]] = {
 
 DRAGGED = (
     *(field.key for field in SHOWN_FIELDS if field.group in SCENE_GROUPS),
-    *(choice.name for choice in CHOICE_LIST if choice.beside_words),
+    *(choice.name for choice in CHOICE_LIST if choice.lesson_control),
 )
 """The controls that can stand beside the words."""
 

@@ -1,4 +1,4 @@
-"""What figures draw in grey beside the scene."""
+"""The reference that figures draw in grey."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from bearingcore import Scene
 
 WITHOUT_DEFECT = "the bearing without its defect"
-"""What figures draw in grey while nothing is pinned."""
+"""The reference while nothing is pinned."""
 
 
 @dataclass(frozen=True)
@@ -19,5 +19,5 @@ class Reference:
 
     @property
     def words(self) -> str:
-        """What stands before its numbers in a sentence."""
+        """Words before its numbers in a sentence."""
         return f"pinned “{self.name}”"

@@ -1,7 +1,7 @@
-"""What a person builds on the page: the scene, the numbers as they were typed, the defect in hand.
+"""Editor of the scene: the scene, the numbers as they were typed, the selected defect.
 
-Holds no Panel and draws nothing. What is asked for comes from the browser, from strangers too:
-everything is judged here, and what is refused leaves all as it was, with a sentence.
+Holds no Panel and draws nothing. Requests come from the browser and are not trusted: they are
+checked here, and a refused one leaves all as it was, with a sentence.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class FloorChoice:
 
     @property
     def floor(self) -> RoughFloor | MeasuredFloor | None:
-        """What the defect's floor is."""
+        """The floor of the defect; None for a flat one."""
         return {"rough": self.rough, "measured": self.measured}.get(self.kind)
 
 
@@ -124,9 +124,9 @@ class SceneEditor:
     selected: int = field(init=False)
     floors: list[FloorChoice] = field(init=False)
     own_name: str = field(init=False, default="")
-    """What a person calls the bearing; empty where nobody has named it."""
+    """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
-    """What it was taken from, of a bearing out of a list."""
+    """The entry of a list that the bearing was taken from."""
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
@@ -185,7 +185,7 @@ class SceneEditor:
         self._write_values(cage_angle)
 
     def snapshot(self) -> Snapshot:
-        """What `restore` brings back."""
+        """The whole state, for `restore`."""
         return Snapshot(
             scene=self.scene,
             preset=self.preset,
@@ -221,7 +221,7 @@ class SceneEditor:
 
     @property
     def name(self) -> str:
-        """What the bearing is called: by whoever named it, else by what it began from."""
+        """Name of the bearing: the one given, else that of the preset it began from."""
         label = next((o.label for o in PRESET.options if o.name == self.preset), self.preset)
         if self.own_name and self.own_name == self._begun_from:
             return f"{self.own_name}, changed"
@@ -229,7 +229,7 @@ class SceneEditor:
 
     @property
     def note(self) -> str:
-        """Where the numbers of the bearing come from."""
+        """Source of the bearing's numbers."""
         if not self.changed:
             return preset_notes.get(self.preset, "")
         if self.origin is not None and not self._begun_from:
@@ -264,7 +264,7 @@ class SceneEditor:
 
     @property
     def focus(self) -> int:
-        """Which of `scene.defects` the sliders move; the first where that one is none."""
+        """Index in `scene.defects` of the one that sliders move; 0 where that one is none."""
         defect = self.defects[self.selected]
         before = [d for d in self.defects[: self.selected] if not d.is_none]
         return 0 if defect.is_none else len(before)
@@ -308,7 +308,7 @@ class SceneEditor:
     def narrow(self) -> list[str]:
         """Give sliders that a number had widened their usual length where it is back on it.
 
-        Returns their names. Not for a hand that holds one: it would move from under it.
+        Returns their names. Not while one is dragged: it would move under the pointer.
         """
         names = [
             name
@@ -365,7 +365,7 @@ class SceneEditor:
             **{one.key: in_shown_unit(one, getattr(rough, one.name)) for one in _OF_FLOOR},
             CAGE_ANGLE: turned,
         }
-        # what a person typed stands as it was typed, whatever its last digit is in SI
+        # a typed number stays as typed, whatever its last digit is in SI
         self.values = {
             name: self.values[name]
             if name in self.values and _close(self.values[name], fresh[name])
@@ -495,7 +495,7 @@ class SceneEditor:
     def take_floor(
         self, name: str, found: tuple[MeasuredFloor, float, float, float] | None, wrong: str
     ) -> None:
-        """Make a measured floor that of the defect in hand, with what `read_file` made of its text.
+        """Give the selected defect a measured floor, as `read_file` found it.
 
         What is wrong with it stands in the words of the floor.
         """
@@ -526,10 +526,10 @@ class SceneEditor:
                 choice, kind="measured", measured=floor, words=words, bad=False
             )
 
-    # What the browser needs to know
+    # State for the browser
 
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
-        """All that the browser needs to know; `values` asks for those alone."""
+        """State for the browser, of all fields or of `values` alone."""
         wanted = self.values if values is None else {name: self.values[name] for name in values}
         shown = {name: self.draft.get(name, v) for name, v in wanted.items()}
         state: dict[str, Any] = {
@@ -583,7 +583,7 @@ class SceneEditor:
 
 
 def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | None, str]:
-    """What `read_floor` makes of a file, and a sentence where it cannot. For any thread."""
+    """The floor of a file by `read_floor`, or None and a sentence. For any thread."""
     if len(text) > LARGEST_FILE:
         return None, f"it is longer than {LARGEST_FILE:,} characters.".replace(",", " ")
     try:
@@ -593,7 +593,7 @@ def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | No
 
 
 def clean_name(text: str) -> str:
-    """A name for a bearing out of what a stranger wrote: short and on one line, or empty."""
+    """A name for a bearing from untrusted text: short and on one line, or empty."""
     clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
     return " ".join(clean.split())[:LONGEST_NAME].rstrip()
 
@@ -653,7 +653,7 @@ def _gap_to(defects: Iterable[Defect], angle: float) -> float:
 
 
 def _room(defects: Iterable[Defect], angle: float) -> float:
-    """How long [rad] a defect around `angle` may be without touching another."""
+    """Longest extent [rad] of a defect around `angle` that touches no other."""
     return max(2.0 * _gap_to(defects, angle), 0.0)
 
 

@@ -8,7 +8,7 @@ from bearingcore.fields import FIELD_OF, FIELDS, Field
 from bearingcore.units import UNITS
 
 _READ_UNITS = {"m": "mm", "rad": "°", "rad/s": "Hz", "Pa": "GPa"}
-"""What a number in SI is shown in where it is of no field that says it."""
+"""Shown units of SI numbers that belong to no field."""
 
 
 def sentence_of(error: ValueError) -> str:
@@ -48,13 +48,13 @@ def field_of(error: ValueError) -> Field | None:
 
 
 def name_of(name: str) -> str:
-    """What a field is called inside a sentence; a name that is no field's without underscores."""
+    """The label of a field inside a sentence; another name without its underscores."""
     field = FIELD_OF.get(name)
     return name.replace("_", " ") if field is None else label_inside(field)
 
 
 def label_inside(field: Field) -> str:
-    """The label of a field inside a sentence: small, unless it is somebody's name."""
+    """The label of a field inside a sentence: small, unless it is a person's name."""
     label = field.label
     return label if label[:2] in ("Yo", "Po") else label[0].lower() + label[1:]
 

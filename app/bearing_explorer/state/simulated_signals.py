@@ -1,4 +1,4 @@
-"""How a measurement may be simulated: what the page offers and lessons ask for."""
+"""Options of a simulated measurement, on the page and in lessons."""
 
 from __future__ import annotations
 
@@ -12,5 +12,5 @@ MACHINES = ("same", "different")
 """Whether the measured machine has the numbers of the scene, or only about those."""
 
 PITS: Mapping[str, float | None] = {"scene": None, "0.2": 2e-4, "0.3": 3e-4, "0.5": 5e-4}
-"""What the measured race has: the scene's own defect, or a small pit so long [m], with the edges
+"""Defect of the measured race: the scene's own defect, or a small pit so long [m], with the edges
 that geometry asks for and balls that have mass: as pits that are seeded on test rigs."""

@@ -4,11 +4,11 @@ import pytest
 from bearing_explorer.state.address import read
 from bearing_explorer.state.bookmarks import (
     LONGEST_NAME,
-    Asked,
     Bookmarks,
-    asked_for,
+    OpenRequest,
     name_of,
-    read_asked,
+    open_request_of,
+    read_request,
 )
 from bearing_explorer.state.scene_editor import SceneEditor, read_file
 
@@ -113,9 +113,9 @@ def test_what_was_kept_opens_again(editor: SceneEditor, bookmarks: Bookmarks) ->
     before = editor.snapshot()
     editor.take_preset("liew-lim")
     bookmarks.step()
-    asked = asked_for({"open": kept})
-    assert asked is not None
-    assert bookmarks.take(asked, read_asked(asked))
+    request = open_request_of({"open": kept})
+    assert request is not None
+    assert bookmarks.take(request, read_request(request))
     assert editor.snapshot() == before
     assert bookmarks.state()["said"]["words"].endswith("is open.")
     bookmarks.go({"undo": True})
@@ -130,9 +130,9 @@ def test_a_pinned_scene_is_the_reference_until_it_is_unpinned(
     editor.set({"extent_deg": 33})
     assert bookmarks.pinned is not None
     assert (bookmarks.pinned.name, bookmarks.pinned.scene) == ("first", pinned)
-    asked = asked_for({"pin": {"name": "other", "text": "v=1&preset=6205"}})
-    assert asked is not None
-    assert bookmarks.take(asked, read_asked(asked))
+    request = open_request_of({"pin": {"name": "other", "text": "v=1&preset=6205"}})
+    assert request is not None
+    assert bookmarks.take(request, read_request(request))
     assert bookmarks.pinned.scene == presets["6205"]
     assert editor.values["extent_deg"] == 33, "pinning moves nothing"
     bookmarks.unpin()
@@ -154,9 +154,9 @@ def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
         ("x" * 3_000_000, "longer"),
     ):
         before = editor.snapshot()
-        asked = asked_for({"file": {"name": "scene.toml", "text": text}})
-        assert asked is not None
-        taken = bookmarks.take(asked, read_asked(asked))
+        request = open_request_of({"file": {"name": "scene.toml", "text": text}})
+        assert request is not None
+        taken = bookmarks.take(request, read_request(request))
         assert words in bookmarks.state()["said"]["words"]
         assert bookmarks.state()["said"]["words"].startswith("scene.toml")
         assert taken == (words == "is open")
@@ -175,12 +175,12 @@ def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
     ],
 )
 def test_strangers_ask_for_nothing(message: dict) -> None:
-    assert asked_for(message) is None
+    assert open_request_of(message) is None
 
 
 @pytest.mark.parametrize("text", ["", "v=9", "utm=1", "v=1&n_balls=0", "%%%", "v=1&floor=measured"])
 def test_what_no_scene_is_gets_a_sentence(text: str) -> None:
-    found = read_asked(Asked("open", "x", text))
+    found = read_request(OpenRequest("open", "x", text))
     assert isinstance(found, str)
     assert found.startswith("x")
     assert found.endswith(".")

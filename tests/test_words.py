@@ -1,0 +1,99 @@
+"""Words of the program: its docstrings, comments and strings are plain English.
+
+`words_to_do.txt` lists the files that still have such words; it can only become shorter.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+FILES = sorted(
+    str(path.relative_to(ROOT))
+    for folder in ("app", "bearingcore")
+    for path in (ROOT / folder).rglob("*.py")
+)
+TO_DO = (Path(__file__).parent / "words_to_do.txt").read_text(encoding="utf-8").split()
+
+REFUSED = re.compile(r"\b(told|tells?|telling|somebody|nobody|anybody|strangers?)\b", re.IGNORECASE)
+"""Verbs of speech for what data does, and people who are nobody in particular."""
+QUESTION = re.compile(r"\s*(Who|What|How)\b")
+"""A docstring says what a thing is, with a noun, or what a function does, with a verb."""
+
+
+def faults_in(source: str) -> list[str]:
+    """Words that are refused, each with the line it begins in."""
+    tree = ast.parse(source)
+    found = [
+        f"line {node.lineno}: {match[0]}"
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        for match in REFUSED.finditer(node.value)
+    ]
+    found += [
+        f"line {number}: {match[0]}"
+        for number, comment in _comments(source)
+        for match in REFUSED.finditer(comment)
+    ]
+    found += [
+        f"line {node.lineno}: begins with {match[1]}"
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+        and (match := QUESTION.match(node.value.value))
+    ]
+    return found + [f"{name}: beside" for name in _names(tree) if "beside" in name.lower()]
+
+
+def _comments(source: str) -> Iterator[tuple[int, str]]:
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            yield token.start[0], token.string
+
+
+def _names(tree: ast.AST) -> Iterator[str]:
+    """Names that a module defines: of functions, classes, arguments and variables."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.AsyncFunctionDef):
+            yield node.name
+        elif isinstance(node, ast.arg):
+            yield node.arg
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+
+
+@pytest.mark.parametrize("path", [path for path in FILES if path not in TO_DO])
+def test_a_file_has_none_of_the_words(path: str) -> None:
+    assert faults_in((ROOT / path).read_text(encoding="utf-8")) == []
+
+
+def test_the_list_of_files_to_do_only_becomes_shorter() -> None:
+    done = [
+        path
+        for path in TO_DO
+        if path not in FILES or not faults_in((ROOT / path).read_text(encoding="utf-8"))
+    ]
+    assert done == [], "take these off tests/words_to_do.txt"
+    assert len(TO_DO) == len(set(TO_DO)) <= 151
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        '"""What is here."""',
+        'x = 1\n"""How many."""',
+        "# nobody waits\n",
+        'say("this cannot be told")',
+        "def beside(): ...",
+    ],
+)
+def test_faults_are_found(source: str) -> None:
+    assert len(faults_in(source)) == 1

@@ -1,6 +1,6 @@
-// What a person asks of the scene, from any panel. Each change carries a number (`window.__asked`),
-// so that everybody knows when it is drawn. Where a hand's newest position still waits to be sent
-// (`window.__waiting`: functions that send it), it goes first: a choice or an undo never overtakes it.
+// Changes of the scene, from any panel. Each carries a number (`window.__asked`), by which a panel
+// knows when it is drawn. The newest position of a slider that waits to be sent (`window.__waiting`:
+// functions that send it) goes first: a choice or an undo never overtakes it.
 function ask(model, message) {
   for (const send_now of window.__waiting ?? []) send_now()
   window.__asked = (window.__asked || 0) + 1

@@ -1,6 +1,13 @@
 // Figures as files, out of what is on screen.
 
 const SVG = "http://www.w3.org/2000/svg"
+const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity",
+               "opacity", "font-family", "font-size", "font-style", "font-weight", "visibility"]
+
+function set_all(made, attributes) {
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)
+  return made
+}
 
 // The views of Bokeh's figures with these ids that have a size now, in the order of the page.
 function figures_on_screen(ids) {
@@ -8,27 +15,19 @@ function figures_on_screen(ids) {
     .filter((view) => view && view.el.getBoundingClientRect().width > 0)
 }
 
-// A drawing that stands on the page as SVG, with the looks that its style sheets give it, in the
-// manner of a view.
-const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity",
-               "opacity", "font-family", "font-size", "font-style", "font-weight", "visibility"]
+// An SVG of the page with the looks that its style sheets give it, in the manner of a view.
 function drawing_of(svg) {
   const { width, height } = svg.getBoundingClientRect()
   const draw = () => {
-    const copy = svg.cloneNode(true)
+    const copy = set_all(svg.cloneNode(true), { xmlns: SVG, width, height })
     const here = [...svg.querySelectorAll("*")], there = [...copy.querySelectorAll("*")]
-    here.forEach((element, i) => {
-      const looks = getComputedStyle(element)
+    here.forEach((part, i) => {
+      const looks = getComputedStyle(part)
       if (looks.display === "none") there[i].remove()
       for (const name of LOOKS) there[i].style.setProperty(name, looks.getPropertyValue(name))
     })
-    const paper = document.createElementNS(SVG, "rect")
-    for (const [name, value] of [["width", "100%"], ["height", "100%"]]) paper.setAttribute(name, value)
-    paper.style.fill = getComputedStyle(document.documentElement).getPropertyValue("--card") || "white"
-    copy.prepend(paper)
-    copy.setAttribute("xmlns", SVG)
-    copy.setAttribute("width", width)
-    copy.setAttribute("height", height)
+    const fill = getComputedStyle(document.documentElement).getPropertyValue("--card") || "white"
+    copy.prepend(set_all(document.createElementNS(SVG, "rect"), { width: "100%", height: "100%", fill }))
     return copy
   }
   return { el: svg, draw }
@@ -38,8 +37,8 @@ function drawing_of(svg) {
 function find_deep(node, selector) {
   const found = node.querySelector(selector)
   if (found) return found
-  for (const element of node.querySelectorAll("*")) {
-    const deeper = element.shadowRoot && find_deep(element.shadowRoot, selector)
+  for (const part of node.querySelectorAll("*")) {
+    const deeper = part.shadowRoot && find_deep(part.shadowRoot, selector)
     if (deeper) return deeper
   }
   return null
@@ -47,12 +46,9 @@ function find_deep(node, selector) {
 
 function svg_of(view) {
   if (view.draw) return view.draw()
-  const svg = view.export("svg", false).ctx.get_svg().cloneNode(true)
   const { width, height } = view.bbox
-  svg.setAttribute("width", width)
-  svg.setAttribute("height", height)
-  svg.setAttribute("viewBox", `0 0 ${width} ${height}`)
-  return svg
+  const svg = view.export("svg", false).ctx.get_svg().cloneNode(true)
+  return set_all(svg, { width, height, viewBox: `0 0 ${width} ${height}` })
 }
 
 // Ids within a drawing are its own: several stand in one file.
@@ -71,56 +67,36 @@ function with_own_ids(svg, mark) {
   return svg
 }
 
-// Where figures stand beside each other, in one box around them all.
-function layout_of(views) {
+// Views as one drawing, placed as on the page, with its size.
+function drawing_of_all(views, title = "") {
   const boxes = views.map((view) => view.el.getBoundingClientRect())
   const left = Math.min(...boxes.map((box) => box.left)), top = Math.min(...boxes.map((box) => box.top))
-  return {
-    places: boxes.map((box) => [box.left - left, box.top - top]),
-    width: Math.ceil(Math.max(...boxes.map((box) => box.right)) - left),
-    height: Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top),
-  }
-}
-
-function figures_as_svg(views, title) {
-  const { places, width, height } = layout_of(views)
-  const whole = document.createElementNS(SVG, "svg")
-  whole.setAttribute("xmlns", SVG)
-  whole.setAttribute("width", width)
-  whole.setAttribute("height", height)
-  whole.setAttribute("viewBox", `0 0 ${width} ${height}`)
-  whole.setAttribute("role", "img")
+  const width = Math.ceil(Math.max(...boxes.map((box) => box.right)) - left)
+  const height = Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top)
   const words = document.createElementNS(SVG, "title")
   words.textContent = title
-  whole.append(words)
-  views.forEach((view, i) => {
-    const svg = with_own_ids(svg_of(view), `figure${i}`)
-    svg.setAttribute("x", places[i][0])
-    svg.setAttribute("y", places[i][1])
-    whole.append(svg)
-  })
-  return new XMLSerializer().serializeToString(whole)
+  const whole = set_all(document.createElementNS(SVG, "svg"),
+    { xmlns: SVG, width, height, viewBox: `0 0 ${width} ${height}`, role: "img" })
+  whole.append(words, ...views.map((view, i) => set_all(with_own_ids(svg_of(view), `figure${i}`),
+    { x: boxes[i].left - left, y: boxes[i].top - top })))
+  return { text: new XMLSerializer().serializeToString(whole), width, height }
 }
+
+const figures_as_svg = (views, title) => drawing_of_all(views, title).text
 
 // Twice as fine as the screen, or as fine as it is where that is finer.
 async function figures_as_png(views) {
-  const { places, width, height } = layout_of(views)
-  const canvas = document.createElement("canvas")
+  const { text, width, height } = drawing_of_all(views)
   const scale = Math.max(2, window.devicePixelRatio)
-  canvas.width = width*scale
-  canvas.height = height*scale
+  const canvas = Object.assign(document.createElement("canvas"), { width: width * scale, height: height * scale })
   const context = canvas.getContext("2d")
   context.fillStyle = "white"
   context.fillRect(0, 0, canvas.width, canvas.height)
-  context.scale(scale, scale)
-  for (const [i, view] of views.entries()) {
-    const image = new Image()
-    const text = new XMLSerializer().serializeToString(svg_of(view))
-    image.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }))
-    await image.decode()
-    context.drawImage(image, ...places[i])
-    URL.revokeObjectURL(image.src)
-  }
+  const image = new Image()
+  image.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }))
+  await image.decode()
+  context.drawImage(image, 0, 0, canvas.width, canvas.height)
+  URL.revokeObjectURL(image.src)
   return new Promise((done) => canvas.toBlob(done, "image/png"))
 }
 

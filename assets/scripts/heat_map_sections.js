@@ -1,5 +1,5 @@
 // Draws the lines across a map at the pointer, or where the scene is.
-// See app/bearing_explorer/plotting/plane.py. sideways: the line runs to the right; else upwards.
+// See app/bearing_explorer/plots/plane.py. sideways: the line runs to the right; else upwards.
 const pointed = cb_obj.event_name == "mousemove"
 let {x, y} = pointed ? cb_obj : {x: NaN, y: NaN}
 if (!pointed && mark && mark.data.x.length) [x, y] = [mark.data.x[0], mark.data.y[0]]

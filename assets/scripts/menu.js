@@ -1,5 +1,5 @@
-// A panel that opens below its button, and closes by Escape or a click beside it. It has to stand in
-// the same shadow as its button, and says with "popover" that it is one.
+// A popover that opens below its button, which is in the same shadow tree, and closes by Escape or a
+// click outside.
 function opens_below(opener, panel, widest) {
   opener.setAttribute("aria-expanded", "false")
   opener.addEventListener("click", () => panel.togglePopover({ source: opener }))
@@ -21,7 +21,7 @@ function opens_below(opener, panel, widest) {
   })
 }
 
-// A menu of `items`, buttons: arrow keys move in it, and whatever is chosen closes it.
+// A menu of `items`, buttons: arrow keys move in it, and a choice closes it.
 function menu_of(items, attributes) {
   for (const item of items) {
     item.setAttribute("role", "menuitem")

@@ -1,14 +1,12 @@
 // What all panels of controls share: sliders with numbers to type into, and choices.
 //
-// What a hand moves is sent at once, but never more than two changes ahead of what is drawn
-// (`window.__mark` is the number of the newest change drawn): a slow server is asked less often,
-// and always for the newest position. The server judges everything; a refusal comes back as a
-// sentence that is shown beside its control.
+// A drag is sent at once, but never more than two changes ahead of what is drawn (`window.__mark` is
+// the number of the newest change drawn): a slow server gets fewer changes, and always the newest
+// position. The server checks everything; a refusal comes back as a sentence for its control.
 //
-// The second change on the way bridges the network and the repaint. Where many people share a
-// server, changes wait there behind those of others, each as long as all others take. So one at a
-// time is sent then, and it waits here for a part of that time, where it is still the hand's
-// newest position: as many pictures come, each of a position not so long ago.
+// The second change on the way bridges the network and the repaint. On a server that many share,
+// changes queue behind those of others. Then one at a time is sent, and held here for a part of that
+// time, while it can still be replaced by a newer position: as many pictures come, each more recent.
 
 const AHEAD = 2           // changes that may be on their way
 const PATIENCE = 400      // ms until a change counts as lost
@@ -25,19 +23,25 @@ const format = (value, step) => {
     .replace("-", "\u2212")
 }
 
-// What a quantity is and how far its slider goes, under the pointer.
+// Meaning, unit and range of a quantity, as a tooltip.
 const tip = ({ about, unit, limit: { least, most } }) => {
   const in_unit = unit === "\u00b0" || unit === "" ? unit : `\u00a0${unit}`
   const kind = unit ? `In ${unit === "\u00b0" ? "degrees (\u00b0)" : unit}` : "A number"
   return `${about}\n${kind}; the slider goes from ${least} to ${most}${in_unit}.`.replace(/-(?=\d)/g, "\u2212")
 }
 
-// A box as wide as its number, so that "−100000" is not cut.
+// Boxes are as wide as their numbers, so that "−100000" is not cut.
 const WIDEST = 13  // digits
 function write_in(input, text) {
   if (input.value === text) return
   input.value = text
   fit(input)
+}
+function number_box(attributes) {
+  const box = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", ...attributes })
+  box.addEventListener("input", () => fit(box))
+  box.addEventListener("focus", () => box.select())
+  return box
 }
 function fit(input) {
   const count = Math.min(input.value.length, WIDEST)
@@ -61,7 +65,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     sent_at = performance.now()
     on_way.set(asked(), sent_at)
   }
-  // A picture has come: how long its change waited for others decides how the next is sent.
+  // How long the newest picture's change queued decides how the next is sent.
   const learn = () => {
     let way = -Infinity
     for (const [mark, began] of on_way) {
@@ -99,7 +103,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     wait_no_more(send_now)
     send(message)
   }
-  // The hand lets go: what it did was one step, to be undone as one. A key held down is one too.
+  // The end of a drag: it is one step to undo. A key held down is one too.
   const release = () => {
     pending = { ...pending }
     released = true
@@ -128,28 +132,29 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     row.slider.style.setProperty("--to", `${ends[1]}%`)
     row.slider.setAttribute("aria-valuetext", value === null
       ? row.number.placeholder || "no value" : `${format(value, limit.step)} ${row.unit}`)
-    show_twin(name)
+    show_second(name)
     changed(name, value)
   }
   // The same number in its second unit, which can be typed too.
-  const show_twin = (name) => {
-    const { twin } = rows[name], known = second_units[name]
-    twin.root.hidden = !known
-    if (!known || twin.root.contains(twin.number.getRootNode().activeElement)) return
+  const show_second = (name) => {
+    const { second } = rows[name], known = second_units[name]
+    second.root.hidden = !known
+    if (!known || second.root.contains(second.number.getRootNode().activeElement)) return
     const value = values[name]
-    if (twin.unit.textContent !== known.unit || twin.number.title !== known.words) {
-      twin.unit.textContent = known.unit
-      twin.number.setAttribute("aria-label", `${rows[name].label} in ${known.unit}, ${known.words}`)
-      twin.number.title = known.words
+    if (second.unit.textContent !== known.unit || second.number.title !== known.words) {
+      second.unit.textContent = known.unit
+      second.number.setAttribute("aria-label", `${rows[name].label} in ${known.unit}, ${known.words}`)
+      second.number.title = known.words
     }
-    write_in(twin.number, value === null || value === undefined ? ""
+    write_in(second.number, value === null || value === undefined ? ""
       : String(Number((value * known.factor).toPrecision(5))).replace("-", "\u2212"))
   }
-  const put = (name, value) => {
+  // Shows a value; `typed`: also where its number is being typed.
+  const put = (name, value, typed = false) => {
     const row = rows[name]
     values[name] = value
     row.slider.value = value ?? limits[name].least
-    if (row.root.querySelector("input:focus") !== row.number)
+    if (typed || row.root.querySelector("input:focus") !== row.number)
       write_in(row.number, format(value, limits[name].step))
     paint(name)
   }
@@ -163,8 +168,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   const move = (name, value) => {
     refuse(name, "")
-    put(name, value)
-    write_in(rows[name].number, format(value, limits[name].step))
+    put(name, value, true)
     push(name, value)
   }
 
@@ -173,13 +177,10 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     const slider = element("input", {
       type: "range", id, "aria-describedby": `${id}-refusal ${id}-about`,
     })
-    const number = element("input", {
-      type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
-      class: "number", "aria-label": `${label}${unit ? ` in ${unit}` : ""}, type a number`,
-    })
+    const number = number_box({ class: "number", "aria-label": `${label}${unit ? ` in ${unit}` : ""}, type a number` })
     const refusal = element("p", { class: "refusal", role: "alert", id: `${id}-refusal`, hidden: "" })
     const extra = element("span", { class: "extra" })
-    // What it is: under the pointer at once, and to stay by a click on its symbol.
+    // Its meaning is a tooltip, and a note after a click on its symbol.
     const help = element("button", {
       type: "button", class: "symbol", html: symbol || "?",
       "aria-controls": `${id}-about`, "aria-label": `About ${label.toLowerCase()}`,
@@ -188,18 +189,14 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     const head = element("div", { class: "head" },
       element("span", { class: "named" }, title, help), extra,
       element("span", { class: "entry" }, number, element("span", { class: "unit" }, unit)))
-    const twin = {
-      number: element("input", { type: "text", inputmode: "decimal", autocomplete: "off",
-        spellcheck: "false", class: "second" }),
-      unit: element("span", { class: "unit" }),
-    }
-    twin.root = element("span", { class: "entry twin", hidden: "" }, twin.number, twin.unit)
-    const line = element("div", { class: "line" }, slider, twin.root)
+    const second = { number: number_box({ class: "second" }), unit: element("span", { class: "unit" }) }
+    second.root = element("span", { class: "entry twin", hidden: "" }, second.number, second.unit)
+    const line = element("div", { class: "line" }, slider, second.root)
     const words = element("p", { class: "note", id: `${id}-about` }, about)
     const root = element("div", { class: `control control-${name}`, "data-name": name },
       head, line, refusal, words)
     unfolds(help, words)
-    rows[name] = { asked: 0, root, named: head.firstChild, slider, number, refusal, extra, unit, line, about, label, symbol, twin }
+    rows[name] = { asked: 0, root, named: head.firstChild, slider, number, refusal, extra, unit, line, about, label, symbol, second }
 
     slider.addEventListener("input", () => move(name, Number(slider.value)))
     slider.addEventListener("change", () => { if (!held) release() })
@@ -209,15 +206,11 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
     }
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
-    for (const input of [number, twin.number])
-      input.addEventListener("input", () => fit(input))
-    number.addEventListener("focus", () => number.select())
-    twin.number.addEventListener("focus", () => twin.number.select())
-    twin.number.addEventListener("blur", () => show_twin(name))
-    twin.number.addEventListener("change", () => {
-      const given = Number(twin.number.value.replace("\u2212", "-").replace(",", "."))
-      const text = twin.number.value.trim() && isFinite(given)
-        ? String(Number((given / second_units[name].factor).toPrecision(12))) : twin.number.value
+    second.number.addEventListener("blur", () => show_second(name))
+    second.number.addEventListener("change", () => {
+      const given = Number(second.number.value.replace("\u2212", "-").replace(",", "."))
+      const text = second.number.value.trim() && isFinite(given)
+        ? String(Number((given / second_units[name].factor).toPrecision(12))) : second.number.value
       send({ typed: { [name]: text } })
     })
     number.addEventListener("keydown", (event) => {
@@ -262,7 +255,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     return root
   }
 
-  // Values and choices that this panel does not show are other panels' business.
+  // Shows a state of the server; values and choices that this panel does not have are passed over.
   const take = (state) => {
     Object.assign(second_units, state.second_units ?? {})
     for (const [name, limit] of Object.entries(state.limits ?? {})) {
@@ -274,17 +267,16 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     }
     for (const [name, value] of Object.entries(state.values ?? {})) {
       if (!rows[name] || !limits[name]) continue
-      if (rows[name].asked > state.mark) continue  // moved since the server said this
+      if (rows[name].asked > state.mark) continue  // moved since
       refuse(name, "")
-      put(name, value)
-      write_in(rows[name].number, format(value, limits[name].step))
+      put(name, value, true)
     }
     for (const [name, value] of Object.entries(state.choices ?? {})) {
       if (!selects[name]) continue
       refuse(name, "")
       selects[name].show(value)
     }
-    if (state.second_units) for (const name of Object.keys(rows)) show_twin(name)
+    if (state.second_units) for (const name of Object.keys(rows)) show_second(name)
     if (state.draft) show_draft(state.draft)
     if (state.bearing) show_own(state.bearing, state.changed)
     if (state.hidden)
@@ -302,7 +294,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       rows[name].root.classList.toggle("drafted", waiting.includes(name))
     for (const [name, sentence] of Object.entries(faults)) refuse(name, sentence)
   }
-  // A bearing that is none of the list stands in it under its own name.
+  // A bearing that is not on the list is added to it under its own name.
   const show_own = ({ name, own }, changed) => {
     const select = selects.preset?.select
     if (!select) return

@@ -1,1 +1,1 @@
-"""The measured signal of a session: file or simulation, what is asked about it, its spectra."""
+"""The measured signal of a session: file or simulation, questions about it, its spectra."""

@@ -1,9 +1,9 @@
-"""How loud the noise of a simulated measurement is.
+"""The noise level of a simulated measurement.
 
-A machine hums as loud with a healthy bearing as with a damaged one. So where the scene has no
-defect, noise is measured against what a short one would give: against the bearing's own faint
-vibration it would leave a quiet that no sensor on a machine has ever met, in which even the balls
-of a healthy bearing show as they pass under the load.
+The noise of a machine is the same with a healthy bearing as with a damaged one. So where the scene
+has no defect, the level is relative to the vibration of a short one: relative to the healthy
+bearing's own faint vibration, noise would be far below that of any machine, and even its ball
+passes would show.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from bearing_explorer.state.settings import Settings
 from bearingcore import Defect, Scene
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
-"""[rad], [m] of the defect below the load whose vibration stands for that of damage."""
+"""[rad], [m] of the defect under the load to whose vibration the noise is relative."""
 
 
 def true_part(scene: Scene) -> str:

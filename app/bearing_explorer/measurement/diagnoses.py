@@ -1,8 +1,8 @@
-"""Which part is damaged, found in the background: once for each recording and bearing.
+"""Diagnoses of the damaged part in the background: one for each recording and bearing.
 
 Holds no Panel. A diagnosis takes from tenths of a second to seconds; pictures do not wait for it.
-A view asks `of`, which knows the answer or does not yet, and says what it wants; when the answer is
-there, everything is drawn again. Only the newest question is worked on.
+A view calls `of` for an answer that is there, and `want` for one that is not; when it has come,
+everything is drawn again. Only the newest question is worked on.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ ROUGH = 0.1
 """By how much a rough shaft speed may be off, as a fraction."""
 
 SPEEDS = {"given": "as given", "rough": "within 10 %", "unknown": "not known"}
-"""How well the shaft speed is known, in words."""
+"""Knowledge of the shaft speed, in words."""
 
 SLIP = 0.02
 """By how much balls may pass faster or slower than the shaft speed says."""
 
-FAILED = "The signal could not be looked at."
+FAILED = "The signal could not be analysed."
 
 MOST_KNOWN = 12
 """Answers about one recording that are kept."""
@@ -37,7 +37,7 @@ MOST_KNOWN = 12
 
 @dataclass(frozen=True)
 class Question:
-    """What is to be diagnosed: a recording, taken on a bearing, at a speed known so well.
+    """A recording to diagnose, its bearing, and the knowledge of its shaft speed.
 
     Two are the same where a bearing's balls, diameters and contact angle are: nothing else of it
     counts.
@@ -90,7 +90,7 @@ class Diagnoses:
     assign
         runs a change of the page's models and sends it, as `live.one_message` does.
     draw
-        asks for a drawing.
+        requests a drawing.
     """
 
     def __init__(
@@ -107,7 +107,7 @@ class Diagnoses:
         return self._known.get(question)
 
     def newest(self, measured: Measured, bearing: Bearing) -> Diagnosis | None:
-        """The diagnosis of a recording on a bearing, at the speed that was asked about last."""
+        """The diagnosis of a recording on a bearing, at the speed of the newest question."""
         speed = self._wanted.speed if self._wanted is not None else "given"
         answer = self._known.get(Question.about(measured, bearing, speed))
         return answer if isinstance(answer, Diagnosis) else None

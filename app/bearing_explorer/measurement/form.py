@@ -1,11 +1,11 @@
-"""What a table of numbers is asked about before it is a measurement, and what is guessed.
+"""The questions that make a table of numbers a measurement, and guesses at their answers.
 
 Which columns are the housing's acceleration along x and y, in what unit, how often it was sampled,
 how fast the shaft turned. The form holds text, as a person types it.
 
-What is needed to draw anything is asked first (`questions`). How large a number of the file is
-(`size_questions`) is asked too, and never guessed; until that is answered the numbers are taken as
-they stand, for what does not depend on it.
+`questions` have to be answered before anything is drawn. `size_questions` are about the size of the
+numbers, which is never guessed; until they are answered the numbers are taken as they are, for what
+does not depend on it.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ MOST_SAID = 12
 
 _WORDS = {
     "sample_rate": ("The sample rate", "Hz", 10.0, 1e7),
-    "full_scale": ("What a 1 in the file stands for", "", 1e-12, 1e12),
+    "full_scale": ("The value of a 1 in the file", "", 1e-12, 1e12),
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
     "shaft_speed": ("The shaft speed", "Hz", 1e-3, 1e4),
 }
@@ -57,8 +57,8 @@ USUAL_SENSITIVITY = 100
 
 
 @dataclass(frozen=True)
-class Asked:
-    """The form as it is understood: a recording, the shaft speed [rad/s] at it, its origin.
+class FormResult:
+    """A form as it is read: a recording, its shaft speed [rad/s], its origin.
 
     Without `in_si` the recording holds the numbers of the file: their unit is not known.
     """
@@ -78,7 +78,7 @@ class FormError(ValueError):
 
 
 def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
-    """What stands in the form at first; `shaft_speed_hz` where the file does not tell it."""
+    """The first values of the form; the shaft speed is `shaft_speed_hz` where the file has none."""
     contents = table.contents
     rate, speed = contents.sample_rate, contents.shaft_speed
     chosen = contents.choice.columns
@@ -107,7 +107,7 @@ def reasons(table: Table) -> dict[str, str]:
     found["unit"] = _because(contents.unit) if contents.unit.stated else "The file does not say it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
-    found["sensitivity"] = "It stands on the sensor's label."
+    found["sensitivity"] = "See the label of the sensor."
     found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
     found["shaft_speed"] = (
         "The file does not say it; this is the scene's." if speed is None else _because(speed)
@@ -120,7 +120,7 @@ def _because(finding: Finding[Any]) -> str:
 
 
 def questions(table: Table) -> dict[str, str]:
-    """What a person has to answer before the signal can be taken, by field."""
+    """Questions to answer before the signal can be drawn, by field."""
     contents = table.contents
     asked: dict[str, str] = {}
     choice = contents.choice
@@ -143,21 +143,21 @@ def proposed_unit(table: Table) -> str | None:
 
 
 def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
-    """What a person has to answer before the signal has a size, by field."""
+    """Questions to answer before the signal has a size, by field."""
     if form["unit"] == NOT_KNOWN:
         likely = proposed_unit(table)
         why = f" {likely} is likely: {table.contents.unit.reason}." if likely else ""
         return {"unit": f"In what unit is it? The file does not say.{why}"}
     if form["unit"] in VOLTAGES and not form["sensitivity"].strip():
         return {
-            "sensitivity": "What is the sensitivity of the sensor? It stands on its label; "
+            "sensitivity": "What is the sensitivity of the sensor? See its label; "
             f"{USUAL_SENSITIVITY} mV/g is usual."
         }
     return {}
 
 
 def said(table: Table) -> str:
-    """What else a file says about itself, in a line; its load in newtons too."""
+    """Other numbers and words of a file, in a line; its load in newtons."""
     contents = table.contents
     stated = [
         f"{_short(name)} {_short(text)}" for name, text in list(contents.said.items())[:MOST_SAID]
@@ -188,7 +188,7 @@ def columns_of(table: Table) -> list[list[str]]:
 
 
 def usable(table: Table) -> bool:
-    """Whether any of the columns could be a signal."""
+    """True where any of the columns could be a signal."""
     for index, column in enumerate(table.contents.columns):
         signal = table.columns[:, index]
         filled = np.flatnonzero(~np.isnan(signal))
@@ -199,8 +199,8 @@ def usable(table: Table) -> bool:
     return False
 
 
-def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) -> Asked:
-    """The recording that a form asks for; `FormError` with sentences where it cannot be.
+def read_form(table: Table, form: Mapping[str, Any], speed_known: bool = True) -> FormResult:
+    """The recording that a form describes; `FormError` with sentences where it describes none.
 
     `speed_known` says whether the shaft speed is that of the measurement, or only the scene's.
     """
@@ -240,7 +240,7 @@ def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) 
         recording = table.recording(
             columns,
             list(chosen),
-            texts["unit"] if in_si else "m/s²",  # as they stand
+            texts["unit"] if in_si else "m/s²",  # as they are
             numbers["sample_rate"],
             numbers["full_scale"],
             sensitivity=sensitivity,
@@ -251,11 +251,11 @@ def understood(table: Table, form: Mapping[str, Any], speed_known: bool = True) 
             {next(iter(chosen)): f"These columns are no signal: {_said_by(error)}."}
         ) from None
     origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
-    return Asked(recording if in_si else _without_size(recording), speed, origin, in_si)
+    return FormResult(recording if in_si else _without_size(recording), speed, origin, in_si)
 
 
 def _without_size(recording: Recording) -> Recording:
-    """The recording without what is said of a size that nobody knows."""
+    """The recording without notes about its size, which is not known."""
     doubts = {level_doubt(float(level)) for level in recording.acceleration.std(axis=0)}
     notes = tuple(note for note in recording.notes if note not in doubts)
     return dataclasses.replace(recording, notes=notes)
@@ -288,7 +288,7 @@ def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]
 
 
 def _said_by(error: ValueError) -> str:
-    """What the core says of a signal, without the quotes around what is no number there."""
+    """The refusal of a signal in words."""
     if isinstance(error, FieldError) and error.field == "acceleration":
         return f"the acceleration is {error.value}; allowed: {error.allowed_text}"
     return str(error)

@@ -1,7 +1,7 @@
-"""The measured signal of a session: a file that somebody brings, or a simulated measurement.
+"""The measured signal of a session: an uploaded file, or a simulated measurement.
 
 Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and is
-asked about; whatever is wrong with it is said in a sentence, and the signal before it stays.
+opens a form with questions; its faults are sentences, and the signal before it stays.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from bearing_explorer.measurement.diagnoses import Diagnoses
 from bearing_explorer.measurement.form import (
     LONGEST_TEXT,
     SIZES,
-    Asked,
     FormError,
+    FormResult,
     columns_of,
     guess,
     load_of,
     proposed_unit,
     questions,
+    read_form,
     reasons,
     said,
     size_questions,
-    understood,
     usable,
 )
 from bearing_explorer.measurement.signal import Measured
@@ -59,20 +59,20 @@ RATE = 25_600.0
 """[Hz] of simulated measurements."""
 
 PASSES = 200.0
-"""Ball passes in one, where that is neither very short nor very long: enough to tell lines apart
-that lie a turn of the shaft beside each other."""
+"""Ball passes in one, where that is neither very short nor very long: enough to separate lines that
+are one shaft frequency apart."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
 SETTLING = 0.3  # [s] before a simulated measurement begins
 
 FIRST_WORDS = (
-    "No signal yet: choose a file with the acceleration of the housing, or simulate one of the "
-    "scene beside."
+    "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
+    "current scene."
 )
 
 _WITHOUT_SIZE = (
-    "Which part is damaged does not depend on it and is looked for. The size of the defect, and "
-    "spectra beside the model, wait for the answer."
+    "The diagnosis of the damaged part does not depend on it. The size of the defect and the "
+    "comparison with the model wait for the answer."
 )
 _SPEED_OF_SCENE = (
     "The shaft speed is that of the scene: type in the measured one if it was another."
@@ -81,7 +81,7 @@ _SPEED_OF_SCENE = (
 
 @dataclass(frozen=True)
 class MeasurementState:
-    """What the page shows of the measurement's panel."""
+    """The state of the panel of a measurement."""
 
     words: str = FIRST_WORDS
     bad: bool = False
@@ -95,16 +95,16 @@ class MeasurementState:
     open: list[str] = field(default_factory=list)
     #: the unit that is likely where the file does not say it, "" where none is; None if it does
     proposed: str | None = None
-    #: what the file says beside its signals
+    #: other numbers and words of the file
     said: str = ""
-    #: [N] in the file, None where it tells none
+    #: [N] in the file, None where it has none
     load: float | None = None
     scaled: bool = False
 
 
 @dataclass(frozen=True)
 class Sized:
-    """What the size of a defect was found to be: of which signal, taken on which scene."""
+    """The size that was found for a defect, with its signal and its scene."""
 
     measured: Measured
     scene: Scene
@@ -121,7 +121,7 @@ class Measurement:
     assign
         runs a change of the page's models and sends it, as `live.one_message` does.
     draw
-        asks for a drawing.
+        requests a drawing.
     """
 
     def __init__(
@@ -133,8 +133,8 @@ class Measurement:
         self.measured: Measured | None = None
         self.sized: Sized | None = None
         self.state = MeasurementState()
-        #: hear of news: the state, and where the next piece of a file should begin; `of` comes
-        #: back with it, so that pieces of a file that was given up are told from those of the next
+        #: called with the new state, and with the first byte of the next piece of a file; the
+        #: number `of` comes back with the piece, which tells the files apart
         self.show: Callable[[MeasurementState], None] = lambda _: None
         self.want: Callable[[int, int], None] = lambda begin, of: None
         #: takes a message as the controls send it
@@ -207,9 +207,9 @@ class Measurement:
         self._in_background(read, self._take_read, upload.name)
 
     def _take_read(self, found: _Read) -> None:
-        """The file is read and could be asked about: it takes the place of the one before.
+        """Take a file that was read in place of the one before.
 
-        The figures of the one before leave with it, so that none stands under another's name.
+        The figures of the one before leave with it, so that none is shown under another's name.
         """
         table = found.table
         self._table, self._cut, self._first = table, found.cut, found.form
@@ -262,7 +262,9 @@ class Measurement:
             table.name,
         )
 
-    def _take_tried(self, texts: dict[str, str], found: Asked | FormError, left: list[str]) -> None:
+    def _take_tried(
+        self, texts: dict[str, str], found: FormResult | FormError, left: list[str]
+    ) -> None:
         if isinstance(found, FormError):
             stays = " What is drawn is the signal as it was." if self.measured else ""
             self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
@@ -336,7 +338,7 @@ class Measurement:
     def _in_background(
         self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
     ) -> None:
-        """Compute in a thread and take what comes out of it, unless something newer was asked."""
+        """Compute in a thread and take the result, unless a newer request has come."""
         number = self._latest
 
         async def run() -> None:
@@ -372,15 +374,15 @@ _WAITS = "Nothing is drawn yet:"
 
 @dataclass(frozen=True)
 class _Read:
-    """A file's table, what stands in its form, and the recording or why there is none yet.
+    """A file's table, the values of its form, and the recording or why there is none yet.
 
-    `asks` is asked before there is a recording, `sizes` before it has a size.
+    `asks` are the questions before there is a recording, `sizes` those before it has a size.
     """
 
     table: Table
     form: dict[str, str]
     cut: str
-    asked: Asked | None
+    asked: FormResult | None
     refused: dict[str, str]
     asks: dict[str, str]
     sizes: dict[str, str]
@@ -415,18 +417,18 @@ def _about_size(sizes: Mapping[str, str]) -> str:
 
 
 def _speed_is_stated(table: Table) -> bool:
-    """Whether the file itself says how fast the shaft turned."""
+    """True where the file itself has the shaft speed."""
     speed = table.contents.shaft_speed
     return speed is not None and speed.stated
 
 
-def _measured(asked: Asked) -> Measured:
+def _measured(asked: FormResult) -> Measured:
     return Measured(asked.recording, asked.shaft_speed, origin=asked.origin, in_si=asked.in_si)
 
 
-def _tried(table: Table, form: Mapping[str, str], speed_known: bool) -> Asked | FormError:
+def _tried(table: Table, form: Mapping[str, str], speed_known: bool) -> FormResult | FormError:
     try:
-        return understood(table, form, speed_known)
+        return read_form(table, form, speed_known)
     except FormError as refused:
         return refused
 
@@ -442,7 +444,7 @@ def _shortened(table: Table) -> tuple[Table, str]:
 
 
 def summary(measured: Measured | None, scene: Scene) -> str:
-    """What the signal is, in a sentence."""
+    """The signal in a sentence."""
     if measured is None:
         return FIRST_WORDS
     recording = measured.recording

@@ -1,4 +1,4 @@
-"""A measured signal beside a scene: spectra and envelopes of both, computed when first asked for.
+"""A measured signal and the same of a scene: spectra and envelopes, computed when first used.
 
 As with `compute.results`, everything that is drawn of a measurement passes through here.
 """
@@ -37,7 +37,7 @@ HIGHEST_SHARE = 0.4
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a recording comes from: columns of a file, and what a 1 in it stands for [unit].
+    """The origin of a recording: columns of a file, and the value of a 1 in it [unit].
 
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages.
     """
@@ -68,8 +68,8 @@ class Measured:
     noiseless
         whether it is simulated without any noise.
     in_si
-        whether the recording is in m/s². Else nobody knows its unit or its sensor, and its numbers
-        are those of the file: what needs sizes waits until that is answered.
+        True for a recording in m/s². Else its unit or its sensor is not known, and its numbers are
+        those of the file: everything that needs their size waits for the answer.
     """
 
     recording: Recording
@@ -91,7 +91,7 @@ class Measured:
         return self.recording.directions
 
     def finest(self, wanted: float) -> float:
-        """The resolution [Hz] that is had where `wanted` is asked for: two segments at least."""
+        """The resolution [Hz] nearest to `wanted` that the recording has: two segments at least."""
         coarsest = self.recording.sample_rate / 64.0
         return max(min(wanted, coarsest), 2.0 / self.recording.duration)
 
@@ -155,9 +155,9 @@ def _put(known: dict, key: object, value: object, most: int = 6) -> None:
 
 
 class Simulated:
-    """What the model says to a measurement: the scene at its shaft speed.
+    """The simulation of a measurement: the scene at its shaft speed.
 
-    Of the motion the start is left out, so that spectra do not hold the way to the steady state.
+    The start of the motion is left out, so that spectra hold the steady state alone.
     """
 
     def __init__(self, results: Results, measured: Measured) -> None:

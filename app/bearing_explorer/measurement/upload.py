@@ -1,6 +1,6 @@
-"""A file on its way from a browser: in pieces, as a message may hold no more than a few MB.
+"""A file from a browser, in pieces, as a message may hold no more than a few MB.
 
-What the browser says about it is not to be trusted: everything is judged here.
+Name, size and pieces are checked here, as any program can send them.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ MOST_BYTES = 24 * 2**20
 """Of a file that is taken from a browser."""
 
 PIECE = 2**20
-"""[bytes] of the pieces that the browser is asked for; far below what the websocket takes."""
+"""[bytes] of the pieces that the browser sends; far below the limit of the websocket."""
 
 LONGEST_NAME = 60
 
@@ -22,7 +22,7 @@ class Upload:
     Parameters
     ----------
     name, size
-        of the file [bytes], as the browser tells them.
+        of the file [bytes], as the browser gives them.
 
     Raises
     ------
@@ -47,17 +47,17 @@ class Upload:
 
     @property
     def length(self) -> int:
-        """How much has come [bytes]: where the next piece begins."""
+        """Received so far [bytes]: where the next piece begins."""
         return self._length
 
     @property
     def whole(self) -> bool:
-        """Whether all has come."""
+        """True once the file is complete."""
         return self._length == self.size
 
     @property
     def content(self) -> bytes:
-        """What has come."""
+        """The bytes received so far."""
         return b"".join(self._pieces)
 
     def take(self, piece: Any) -> None:
@@ -72,7 +72,7 @@ class Upload:
 
 
 def shown_name(name: Any) -> str:
-    """The name of a file as it may stand on the page."""
+    """The name of a file, short and printable."""
     text = "".join(c for c in str(name)[:400] if c.isprintable())
     text = " ".join(text.split())
     if len(text) > LONGEST_NAME:

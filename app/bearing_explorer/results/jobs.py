@@ -1,6 +1,6 @@
 """Long computations of a session, in the background: one at a time, with progress and cancel.
 
-The work runs in a thread and never touches the page. It reports how far it is, asks whether to go
+The work runs in a thread and never touches the page. It reports its progress, checks whether to go
 on, and shows what it has found so far; all of that is taken up on the event loop of the session,
 a few times a second. A new job replaces the one before, and the end of the session cancels.
 
@@ -27,14 +27,14 @@ LONGEST = 300.0
 """[s] after which a job is ended, with what it has found until then."""
 
 _TICK = 0.12  # [s] between two looks at a job
-_ASIDE = 1.0  # [s] that a sentence stands at least, so that it can be read and read out
+_ASIDE = 1.0  # [s] that a sentence is shown at least, so that it can be read and read out
 
 Mood = Literal["idle", "waiting", "busy", "done", "stopped", "failed"]
 
 
 @dataclass(frozen=True)
 class JobState:
-    """How a job goes: `part` of it is done, 0 to 1; `words` is a sentence for the page."""
+    """Progress of a job: `part` of it is done, 0 to 1; `words` is a sentence for the page."""
 
     mood: Mood
     part: float
@@ -42,12 +42,12 @@ class JobState:
 
     @property
     def running(self) -> bool:
-        """Whether there is something to cancel."""
+        """True while there is something to cancel."""
         return self.mood in ("waiting", "busy")
 
 
 class Work:
-    """What a job sees of the session, from its thread. Made to be handed to the core."""
+    """The session as a job sees it from its thread; can be passed to the core."""
 
     def __init__(self, longest: float = LONGEST) -> None:
         self._stop = threading.Event()
@@ -71,7 +71,7 @@ class Work:
         return progress
 
     def cancelled(self) -> bool:
-        """Whether to end soon, with what is found."""
+        """True once the job should end, with what it has."""
         if time.monotonic() - self.started > self._longest:
             self.timed_out = True
         return self.timed_out or self._stop.is_set()
@@ -93,7 +93,7 @@ class Work:
 
     @property
     def stopped(self) -> bool:
-        """Whether somebody asked it to end."""
+        """True once it was cancelled."""
         return self._stop.is_set()
 
 
@@ -118,7 +118,7 @@ class Jobs:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being computed or waits for its turn."""
+        """True while a job runs or waits."""
         return self._job is not None and not self._job.task.done()
 
     def start(
@@ -210,7 +210,7 @@ class Jobs:
         await self._report(job, state)
 
     async def _report(self, job: _Job, state: JobState) -> None:
-        """The last words about a job; a view that works on something newer does not hear them."""
+        """Report the end of a job, unless its view works on a newer one."""
         newer = self._job
         if self._ended or (newer is not None and newer is not job and newer.report == job.report):
             return
@@ -249,7 +249,7 @@ class _Job:
         return self._compute(self.work)
 
     def state(self) -> JobState:
-        """How it goes; the sentence changes seldom enough to be read."""
+        """The progress; its sentence changes seldom enough to be read."""
         now = time.monotonic()
         spent = now - self.work.started
         part = math.floor(self.work.part * 200.0) / 200.0
@@ -262,7 +262,7 @@ class _Job:
 
 
 def _progress_words(part: float, spent: float) -> str:
-    """How much is done and how long the rest may take [s], if it goes on as before."""
+    """Share done, and the time that the rest may take [s] at the same rate."""
     if part < 0.02 or spent < 1.0:
         return "Computing."
     left = spent * (1.0 - part) / part

@@ -6,14 +6,14 @@ A lesson is a text file in Markdown with a head in TOML::
     title = "What a ball carries"
     tab = "load"                       # what is on screen: a tab of the page
     preset = "fan-rig"                 # the scene to begin with ...
-    drag = ["fy_n", "cage_angle_deg"]  # the controls that stand beside the words
+    drag = ["fy_n", "cage_angle_deg"]  # the controls shown with the words
     watch = ["load-distribution"]      # the figures to look at; they are marked
 
     [scene]                            # ... and what is changed in it
     extent_deg = 0
     edge = "chord"
 
-    [predict]                          # asked before the answer; may be left out
+    [predict]                          # before the answer; may be left out
     ask = "Which ball carries most?"
     choose = ["the first", "the lowest", "all the same"]
     right = 2                          # counted from 1
@@ -21,11 +21,11 @@ A lesson is a text file in Markdown with a head in TOML::
     ## Question
     Which ball carries most?
     ## Answer
-    The last part is hidden until it is asked for.
+    The last part is hidden behind a button.
 
 A prediction can be a number instead: ``unit``, ``right`` and ``within`` in place of ``choose``.
 
-Parts begin with ``##``. Formulas stand between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
+Parts begin with ``##``. Formulas are between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
 that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
 says how, and simulates a measurement of it. Files are read in the order of their names; without
@@ -78,7 +78,7 @@ MOST_LESSONS = 60
 MOST_FILES = 5_000
 """Names that are looked at in a folder."""
 MOST_OF = {"](": 40, "$": 120, "[": 300, "|": 800, "*": 800, "`": 400, "\n": 800, "\\": 1500}
-"""How often signs may stand in a lesson that take more than their share of time to read."""
+"""Greatest numbers of signs that are slow to parse."""
 MOST_DOTS = 100
 """Dots in a head: names in parts take time as the square of their number."""
 LONGEST_NAME = 60  # characters
@@ -89,13 +89,13 @@ _MOST_LISTED = 16
 CHOICES: Mapping[str, Sequence[str]] = {
     choice.name: choice.in_lessons for choice in CHOICE_LIST if choice.in_lessons
 }
-"""What a lesson may choose besides numbers."""
+"""Choices that a lesson may make, and their options."""
 
 DRAGGED = (
     *(field.key for field in SHOWN_FIELDS if field.group in SCENE_GROUPS),
     *(choice.name for choice in CHOICE_LIST if choice.lesson_control),
 )
-"""The controls that can stand beside the words."""
+"""Controls that can be shown with the words."""
 
 _FENCE = "+++"
 _HEAD = {
@@ -121,7 +121,7 @@ _MATHML_ATTRIBUTES = (
 
 
 class LessonError(ValueError):
-    """What is wrong with a lesson, in a sentence; `line` counts from 1."""
+    """A fault of a lesson in a sentence; `line` counts from 1."""
 
     def __init__(self, line: int, words: str) -> None:
         super().__init__(words)
@@ -138,7 +138,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Prediction:
-    """What is asked before the answer is shown.
+    """A question before the answer is shown.
 
     Either out of `choices`, of which number `right` is right, counted from 0; or, without choices,
     a number of `unit`, right from `right` − `within` to `right` + `within`.
@@ -176,7 +176,7 @@ class Lesson:
         editor.set(self.values)
 
     def for_browser(self, number: int) -> dict[str, Any]:
-        """What the page shows of it; `number` counts from 0."""
+        """The lesson as the page's script takes it; `number` counts from 0."""
         return {
             "number": number,
             "title": self.title,
@@ -197,7 +197,7 @@ class Fault:
 
 
 def own_folder() -> Path:
-    """Where the lessons lie that come with the program."""
+    """The folder of the lessons that come with the program."""
     return asset_path("lessons")
 
 
@@ -226,7 +226,7 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
 
 
 def faults_in(folder: Path, tabs: Tabs) -> list[str]:
-    """What is wrong with the lessons of a folder, a sentence for each file."""
+    """Faults of the lessons of a folder, a sentence for each file."""
     return [found.sentence for found in lessons_in(folder, tabs) if isinstance(found, Fault)]
 
 
@@ -282,7 +282,7 @@ def _without_links_to_files(tokens: list[Token]) -> None:
 
 def _content(path: Path) -> bytes:
     """The beginning of a file, one byte more than a lesson may have: a link may lead anywhere."""
-    # a pipe that nobody writes to would be waited for
+    # reading a pipe without a writer would block
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
     with open(handle, "rb") as file:
         if not stat.S_ISREG(os.fstat(handle).st_mode):
@@ -321,7 +321,7 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
         preset=head.text["preset"],
         values=scene[0],
         choices=scene[1],
-        drag=head.names("drag", DRAGGED, "a control beside the figures"),
+        drag=head.names("drag", DRAGGED, "a control of the page"),
         watch=head.names("watch", dict(tabs)[head.text["tab"]], "a figure of this tab"),
         parts=parts,
         predict=head.prediction(),
@@ -329,7 +329,7 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
 
 
 class _Head:
-    """The head of a lesson, judged."""
+    """The head of a lesson, checked."""
 
     def __init__(self, lines: list[str], tabs: Tabs) -> None:
         self._lines = lines
@@ -362,7 +362,7 @@ class _Head:
         self._on_list("preset", self.text["preset"], list(presets), "a preset")
 
     def error(self, name: str, words: str) -> LessonError:
-        """What is wrong with the entry `name`, with the line it stands in."""
+        """A fault of the entry `name`, with its line."""
         begins = re.compile(rf"\s*[\[\"']*\s*{re.escape(name)}\b")
         at = next((i for i, line in enumerate(self._lines) if begins.match(line)), 0)
         return LessonError(at + 2, words)
@@ -387,7 +387,7 @@ class _Head:
             raise self.error(refused.name, str(refused)) from None
 
     def prediction(self) -> Prediction | None:
-        """What is asked before the answer, judged."""
+        """The prediction, checked."""
         given = self._table.get("predict")
         if given is None:
             return None
@@ -434,7 +434,7 @@ def _of_toml(error: tomllib.TOMLDecodeError, n_lines: int) -> LessonError:
 
 
 def _near(name: str, known: Sequence[str]) -> str:
-    """What might have been meant: all that is known where that is little."""
+    """The nearest known name, or all of them where there are few."""
     if len(known) <= _MOST_LISTED:
         return f"there are {', '.join(known)}"
     close = difflib.get_close_matches(name, known, 1, 0.3)
@@ -469,7 +469,7 @@ def _changes(
     return {name: editor.values[name] for name in numbers}, choices
 
 
-# Words: Markdown to HTML that is safe whoever wrote it.
+# Words: Markdown to safe HTML.
 
 
 @cache
@@ -510,7 +510,7 @@ def _parts(text: str, offset: int, head: _Head, tabs: Tabs) -> tuple[Part, ...]:
 
 
 def _lower(token: Token) -> None:
-    """A heading of a part stands below the lesson's own title."""
+    """Lower a heading by one level: the lesson's own title is above it."""
     token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
 
 
@@ -571,7 +571,7 @@ def _simulate(rest: str, line: int, head: _Head) -> str:
 
 
 def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:
-    """What a button asks for that changes the scene."""
+    """The message of a button that changes the scene."""
     try:
         values, choices = _changes(head.editor(), changes)
     except _RefusedError as refused:

@@ -1,4 +1,4 @@
-"""Speed against accuracy on the scene at hand: measured, drawn, its steps taken over by a click."""
+"""Run time against error for the current scene; a click takes over the steps of a point."""
 
 from __future__ import annotations
 
@@ -393,7 +393,7 @@ class Accuracy(JobView[Found]):
         self._reset.disabled = not chosen
         note = "The program chooses the steps of the scene's motion."
         if step_rate is not None:
-            note = f"Steps set by hand: {step_rate:.0f} Hz."
+            note = f"Chosen steps: {step_rate:.0f} Hz."
         self._step_words.text = self._note or note
 
 
@@ -404,7 +404,7 @@ def look(slot: int) -> tuple[str, str]:
 
 
 def _usable(point: Point) -> bool:
-    """Whether the scene's motion can be marched with a point's steps."""
+    """True where the scene's motion can be computed with the steps of a point."""
     return point.method == "RK4" and "step_rate" in point.settings and not point.failed
 
 
@@ -419,7 +419,7 @@ def _drawn(result: Experiment) -> str:
 
 
 def drawn_error(result: Experiment, point: Point) -> float:
-    """The error at which a point stands; NaN where it stands on the edge."""
+    """The error at which a point is drawn; NaN at the edge of the figure."""
     error = point.errors.get(_drawn(result), math.nan)
     return error if not point.failed and math.isfinite(error) else math.nan
 
@@ -473,7 +473,7 @@ def _stability_sources(chart: StabilityChart) -> Sources:
 
 
 def _agreement(result: Experiment | StabilityChart) -> str:
-    """Who the reference is and how well it agrees, the worst where there are several."""
+    """The references, and their worst disagreement."""
     name = _drawn(result) if isinstance(result, Experiment) else "spectrum"
     references = (
         list(result.references.values()) if isinstance(result, Experiment) else [result.reference]
@@ -535,7 +535,7 @@ def _chart_words(chart: StabilityChart) -> str:
 
 
 def legend(result: Experiment | StabilityChart | None) -> str:
-    """What colours and markers mean, as HTML; methods that failed say why."""
+    """The legend as HTML; methods that failed with their reason."""
     items: list[tuple[str, str, str]] = []
     if isinstance(result, StabilityChart):
         signs = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}

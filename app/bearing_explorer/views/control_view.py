@@ -17,7 +17,7 @@ class ControlView(View):
     _asked: Callable[[Any], None] | None = None
 
     def attach(self, parts: SessionParts) -> None:
-        """From now on the session hears what is asked for, and the controls follow its scene."""
+        """Send changes to the session, and follow its scene."""
         super().attach(parts)
         self._asked = parts.ask
         self.rows.state = parts.editor.state()

@@ -1,4 +1,4 @@
-"""Which part is damaged: the bearing with the part marked, and the lines that say so."""
+"""The damaged part: the bearing with the part marked, and the envelope spectrum behind it."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class PartDiagnosis(MeasuredView):
     # What it is about
 
     def question(self, bearing: Bearing) -> Question | None:
-        """What is to be diagnosed on a bearing; None where nothing is measured."""
+        """The question about a bearing; None where nothing is measured."""
         measured = self.measured
         return None if measured is None else Question.about(measured, bearing, self.speed)
 
@@ -175,7 +175,7 @@ class PartDiagnosis(MeasuredView):
 
 
 def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str, Any]:
-    """What the panel shows of an answer."""
+    """The content of the panel for an answer."""
     bearing = question.bearing
     drawn = {
         "n_balls": bearing.n_balls,

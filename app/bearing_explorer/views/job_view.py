@@ -38,7 +38,7 @@ progress::-webkit-progress-value { background: var(--accent); border-radius: 3px
 
 
 def last_shown(work: Callable[[Work], str]) -> Any:
-    """What a job has found at its end, worked on here and now; ValueError where it is nothing."""
+    """The result of a job that is run here and now; ValueError where it has none."""
     job = Work(math.inf)
     job.started = time.monotonic()
     words = work(job)
@@ -154,11 +154,11 @@ class JobView(View, Generic[Found]):
     bounds: ClassVar[str]
     """A sentence: how large a job may be."""
     at_once: ClassVar[bool] = False
-    """Whether a changed field starts the job, without the button."""
+    """True where a changed field starts the job, without the button."""
 
     computes = True
     found: Found | None = None
-    #: what stood in the form, and the scene, when what is found was asked for
+    #: values of the form, and the scene, of the newest result
     _found_for: tuple[dict[str, str], Scene] | None = None
     _jobs: Jobs | None = None
     _editor: SceneEditor
@@ -179,7 +179,7 @@ class JobView(View, Generic[Found]):
         self.employ(parts.jobs, parts.editor, parts.draw)
 
     def employ(self, jobs: Jobs, editor: SceneEditor, draw: Callable[[], None]) -> None:
-        """From now on jobs can be started, for the scene of `editor`; `draw` asks for a drawing."""
+        """Allow jobs, for the scene of `editor`; `draw` requests a drawing."""
         self._jobs, self._editor, self._draw = jobs, editor, draw
         self.job.fill(*self.form(editor))
 
@@ -218,7 +218,7 @@ class JobView(View, Generic[Found]):
             self._jobs.cancel()
 
     def begin(self, given: Mapping[str, str]) -> None:
-        """Start the job that a form asks for; ValueError with a sentence where it cannot be."""
+        """Start the job of a form; ValueError with a sentence where there is none."""
         assert self._jobs is not None
         work, asked = self.prepare(given, self._editor), (dict(given), self._editor.scene)
 
@@ -235,7 +235,7 @@ class JobView(View, Generic[Found]):
         return {} if self._found_for is None else dict(self._found_for[0])
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        """Compute what a form with these fields asks for; those that are missing are as usual."""
+        """Compute the job of a form with these fields; missing ones have their usual values."""
         editor = editor_of(results)
         given = {**self.form(editor)[0], **choices}
         self.found = last_shown(self.prepare(given, editor))

@@ -1,4 +1,4 @@
-"""How often something knocks: the spectrum of the envelope of a measured signal."""
+"""Envelope spectrum of a measured signal, and of the simulation."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class MeasuredEnvelope(FrequencyView):
-    """Spectrum of the envelope of both, in a band in which knocks are heard."""
+    """Envelope spectrum of both in the demodulation band."""
 
     name = "measured-envelope"
     prefix = "measured_envelope"
@@ -54,7 +54,7 @@ class MeasuredEnvelope(FrequencyView):
         return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
 
     def band(self, measured: Measured, direction: str, passing: float) -> tuple[float, float]:
-        """The band [Hz] as chosen, or where knocks stand out; what is not given is guessed."""
+        """The demodulation band [Hz] as chosen; ends that are not given are found in the signal."""
         low, high = self.look.band
         if low is None or high is None:
             best = measured.band(direction, passing)
@@ -67,7 +67,7 @@ class MeasuredEnvelope(FrequencyView):
             )
         if high > highest:
             raise ValueError(
-                f"a band up to {style.number(high, 5)} Hz asks for a faster sample rate; here it "
+                f"a band up to {style.number(high, 5)} Hz needs a faster sample rate; here it "
                 f"ends at {highest:.0f} Hz"
             )
         return low, high
@@ -97,7 +97,7 @@ _NEAR = 0.02  # slip, and what the shaft speed is off
 
 
 def telling(shown: Shown, sets: Sequence[Mapping[str, float]]) -> str:
-    """Which of the bearing's frequencies, a set a row, the highest line of the envelope is."""
+    """The bearing frequency, a set a row, at the highest line of the envelope."""
     frequency, density = shown.measured
     lowest = max(2.5 * shown.resolution, 0.7 * min(first["ftf"] for first in sets))
     seen = (frequency > lowest) & (frequency < shown.top)

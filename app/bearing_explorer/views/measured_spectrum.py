@@ -108,9 +108,9 @@ class MeasuredSpectrum(FrequencyView):
 
 def _loudest(spectrum: Spectrum, top: float) -> str:
     frequency, density = spectrum
-    heard = np.flatnonzero((frequency >= 100.0) & (frequency <= top))
-    if not heard.size:
+    audible = np.flatnonzero((frequency >= 100.0) & (frequency <= top))
+    if not audible.size:
         return "below that"
-    most = heard[np.argmax(density[heard])]
+    most = audible[np.argmax(density[audible])]
     level = style.number(float(decibels(density[most])), 2)
     return f"at {frequency[most]:.0f} Hz ({level} dB)"

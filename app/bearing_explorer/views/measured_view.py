@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bearingcore import Scene
 
 MEASURED = style.INK
-"""Colour of what was measured, where something simulated stands beside it."""
+"""Colour of measured curves in figures with simulated ones."""
 
 
 def write_over(
@@ -55,12 +55,12 @@ WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 class MeasuredView(View):
     """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
 
-    Until there is one only the first view, which asks for it, has anything to say.
+    Until there is one only the first view, which has the form for it, shows anything.
     """
 
     in_report = False
     hidden: Any = None
-    #: whether it can be drawn of a signal whose unit nobody knows yet
+    #: whether it can be drawn of a signal of unknown unit
     without_size: ClassVar[bool] = False
     measurement: Measurement | None = None
 
@@ -82,7 +82,7 @@ class MeasuredView(View):
 
     @property
     def why_nothing(self) -> str:
-        """What to say while nothing is drawn: for what it waits, where there is a signal."""
+        """The sentence while nothing is drawn."""
         there = None if self.measurement is None else self.measurement.measured
         if there is None:
             return ""
@@ -118,7 +118,7 @@ class MeasuredView(View):
         if self.hidden is not None:
             self.hidden.visible = self.measured is not None
         self._caption.put(nothing=self.measured is None)
-        # figures that nobody sees are not to be saved as pictures
+        # hidden figures are not saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 
     @property
@@ -128,7 +128,7 @@ class MeasuredView(View):
 
     @property
     def drawn(self) -> bool:
-        """Whether its figures are on screen."""
+        """True while its figures are on screen."""
         return self.measured is not None
 
 

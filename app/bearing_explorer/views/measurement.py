@@ -176,7 +176,7 @@ class MeasuredSignal(MeasuredView):
 
 
 def _axis_without_unit(plot: figure) -> LinearAxis:
-    """A second axis of a figure for numbers whose unit nobody knows; hidden until there are any."""
+    """A second axis of a figure for numbers of unknown unit; hidden until there are any."""
     axis = LinearAxis(visible=False)
     style.style_axis(axis)
     style.write_units(axis, AS_IN_FILE, plot.y_range)

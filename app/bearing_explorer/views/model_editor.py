@@ -1,4 +1,4 @@
-"""What stands around the bearing: masses, springs and dampers, and the law of the contacts."""
+"""Masses, springs and dampers around the bearing, and the law of the contacts."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class ModelEditor(ControlView):
     name = "model-editor"
     title = "Rotor, housing and support"
     about = (
-        "Two bodies, and what the housing stands on. The rotor sits in the inner ring, the "
+        "Two bodies, and the support of the housing. The rotor sits in the inner ring, the "
         "housing around the outer one, on springs and dampers. They decide natural frequencies "
         "and vibration, never the static loads. What is left empty is not known."
     )

@@ -34,7 +34,7 @@ MOST_LINES = 3000
 LOWEST = -6.0  # [dB] drawn
 
 STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
-"""How clearly lines are drawn: of the part that leads, of the others, of all where none does."""
+"""Opacity of lines: of the leading part, of the others, of all where none leads."""
 
 NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
 COLORS = {"outer race": "#E69F00", "inner race": "#CC79A7", "ball": "#009E73"}
@@ -75,7 +75,7 @@ def shaft_frequency(diagnosis: Diagnosis) -> float:
 
 
 def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
-    """Where the first line of a part is drawn [Hz]."""
+    """The frequency [Hz] at which the first line of a part is drawn."""
     return one.frequency if one is leading(diagnosis) else one.nominal_frequency
 
 
@@ -97,7 +97,7 @@ def window(diagnosis: Diagnosis, zoom: Zoom) -> tuple[float, float]:
 def named(multiples: NDArray[np.float64], first: float, low: float, high: float) -> (
     NDArray[np.float64]
 ):  # fmt: skip
-    """Those of the multiples of `first` [Hz] in a window whose names stand clear of each other."""
+    """Those of the multiples of `first` [Hz] in a window whose names do not overlap."""
     width = high - low
     kept: list[float] = []
     clear = -math.inf
@@ -163,7 +163,7 @@ class PartLines:
         self._order_axis.visible = known
 
     def nothing(self) -> Sources:
-        """What to send where there is no spectrum."""
+        """The sources without a spectrum."""
         none = np.zeros(0)
         sources: Sources = {"diagnosis_spectrum": dict.fromkeys(("frequency", "level"), none)}
         for part in PARTS:
@@ -174,7 +174,7 @@ class PartLines:
         return sources
 
     def data(self, diagnosis: Diagnosis, zoom: Zoom) -> tuple[Sources, Ranges]:
-        """What to send of a diagnosis that has a spectrum."""
+        """The sources of a diagnosis with a spectrum."""
         spectrum = diagnosis.spectrum
         assert spectrum is not None
         low, high = window(diagnosis, zoom)

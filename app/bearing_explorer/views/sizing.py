@@ -56,13 +56,13 @@ NAME_WIDTH = 0.36
 
 OUTER, INNER = "outer race", "inner race"
 FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
-"""What may be said to be damaged: value and words."""
+"""Parts that may be chosen as damaged: value and words."""
 
 SUPPORTS = [
     ["", "as in the scene"],
     ["guess", "a guess: others are tried, in five times the time"],
 ]
-"""How well masses and springs of the machine are known: value and words."""
+"""Knowledge of the machine's masses and springs: value and words."""
 
 _KNOCK_WORDS = "return 'knock'"
 _EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
@@ -347,7 +347,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
 
 def has_answer(sizing: Sizing) -> bool:
-    """Whether a sizing has an answer, be it a bound."""
+    """True for a sizing with an answer, be it a bound."""
     return bool(sizing.candidates) and (sizing.conclusive or bool(sizing.bound))
 
 
@@ -379,7 +379,7 @@ def compute(
     except ValueError as error:
         raise ValueError(sentence_of(error)) from error
     for candidate in sizing.candidates:
-        _ = candidate.bands  # here, and not while somebody waits for a drawing
+        _ = candidate.bands  # here, and not while drawing
     job.show(Sized(measured, scene, sizing))
     if not sizing.candidates:
         return "There is no size to look for."
@@ -387,7 +387,7 @@ def compute(
 
 
 def status(sized: Sized) -> dict[str, Any]:
-    """How sure the answer is, in words and colour, with what it rests on."""
+    """The certainty of the answer in words and colour, with its grounds."""
     sizing = sized.sizing
     best, events, passes = sizing.best, sizing.events, sizing.passes
     scene = sized.scene
@@ -423,7 +423,7 @@ def status(sized: Sized) -> dict[str, Any]:
 
 
 def same_machine(one: Scene, other: Scene) -> bool:
-    """Whether two scenes are alike to the sizing, which does not look at extent and edge."""
+    """True for scenes that differ in extent and edge alone, which the sizing does not use."""
     try:
         return one.replace(extent=0.5, edge="exact") == other.replace(extent=0.5, edge="exact")
     except ValueError:
@@ -452,7 +452,7 @@ def in_order(values: NDArray[np.float64], first: int) -> NDArray[np.float64]:
 
 
 def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> Sources:
-    """Where balls enter and leave by the candidate, and where the signal alone has its knocks.
+    """Times at which balls enter and leave by the candidate, and those of impacts in the signal.
 
     Time 0 is at the phase `entry`.
     """
@@ -463,7 +463,7 @@ def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> 
         return ((turns + BEFORE + 1e-9) % 1.0 - BEFORE - 1e-9) * period
 
     def shift(times: NDArray[np.float64], width: float) -> NDArray[np.float64]:
-        """Names at the right end stand left of their lines [px]."""
+        """Offset of names [px]: left of their lines at the right end."""
         return np.where(times > (0.8 - BEFORE) * period, -width, 4.0)
 
     times = places(*candidate.phases())

@@ -101,13 +101,13 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
 
 
 def made_of(candidate: Candidate, spacing: float) -> str:
-    """How many whole ball spacings [rad] an extent holds, and the rest."""
+    """An extent as whole ball spacings [rad] and a rest."""
     rest = candidate.extent - candidate.turns * spacing
     return f"{candidate.turns} × {in_degrees(spacing)} + {in_degrees(rest)}"
 
 
 def fitted(candidate: Candidate) -> str:
-    """What a candidate had to be made of to fit."""
+    """The factors by which a candidate differs from the scene."""
     names = {"stiffness": "support", "load_deflection_factor": "contacts"}
     parts = [
         f"{names.get(name, name)} ×{factor:.2f}"
@@ -118,7 +118,7 @@ def fitted(candidate: Candidate) -> str:
 
 
 def along_race(extent: float, scene: Scene) -> str:
-    """How long an extent [rad] is on the outer race, in mm."""
+    """The length of an extent [rad] on the outer race, with its unit."""
     return style.with_prefix(extent * scene.bearing.outer_raceway_radius, "m")
 
 

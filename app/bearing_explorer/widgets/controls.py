@@ -19,9 +19,9 @@ from bearing_explorer.state.field_values import CAGE_ANGLE, SCENE_GROUPS, SHOWN_
 
 
 def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
-    """What the browser needs to know once, to make the controls of some groups of quantities.
+    """The constant part of a panel of controls: some groups of fields, and their choices.
 
-    With them stand the choices of these groups, and further `choices`.
+    `choices` are further ones.
     """
     names = list(groups)
     return {
@@ -83,7 +83,7 @@ class Rows(LiveComponent):
 
 
 class Controls(Rows):
-    """The controls beside the figures: bearing, defects, turning, load."""
+    """The controls next to the figures: bearing, defects, turning, load."""
 
     _esm = scripts("element.js", "asking.js", "rows.js", "controls.js")
 

@@ -1,4 +1,4 @@
-"""A file of the browser, sent in pieces that the server asks for.
+"""A file of the browser, sent in pieces that the server requests.
 
 Panel's FileInput sends a file as one message: a large one would hold up all others or end the
 connection, and neither shows how much has arrived.

@@ -22,8 +22,8 @@ class FieldSpec(TypedDict, total=False):
     """A field of a form.
 
     Without `options` text is typed into it. An option is [value, words] or [value, words, heading].
-    `only` names other fields and the values with which alone this one is shown; `hint` stands in an
-    empty text field.
+    `only` names other fields and the values with which alone this one is shown; `hint` is the
+    placeholder of a text field.
     """
 
     name: str
@@ -84,7 +84,7 @@ class Fields:
         self._changed = changed
 
     def add(self, name: str, widget: pn.widgets.Widget) -> pn.widgets.Widget:
-        """Have a widget in the form; its values are heard from now on."""
+        """Add a widget to the form and follow its value."""
         self.widgets[name] = widget
         self.values[name] = widget.value
         widget.css_classes = [*widget.css_classes, "field", f"field-{name}"]

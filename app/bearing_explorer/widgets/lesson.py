@@ -1,4 +1,4 @@
-"""The lesson beside the figures: its words, its answer when asked for, the way to the next."""
+"""The panel of lessons: the words of one, its prediction and answer, the way to the next."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class LessonPanel(JSComponent):
     titles = param.List(default=[])
     #: of `Lesson.for_browser`; empty before the first
     lesson = param.Dict(default={})
-    #: whether it stands open as the page comes
+    #: whether it is open when the page loads
     open_first = param.Boolean(default=False)
     #: the page for teachers, as safe HTML
     teachers = param.String()

@@ -1,4 +1,4 @@
-"""The strip that warns where a scene leaves what the model holds for."""
+"""The strip with warnings where a scene leaves the limits of the model."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 
 class LimitsStrip(LiveComponent):
-    """What is crossed, in a sentence each; on demand all that is looked at."""
+    """Warnings for limits that are exceeded, and a table of all limits on demand."""
 
     #: rows of `rows_of`
     rows = param.List(default=[])
-    #: how it stands in a line
+    #: all limits in a line
     summary = param.String()
 
     _esm = scripts("element.js", "limits.js")
@@ -52,7 +52,7 @@ def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:
 
 
 def _where(limit: Limit) -> str:
-    """Where on the page is asked for what is not known."""
+    """The tab with the fields for a number that is missing."""
     if math.isnan(limit.value) and NO_OIL in limit.sentence:
         return " The tab Life takes them."
     return ""

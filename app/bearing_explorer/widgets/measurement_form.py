@@ -60,7 +60,7 @@ class MeasurementForm(pn.Column):
         self.show(MeasurementState())
 
     def attach(self, measurement: Measurement) -> None:
-        """Show a measurement, and hand on to it what is chosen here."""
+        """Show a measurement, which gets the choices made here."""
         self._measurement = measurement
         measurement.show, measurement.want = self.show, self.upload.want
         self.show(measurement.state)

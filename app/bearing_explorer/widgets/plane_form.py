@@ -1,4 +1,4 @@
-"""Two quantities to choose as the sides of a map, as a form and as the sweeps that it asks for."""
+"""Two quantities to choose as the sides of a map, as a form and as sweeps."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
 
 
 def plane_fields(headings: bool = False) -> list[FieldSpec]:
-    """The fields of the form; with `headings` the quantities stand under those of their groups."""
+    """The fields of the form; with `headings` the quantities are listed under their groups."""
     quantities = [
         [
             q.key,
@@ -32,7 +32,7 @@ def plane_fields(headings: bool = False) -> list[FieldSpec]:
 
 
 def plane_fills(limits: Mapping[str, Range]) -> dict[str, dict[str, dict[str, str]]]:
-    """What a side's fields show once a quantity is chosen there: side -> quantity -> fields."""
+    """The fields of a side once a quantity is chosen there: side -> quantity -> fields."""
     usual = {
         name: [f"{v:g}".replace("-", "−") for v in usual_range(name, limits)] for name in SWEEPABLE
     }

@@ -31,5 +31,5 @@ class ShareBar(JSComponent):
         self.on_msg(lambda event: take(asked, LinksChange, event.data))
 
     def answer(self, **news: Any) -> None:
-        """Give the browser what it asked for: a `file` to save, a `kept` scene, a `report`."""
+        """Send the browser a `file` to save, a `kept` scene or a `report`."""
         self._send_msg(news)

@@ -1,4 +1,4 @@
-"""The line that always says how the computation went: in words and in colour."""
+"""The status line, in words and in colour, and the tabs."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class StatusLine(LiveComponent):
 
 
 class Tabs(LiveComponent):
-    """Which section of the page is on screen."""
+    """The tabs of the page."""
 
     names = param.List(default=[])  # [[name, title, group], ...]
     active = param.String()
@@ -51,7 +51,7 @@ class Tabs(LiveComponent):
 def status_of(
     results: Results, seconds: float, shown: frozenset[str] = frozenset()
 ) -> dict[str, Any]:
-    """What the status line says about these results, which cost `seconds` [s] of computing.
+    """The status line of results that took `seconds` [s] to compute.
 
     `shown`: the attributes of the results that views on screen read.
     """

@@ -11,7 +11,7 @@ import zlib
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement.form import FormError, guess, understood
+from bearing_explorer.measurement.form import FormError, guess, read_form
 from bearing_explorer.measurement.session import (
     MOST_NUMBERS,
     Measurement,
@@ -278,14 +278,14 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
 )
 def test_shaft_speeds_are_read_with_their_units(text, hertz):
     table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
-    asked = understood(table, {**guess(table, 7.0), "shaft_speed": text})
+    asked = read_form(table, {**guess(table, 7.0), "shaft_speed": text})
     assert asked.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
 
 
 def test_neither_direction_is_no_measurement():
     table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
     with pytest.raises(FormError, match="at least one direction"):
-        understood(table, {**guess(table, 7.0), "x": "", "y": ""})
+        read_form(table, {**guess(table, 7.0), "x": "", "y": ""})
 
 
 def test_more_numbers_than_a_session_keeps_are_left_out():

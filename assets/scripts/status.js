@@ -4,7 +4,7 @@ export function render({ model }) {
   const REST = 200  // ms after which the hidden list is written
   const chip = element("strong")
   const more = element("button", { type: "button", "aria-controls": "status-list" }, "Details")
-  const list = element(model.folded ? "ul" : "span", { id: "status-list", class: "list" })
+  const list = model.folded ? element("ul", { id: "status-list", class: "list" }) : element("span")
   const line = element("div", { class: "line" }, chip, ...(model.folded ? [more] : []), list)
   // of a folded line only the chip is live: reading out each residual would be noise
   const live = model.folded ? chip : line

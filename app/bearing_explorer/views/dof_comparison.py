@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -14,6 +13,7 @@ from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.widgets.form import Fields, button, row
 from bearingcore import DOF_NAMES
 from bearingcore.common.numbers import decibels as in_decibels
@@ -56,10 +56,10 @@ class DofDifferences(View):
         )
         self._fields.add("dofs", boxes)
         self._automatic = button("As the scene needs", lambda: self._ask("auto"), align="start")
-        self._facts = _html("", styles={"flex": "1 1 260px"})
-        self._refusal = _html("", visible=False)
+        self._facts = facts_pane("", styles={"flex": "1 1 260px"})
+        self._refusal = facts_pane("", visible=False)
         form = pn.Column(
-            _html("<h3>Free directions</h3>"), self._automatic, boxes, self._refusal,
+            facts_pane("<h3>Free directions</h3>"), self._automatic, boxes, self._refusal,
             styles={"flex": "1 1 260px", "gap": "7px"}, margin=0,
         )  # fmt: skip
         return row(form, self._facts, styles={"align-items": "start", "gap": "10px 34px"})
@@ -106,44 +106,31 @@ class DofDifferences(View):
             against = "all five free" if found.other == DOF_NAMES else _listed(found.other)
             self._fields.put({"dofs": list(found.chosen)})
             self._automatic.disabled = found.chosen == results.scene.needed_dofs
-            self._facts.object = facts_html(facts_of(found), against)
+            facts = facts_of(found)
+            head = f"Greatest difference against {against}" if facts else "Nothing is left out"
+            self._facts.object = f"<h3>{head}</h3>{facts_html(facts)}"
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.dof_comparison.table().named()
 
 
-def facts_of(found: DofComparison) -> list[dict[str, str]]:
-    """The differences in words."""
+def facts_of(found: DofComparison) -> list[Fact]:
+    """The greatest differences."""
     if found.chosen == found.other:
         return []
     names = {
-        "k_xx": ("Stiffness sideways", "k<sub>xx</sub>"),
-        "k_yy": ("Stiffness up and down", "k<sub>yy</sub>"),
-        "ball load": ("Loads of the balls", "Q"),
+        "k_xx": "Stiffness sideways <i>k<sub>xx</sub></i>",
+        "k_yy": "Stiffness up and down <i>k<sub>yy</sub></i>",
+        "ball load": "Loads of the balls <i>Q</i>",
     }
-    facts = [(*names[name], share(value)) for name, value in found.static.items()]
+    facts = [Fact(names[name], share(value)) for name, value in found.static.items()]
     facts += [
-        ("Spectrum of the vibration", f"S<sub>{dof}</sub>", decibels(value))
+        Fact(f"Spectrum of the vibration <i>S<sub>{dof}</sub></i>", decibels(value))
         for dof, value in found.motion.items()
     ]
     if found.no_motion:
-        facts.append(("Spectrum of the vibration", "S", f"none: {found.no_motion}"))
-    return [dict(zip(("label", "symbol", "value"), fact, strict=True)) for fact in facts]
-
-
-def facts_html(facts: list[dict[str, str]], against: str) -> str:
-    """The differences as HTML; symbols hold subscripts."""
-    rows = "".join(
-        f"<div><dt>{fact['label']} <i>{fact['symbol']}</i></dt>"
-        f"<dd>{html.escape(fact['value'])}</dd></div>"
-        for fact in facts
-    )
-    head = f"Greatest difference against {against}" if facts else "Nothing is left out"
-    return f'<h3>{head}</h3><dl class="facts">{rows}</dl>'
-
-
-def _html(words: str, **params: Any) -> pn.pane.HTML:
-    return pn.pane.HTML(words, stylesheets=[asset_text("facts.css")], margin=0, **params)
+        facts.append(Fact("Spectrum of the vibration <i>S</i>", f"none: {found.no_motion}"))
+    return facts
 
 
 def share(value: float) -> str:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.widgets.form import Fields, entry, row
 from bearingcore.common.numbers import thousands
 from bearingcore.statics.film import TOUCHING
@@ -101,7 +101,7 @@ class LifeOfBearing(View):
         self.inputs = LifeInputs()
         self._fields = Fields(self.take)
         hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
-        self._refusal = pn.pane.HTML("", visible=False, stylesheets=[asset_text("facts.css")])
+        self._refusal = facts_pane(visible=False)
         parts: list[Any] = []
         for field in FIELDS:
             given = entry(
@@ -109,9 +109,9 @@ class LifeOfBearing(View):
                 placeholder=hints.get(field.name, ""),
                 align="start",
             )
-            parts += [self._fields.add(field.name, given), _html(f"<p>{field.about}</p>")]
+            parts += [self._fields.add(field.name, given), facts_pane(f"<p>{field.about}</p>")]
         self._fields.put(self._values())
-        self._answers = _html("", styles={"flex": "2 1 340px"})
+        self._answers = facts_pane("", styles={"flex": "2 1 340px"})
         form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
         return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
 
@@ -147,7 +147,7 @@ class LifeOfBearing(View):
         super().say(results, sentence)
         if results is None:
             return
-        self._answers.object = answers_html(groups_of(results))
+        self._answers.object = groups_html(groups_of(results))
         if not self._refusal.visible:
             self._fields.put(self._values())
 
@@ -161,9 +161,9 @@ class LifeOfBearing(View):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         groups = groups_of(results)
         rows = [
-            (group["title"], fact["label"], fact["value"])
+            (group.title, fact.name, fact.value)
             for group in groups
-            for fact in (*group["facts"], {"label": "in words", "value": group["words"]})
+            for fact in (*group.facts, Fact("in words", group.words))
         ]
         about, quantity, value = np.array(rows, dtype=str).reshape(-1, 3).T
         return {"about": about, "quantity": quantity, "value": value}
@@ -186,63 +186,33 @@ def read(field: Field, given: object) -> float | None:
     return value * field.unit_si
 
 
-def _html(words: str, **params: Any) -> pn.pane.HTML:
-    return pn.pane.HTML(words, stylesheets=[asset_text("facts.css")], margin=0, **params)
-
-
-def answers_html(groups: list[dict[str, Any]]) -> str:
-    """The groups as HTML: labels hold subscripts, everything else is text."""
-    parts = []
-    for group in groups:
-        facts = "".join(
-            f'<div><dt title="{html.escape(fact["about"])}">{fact["label"]}</dt>'
-            f"<dd>{html.escape(fact['value'])}</dd></div>"
-            for fact in group["facts"]
-        )
-        words = html.escape(group["words"])
-        parts.append(
-            f"<section><h3>{group['title']}</h3>"
-            f'<dl class="facts">{facts}</dl><p>{words}</p></section>'
-        )
-    return "".join(parts)
-
-
-def groups_of(results: Results) -> list[dict[str, Any]]:
-    """The answers: titles, words, and facts with numbers; what is not known is said once."""
+def groups_of(results: Results) -> list[FactGroup]:
+    """The answers; a reason that none of them is known is given once."""
     found = results.endurance
     groups = [_life(results, found), _pressures(results, found), _film(results, found)]
-    words = groups[0]["words"]
-    if all(not group["facts"] and group["words"] == words for group in groups):
-        return [_group("Life, greatest contact pressure and oil film", words, [])]
+    words = groups[0].words
+    if all(not group.facts and group.words == words for group in groups):
+        return [FactGroup("Life, greatest contact pressure and oil film", words, [])]
     return groups
 
 
-def _group(title: str, words: str, facts: list[tuple[str, str, str]]) -> dict[str, Any]:
-    keys = ("label", "value", "about")
-    return {
-        "title": title,
-        "words": words,
-        "facts": [dict(zip(keys, fact, strict=True)) for fact in facts],
-    }
-
-
-def _life(results: Results, found: Endurance) -> dict[str, Any]:
+def _life(results: Results, found: Endurance) -> FactGroup:
     title = "Life"
     if found.life is None or found.rating is None:
-        return _group(title, found.no_life, [])
+        return FactGroup(title, found.no_life, [])
     lasts, known = found.life, found.life.known
     facts = [
-        (
+        Fact(
             "Dynamic load rating C<sub>r</sub>",
             f"{style.with_prefix(found.rating, 'N', 4)}, {found.rating_words}",
             "The load under which nine of ten bearings reach a million turns.",
         ),
-        (
+        Fact(
             "Life L<sub>10</sub>",
             _million(lasts.million_revolutions) if known else "not known",
             "Turns that nine of ten bearings reach.",
         ),
-        (
+        Fact(
             "at the speed of the scene",
             f"{_long(lasts.hours)} h"
             if math.isfinite(lasts.hours)
@@ -250,7 +220,7 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
             + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "without an end"),
             "The same in hours.",
         ),
-        (
+        Fact(
             "Equivalent load P",
             style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
             "The load of the same life by ISO 281.",
@@ -259,7 +229,7 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
     if len(lasts.rows) > 1 and known:
         each = " and ".join(f"{_long(L)}" if math.isfinite(L) else "endless" for L in lasts.rows)
         facts.append(
-            (
+            Fact(
                 f"of rows 1 to {len(lasts.rows)} on their own",
                 f"{each} million turns",
                 "Of each row under what it carries: the bearing fails with the first.",
@@ -267,13 +237,13 @@ def _life(results: Results, found: Endurance) -> dict[str, Any]:
         )
     if results.scene.defects and known:
         facts.append(
-            (
+            Fact(
                 "without the defect",
                 _million(lasts.healthy_million_revolutions),
                 "Of the healthy bearing under the same load.",
             )
         )
-    return _group(title, LEFT_OUT if results.scene.defects else "", facts)
+    return FactGroup(title, LEFT_OUT if results.scene.defects else "", facts)
 
 
 def _million(value: float) -> str:
@@ -285,23 +255,23 @@ def _long(value: float) -> str:
     return thousands(float(f"{value:.3g}")) if value >= 1e4 else style.number(value, 3)
 
 
-def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
+def _pressures(results: Results, found: Endurance) -> FactGroup:
     title = "Greatest contact pressure"
     if found.pressures is None:
-        return _group(title, found.no_pressures, [])
+        return FactGroup(title, found.no_pressures, [])
     bearing = results.scene.bearing
     facts = []
     for contact in (found.pressures.inner, found.pressures.outer):
         across = "half the length" if bearing.kind.line_contact else "across"
         facts.append(
-            (
+            Fact(
                 f"{contact.race.capitalize()} race",
                 style.with_prefix(contact.greatest_pressure, "Pa"),
                 "In the middle of the contact of the heaviest loaded ball or roller.",
             )
         )
         facts.append(
-            (
+            Fact(
                 "contact, half its size",
                 f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
                 f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
@@ -314,26 +284,26 @@ def _pressures(results: Results, found: Endurance) -> dict[str, Any]:
         f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: "
         "Hertz theory does not hold at an edge."
     )
-    return _group(title, words, facts)
+    return FactGroup(title, words, facts)
 
 
-def _film(results: Results, found: Endurance) -> dict[str, Any]:
+def _film(results: Results, found: Endurance) -> FactGroup:
     title = "Oil film"
     if found.film is None:
-        return _group(title, found.no_film, [])
+        return FactGroup(title, found.no_film, [])
     facts = []
     for film in (found.film.inner, found.film.outer):
         crossed = film.film_parameter < TOUCHING
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"
         facts.append(
-            (
+            Fact(
                 f"{film.race.capitalize()} race, thickness",
                 style.with_prefix(film.thickness, "m") if film.lubrication else "not known",
                 "Where it is least.",
             )
         )
         facts.append(
-            (
+            Fact(
                 "film parameter Λ",
                 f"{parameter} ({film.lubrication or 'no film'})" + (": below 1" if crossed else ""),
                 "Thickness over the roughness of both surfaces: below 1 they touch all the time, "
@@ -344,4 +314,4 @@ def _film(results: Results, found: Endurance) -> dict[str, Any]:
     if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
         words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
-    return _group(title, words, facts)
+    return FactGroup(title, words, facts)

@@ -14,6 +14,7 @@ from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.messages import UploadBegins, UploadPiece
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.widgets.facts import Fact, facts_html
 from bearing_explorer.widgets.file_upload import FileUpload
 from bearing_explorer.widgets.form import Fields, button, choices, entry, row, select
 from bearingcore.common.numbers import number
@@ -187,11 +188,11 @@ def units(state: MeasurementState) -> list[list[str]]:
 
 def notes_html(state: MeasurementState, fields: list[str]) -> str:
     """Beneath the fields: why they are refused, or where their values come from."""
-    rows = []
+    facts = []
     for name in fields:
         words = state.refused.get(name) or state.reasons.get(name)
         if words:
             mark = "refused" if name in state.refused else "open" if name in state.open else ""
             label = html.escape(LABELS[name].partition(" (")[0])
-            rows.append(f'<div class="{mark}"><dt>{label}</dt><dd>{html.escape(words)}</dd></div>')
-    return f"<dl>{''.join(rows)}</dl>"
+            facts.append(Fact(label, words, mark=mark))
+    return facts_html(facts)

@@ -10,6 +10,7 @@ from typing import Any
 import panel as pn
 
 from bearing_explorer.assets import asset_text
+from bearing_explorer.widgets.facts import Fact, facts_html
 from bearing_explorer.widgets.form import button
 
 _PICTURES = {
@@ -51,22 +52,21 @@ def part_html(state: Mapping[str, Any]) -> str:
     """The answer as HTML: picture, headline, words, summary, assumptions."""
     said = {name: html.escape(str(state.get(name, ""))) for name in (
         "headline", "probability", "plain", "pass_on", "color", "mood")}  # fmt: skip
-    facts = "".join(
-        f"<div><dt>{html.escape(name)}</dt><dd>{html.escape(value)}</dd></div>"
-        for name, value in state.get("facts", ())
-    )
+    facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
     summary = (
         f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
         if said["pass_on"]
         else ""
     )
-    assumptions = f'<div class="rests"><h4>Assumptions</h4><dl>{facts}</dl></div>' if facts else ""
+    assumptions = (
+        f'<div class="rests"><h4>Assumptions</h4>{facts_html(facts)}</div>' if facts else ""
+    )
     return (
         f'<section class="part" aria-label="Which part is damaged" data-mood="{said["mood"]}" '
         f'style="--part: {said["color"] or "var(--accent)"}">'
         f'<div class="place">{picture(state)}</div><div class="answer"><h3>{said["headline"]}</h3>'
         f'<p class="probability">{said["probability"]}</p><p>{said["plain"]}</p>{summary}</div>'
-        f"{assumptions}</section>"
+        f'<div class="rests">{assumptions}</div></section>'
     )
 
 

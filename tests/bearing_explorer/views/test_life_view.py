@@ -28,8 +28,7 @@ from bearingcore.statics.validity import looked_at
 def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, str]]:
     groups = groups_of(Results(presets[name], life_inputs=inputs))
     return {
-        group["title"]: {fact["label"]: fact["value"] for fact in group["facts"]}
-        | {"words": group["words"]}
+        group.title: {fact.name: fact.value for fact in group.facts} | {"words": group.words}
         for group in groups
     }
 
@@ -56,8 +55,8 @@ def number(text: str) -> float:
 
 def test_lives_are_told_to_three_digits_and_what_is_not_known_once() -> None:
     results = Results(presets["6205"].replace(fy=-50.0))
-    rows = groups_of(results)[0]["facts"]
-    told = next(row["value"] for row in rows if row["label"].startswith("Life"))
+    rows = groups_of(results)[0].facts
+    told = next(row.value for row in rows if row.name.startswith("Life"))
     assert number(told) > 1e6
     assert number(told) == float(f"{number(told):.3g}")
     assert list(facts("fan-rig")) == ["Life, greatest contact pressure and oil film"]
@@ -171,7 +170,7 @@ def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_thei
         assert found.film is not None
     passes = next(fact["value"] for fact in facts_of(scene) if fact["symbol"] == "BPFO")
     assert passes.count("Hz") == 2, "one for each row"
-    (title,) = [group for group in groups_of(Results(scene)) if group["title"] == "Life"]
-    told = {fact["label"]: fact["value"] for fact in title["facts"]}
+    (title,) = [group for group in groups_of(Results(scene)) if group.title == "Life"]
+    told = {fact.name: fact.value for fact in title.facts}
     assert " and " in told["of rows 1 to 2 on their own"]
     assert facts_of(pair)[0]["value"].count("Hz") == 1

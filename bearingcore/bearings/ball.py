@@ -89,7 +89,7 @@ class Ball(Kind):
         name = f"{race}_groove_radius"
         radius = getattr(bearing, name)
         if radius is None or bearing.youngs_modulus is None or bearing.poisson is None:
-            raise checks.refuse(name, radius, "a number, where contact pressure is asked for")
+            raise checks.refuse(name, radius, "a number, for contact pressure")
         return race_contact(
             race,
             bearing.ball_diameter,

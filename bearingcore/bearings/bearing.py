@@ -70,7 +70,7 @@ class Bearing:
         none for one row at the middle of the bearing; else each `Row`. `n_balls` and dimensions are
         those of every row that has none of its own.
     roller_length
-        [m] of cylindrical rollers, which stand in place of balls: line contact, K in N/m^(10/9),
+        [m] of cylindrical rollers, which replace balls: line contact, K in N/m^(10/9),
         radial directions only. None for balls.
     density
         of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
@@ -242,7 +242,7 @@ class Bearing:
         ValueError for a bearing that is no pair.
         """
         if not self.arrangement:
-            raise checks.refuse("rows", len(self.all_rows), "two rows that stand as a pair")
+            raise checks.refuse("rows", len(self.all_rows), "two rows that form a pair")
         if preload is not None and preload > 0.0 and self.contact_angle == 0.0:
             raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
         return self.replace(rows=spaced(self.rows, distance, preload))
@@ -254,7 +254,7 @@ class Bearing:
 
     @property
     def preload(self) -> float | None:
-        """How far [m] the inner grooves of a pair are pushed against each other; else None."""
+        """Displacement [m] of the inner grooves of a pair against each other; None of any other."""
         if not self.arrangement:
             return None
         low, high = self.rows
@@ -289,12 +289,12 @@ class Bearing:
         return not any(row.own and self.unlike(row) for row in self.rows)
 
     def unlike(self, row: Row) -> dict[str, float]:
-        """What a row has of its own that is not the bearing's."""
+        """Numbers of a row that differ from the bearing's."""
         return {name: held for name, held in row.own.items() if held != getattr(self, name)}
 
     @property
     def unlike_rows(self) -> tuple[tuple[Bearing, slice], ...]:
-        """The bearing of each row, see `of_row`, and where its balls stand among all of them.
+        """The bearing of each row, see `of_row`, and the places of its balls among all of them.
 
         Rows that are alike are listed once: the bearing with all balls.
         """
@@ -304,7 +304,7 @@ class Bearing:
 
     @property
     def balls_of_rows(self) -> tuple[slice, ...]:
-        """Where the balls of each row stand among all of them: row after row."""
+        """Places of the balls of each row among all of them: row after row."""
         ends = list(accumulate(row.n_balls or self.n_balls for row in self.all_rows))
         return tuple(slice(a, b) for a, b in zip([0, *ends[:-1]], ends, strict=True))
 
@@ -316,7 +316,7 @@ class Bearing:
         raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
 
     def pace(self, row: int) -> float:
-        """How fast the cage of a row turns, over that of the bearing's own numbers."""
+        """Speed of a row's cage, over that of the bearing's own numbers."""
         own = self.of_row(row)
         return 1.0 if own._ratio == self._ratio else own.cage_ratio / self.cage_ratio
 
@@ -327,7 +327,7 @@ class Bearing:
 
     @property
     def period(self) -> float:
-        """Cage angle [rad] after which balls stand where balls stood.
+        """Cage angle [rad] after which balls are again where balls were.
 
         A ball spacing where all rows have as many balls; else what the spacings of the rows have in
         common. Cages that turn at speeds of their own come back at no angle: then a whole turn.
@@ -376,8 +376,8 @@ class Bearing:
         contact_angle, diametral_clearance
             α0 [rad] and s [m], at least one of them, as they describe the same freedom.
             Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
-            the angle that it stands for, `seated()` the same bearing given by that angle.
-            Angle alone: r_L = 0; `diametral_play` is the clearance that it stands for.
+            the angle that it amounts to, `seated()` the same bearing given by that angle.
+            Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
             Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
         youngs_modulus, poisson
             E [Pa] and ν of balls and rings; steel by default.
@@ -427,7 +427,7 @@ class Bearing:
 
     @property
     def arrangement(self) -> str:
-        """How two rows stand, out of ARRANGEMENTS; empty of one row and of any other rows."""
+        """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
         variant = self.kind.variant(self)
         return variant if variant in ARRANGEMENTS else ""
 
@@ -460,7 +460,7 @@ class Bearing:
 
     @property
     def diametral_play(self) -> float:
-        """How far the inner ring moves sideways from contact to contact [m], grooves opposite.
+        """Sideways play of the inner ring from contact to contact [m], grooves opposite.
 
         2 (A0 (1 − cos α0) + r_L): the clearance that a contact angle and a clearance on top of it
         stand for together.
@@ -492,7 +492,7 @@ class Bearing:
     def seated(self) -> Self:
         """The same bearing given by its free contact angle, without clearance on top.
 
-        Its axial origin lies where the balls touch, A0 (sin α_f − sin α0) further along z: at the
+        Its axial origin is where the balls touch, A0 (sin α_f − sin α0) further along z: at the
         same loads δz is smaller by that and all else is equal. Two things are not the same, as
         both depend on α0 and not on the angle under load: a defect lowers the ball along the
         unloaded line of contact, here at α_f; and the cage turns a little faster.

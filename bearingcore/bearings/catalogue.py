@@ -214,7 +214,7 @@ def _lines(text: str) -> list[tuple[int, str]]:
 
 
 def _separator(heading: str) -> str:
-    """What parts the columns: whichever there is most of in the headings."""
+    """Delimiter of the columns: the most frequent one in the headings."""
     return max(_SEPARATORS, key=heading.count)
 
 

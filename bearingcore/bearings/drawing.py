@@ -42,7 +42,7 @@ DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIEL
 
 
 class Derived(NamedTuple):
-    """What follows from a drawing, under the names of the fields of `Bearing`."""
+    """Numbers that follow from a drawing, under the names of the fields of `Bearing`."""
 
     groove_center_radius: float
     groove_center_distance: float

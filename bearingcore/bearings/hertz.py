@@ -13,7 +13,7 @@ load-deflection factor of one contact       | K_race | load_deflection_factor   
 greatest pressure, in the middle            | p      | greatest_pressure        | Pa
 Young's modulus, Poisson's ratio            | E, ν   | youngs_modulus, poisson  | Pa,
 
-Ball and ring are of one material, the contact is small beside the ball, smooth and dry.
+Ball and ring are of one material, the contact is small against the ball, smooth and dry.
 
 Source: Harris, Rolling Bearing Analysis, chapters "Bearing macrogeometry" (curvatures) and
 "Contact stress and deformation" (ellipse, pressure); ISO/TS 16281 for the stiffness of both

@@ -1,4 +1,4 @@
-"""What a kind of bearing says of itself; each kind is a file that fills this in.
+"""Data of a kind of bearing; each kind is a file that fills this in.
 
 A `Bearing` asks its kind, and everything else asks `bearing.kind` for data: a flag, a sentence, a
 tuple of names. Nothing outside this package compares numbers to find out what a bearing is.
@@ -50,7 +50,7 @@ class Picture(NamedTuple):
 
 
 class ContactNumbers(NamedTuple):
-    """What all contacts of a row have in common, as `kernels.Contacts` has it.
+    """Numbers that all contacts of a row have in common, as `kernels.Contacts` has them.
 
     Cosine and sine of the unloaded contact angle, distance of the groove centres [m], radius of
     the inner ones [m], load-deflection factor [N/m^exponent] and its exponent.
@@ -78,7 +78,7 @@ class Kind:
     exponent, exponent_text
         of load over compression, as a number and raised in print.
     line_contact
-        True where elements lie on their races along a line: life, film and ratings differ.
+        True where elements touch their races along a line: life, film and ratings differ.
     directions
         out of DIRECTIONS in which the inner ring can move.
     needed_directions
@@ -127,7 +127,7 @@ class Kind:
 
     @property
     def elements(self) -> str:
-        """What several rolling elements are called."""
+        """Name of several rolling elements."""
         return f"{self.element}s"
 
     def recognizes(self, bearing: Bearing) -> bool:
@@ -192,7 +192,7 @@ class Kind:
         return math.pi / 6.0 * bearing.ball_diameter**3
 
     def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
-        """What the contacts of a bearing, or of one of its rows, have in common."""
+        """Numbers that the contacts of a bearing, or of one of its rows, have in common."""
         return ContactNumbers(
             cosine=math.cos(bearing.contact_angle),
             sine=math.sin(bearing.contact_angle),

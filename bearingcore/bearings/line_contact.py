@@ -10,7 +10,7 @@ greatest pressure, in the middle            | p      | greatest_pressure      | 
 load-deflection factor of both contacts     | K      | palmgren_factor        | N/m^(10/9)
 
 Pressure is even along the roller: the ends, where it rises unless roller or race is crowned, and a
-roller that stands askew are left out.
+roller that is skewed are left out.
 
 Source: Palmgren, Grundlagen der Wälzlagertechnik; Hertz for a cylinder on a cylinder (Harris,
 Rolling Bearing Analysis, chapter "Contact stress and deformation").

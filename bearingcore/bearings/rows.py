@@ -1,6 +1,6 @@
-"""Rows of balls on one shaft, and how they stand to each other.
+"""Rows of balls on one shaft, and their arrangement.
 
-A row whose contact angle has the sign of its place stands face to face with one on the other side
+A row whose contact angle has the sign of its place faces one on the other side
 (X: the lines of contact meet near the axis), one of the opposite sign back to back (O).
 """
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
 
 ARRANGEMENTS = ("back-to-back", "face-to-face", "tandem")
-"""How the two rows of a pair stand to each other: O, X, or one behind the other."""
+"""Arrangements of the two rows of a pair: O, X, or one behind the other."""
 
 MOST_ROWS = 8
 
@@ -49,7 +49,7 @@ class Row:
     clearance
         [m] on top of the bearing's radial clearance; below 0 it preloads the row.
     offset
-        [m] how far the inner groove stands up the shaft from where it would without preload.
+        [m] displacement of the inner groove up the shaft by the preload.
     turn
         [rad] from the first ball of the bearing to the first of this row, at cage angle 0.
     contact_angle
@@ -108,7 +108,7 @@ class Row:
 
     @property
     def own(self) -> dict[str, float]:
-        """What the row has of its own, by the names of the fields of `Bearing`."""
+        """Numbers of the row itself, by the names of the fields of `Bearing`."""
         return {name: held for name in OWN if (held := getattr(self, name)) is not None}
 
 

@@ -1,6 +1,6 @@
 """Self-aligning ball bearings: two rows in a spherical outer race about the bearing's middle.
 
-All outer groove centres lie in the middle of the bearing, so A0 = R_e + r_i − D_b is the distance
+All outer groove centres are in the middle of the bearing, so A0 = R_e + r_i − D_b is the distance
 of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0: turning the inner ring about
 the middle moves no ball.
 """

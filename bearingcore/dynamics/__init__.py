@@ -1,1 +1,1 @@
-"""What moves: natural frequencies, simulated motion, the periodic steady state, speed runs."""
+"""Dynamics: natural frequencies, simulated motion, the periodic steady state, speed runs."""

@@ -40,7 +40,7 @@ def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
 def ball_system(
     scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
 ) -> kernels.BallSystem:
-    """What the kernels need of a scene with heavy balls that moves along `dofs`.
+    """System of a scene with heavy balls for the kernels, moving along `dofs`.
 
     `velocities` asks for these as variables, which general-purpose integrators take; places are
     then radial and axial always.

@@ -15,7 +15,7 @@ from bearingcore.statics.equilibrium import Equilibrium
 Array = NDArray[np.float64]
 
 CURVES = ("load", "stiffness", "modes")
-"""What is to be drawn over the cage angle: ball loads with displacements, the 15 stiffness terms,
+"""Curves over the cage angle: ball loads with displacements, the 15 stiffness terms,
 undamped natural frequencies."""
 
 _TERMS = np.triu_indices(5)

@@ -384,7 +384,7 @@ def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[
 def moving_system(
     scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
 ) -> kernels.System:
-    """What the kernels need of a scene with massless balls that moves along `dofs`.
+    """System of a scene with massless balls for the kernels, moving along `dofs`.
 
     See `packing.rotor`.
 
@@ -417,7 +417,7 @@ def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | N
 
 
 def too_many_in_all(steps: float, where: str, most: int) -> str:
-    """What so many steps would cost, where they are too many; else empty."""
+    """Cost of so many steps in words, where they are too many; else empty."""
     most = checks.whole_number("most_steps_in_all", most, at_least=1, at_most=10**15)
     if steps <= most:
         return ""

@@ -319,7 +319,7 @@ def common_ball_passes(scene: Scene) -> int | None:
 
 
 class _Shooting:
-    """What a period does to a state, with and without the tangent.
+    """Map of a state over one period, with and without the tangent.
 
     States are those that `kernels.march` moves.
     """
@@ -378,7 +378,7 @@ class _Shooting:
             self.given_up = self._too_many = True
 
     def reported(self, found: Orbit) -> Orbit:
-        """What was found; that it was given up for its cost, where it was."""
+        """Result of the search, or its status where it was ended for its cost."""
         if found.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
             return found
         cost = (

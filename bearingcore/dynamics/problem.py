@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class MotionProblem:
-    """What an integrator needs of a scene; rotations are carried times r_d.
+    """Initial-value problem of a scene; rotations are carried times r_d.
 
     Attributes
     ----------

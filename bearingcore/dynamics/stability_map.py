@@ -27,7 +27,7 @@ from bearingcore.dynamics.status import MapOutcome, OrbitStatus
 from bearingcore.scene.scene import Scene
 
 OUTCOMES = tuple(MapOutcome)
-"""What the codes of `StabilityMap.outcome` mean."""
+"""Meaning of the codes of `StabilityMap.outcome`."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class StabilityMap:
         )
 
     def count(self, outcome: str) -> int:
-        """How many points ended in one of OUTCOMES."""
+        """Number of points that ended in one of OUTCOMES."""
         return int(np.sum(self.outcome == OUTCOMES.index(outcome)))
 
 

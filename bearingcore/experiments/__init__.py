@@ -1,6 +1,6 @@
 """Speed against accuracy: experiments whose points the charts draw.
 
-Each experiment takes a scene, tells its progress and can be cancelled; see `points`.
+Each experiment takes a scene, reports its progress and can be cancelled; see `points`.
 """
 
 from bearingcore.experiments.models import models_experiment

@@ -25,7 +25,7 @@ from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles
 Array = NDArray[np.float64]
 
 SPECTRUM, CURVES, DISPLACEMENT = "spectrum", "stiffness", "displacement"
-"""What an error is of: the housing's settled acceleration [dB], stiffness over the cage angle, or
+"""Quantities of errors: the housing's settled acceleration [dB], stiffness over the cage angle, or
 the inner ring's displacement as it moves (both over their swing)."""
 
 DURATION = 0.25
@@ -41,7 +41,7 @@ N_ANGLES = 361
 
 @dataclass(frozen=True)
 class Alternative:
-    """One model beside that of the scene.
+    """A model other than that of the scene.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Alternatives:
-    """What other models would change, a row each.
+    """Effect of other models, a row each.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
     scene
         whose own model is the one that the others are compared with.
     cancelled
-        asked before each row; True ends with those that are there.
+        called before each row; True ends with those that are there.
     """
     measure = _Measure(scene)
     rows: list[Alternative] = []

@@ -2,7 +2,7 @@
 
 Balls in free flight make single lines of a spectrum sensitive to anything: errors are those of
 third octaves, means over many lines and ball passes. Their own spread, between two motions whose
-balls weigh one part in ten thousand more or less, is told with the reference.
+balls weigh one part in ten thousand more or less, is given with the reference.
 """
 
 from __future__ import annotations

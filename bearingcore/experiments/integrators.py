@@ -9,14 +9,35 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from bearingcore import kernels
-from bearingcore.dynamics.adaptive import March, how_it_ended, march_adaptively, whole_steps
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
+
+
+@dataclass(frozen=True)
+class March:
+    """Result of a time integration.
+
+    Attributes
+    ----------
+    history : (steps + 1, 6, n) [m, m/s, m/s²]
+        displacement, velocity, acceleration of the inner, then of the outer ring.
+    step_rate
+        [Hz] of the history.
+    calls
+        right-hand sides evaluated.
+    failure
+        empty, or the reason why the motion is not complete.
+    """
+
+    history: Array
+    step_rate: float
+    calls: int
+    failure: str = ""
+
 
 Marcher = Callable[[MotionProblem, float, float, float], March]
 """(problem, setting, duration [s], sample rate [Hz]) -> March"""
@@ -47,6 +68,11 @@ class Method:
     note: str
 
 
+def intervals(rate: float, duration: float) -> int:
+    """Number of intervals at `rate` [Hz] that cover `duration` [s], at least one."""
+    return max(math.ceil(duration * rate - 1e-9), 1)
+
+
 def _runge_kutta(*, velocities: bool) -> Marcher:
     """Steps of one length: in variables that do not jump where the law allows it, or velocities."""
 
@@ -54,12 +80,13 @@ def _runge_kutta(*, velocities: bool) -> Marcher:
         problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
     ) -> March:
         system = problem.system if velocities else moving_system(problem.scene, problem.dofs)
-        n_steps = whole_steps(step_rate, duration)
+        n_steps = intervals(step_rate, duration)
         history = np.empty((n_steps + 1, 6, len(problem.dofs)))
         y = problem.start.copy()
         kernels.turn_smooth(y, 1.0, 0.0, system)
         done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
-        return March(history, step_rate, 4 * n_steps, how_it_ended(done, n_steps, step_rate))
+        failure = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
+        return March(history, step_rate, 4 * n_steps, failure)
 
     return march
 
@@ -72,7 +99,7 @@ def _of_scipy(name: str) -> Marcher:
     ) -> March:
         from scipy.integrate import solve_ivp  # imported late: slow to import
 
-        n = whole_steps(sample_rate, duration)
+        n = intervals(sample_rate, duration)
         time = np.arange(n + 1) / sample_rate
         limited = _Limited(problem, MOST_SCIPY_CALLS)
         try:
@@ -147,21 +174,7 @@ METHODS: dict[str, Method] = {
             _runge_kutta(velocities=True),
             "the same steps with velocities as variables, which jump in rate as a ball touches",
         ),
-        Method(
-            "Dormand-Prince",
-            False,
-            5,
-            march_adaptively,
-            "embedded pair of orders 5 and 4, its steps chosen by the difference",
-        ),
-        Method(
-            "Dormand-Prince, stops",
-            False,
-            5,
-            partial(march_adaptively, stop_at_kinks=True),
-            "the same, ending a step wherever a ball meets an edge or floor",
-        ),
-        Method("scipy RK45", False, 5, _of_scipy("RK45"), "embedded pair, steps run by Python"),
+        Method("scipy RK45", False, 5, _of_scipy("RK45"), "embedded pair of Dormand and Prince"),
         Method("scipy DOP853", False, 8, _of_scipy("DOP853"), "Runge-Kutta of order 8"),
         Method("scipy LSODA", False, 12, _of_scipy("LSODA"), "Adams or BDF by stiffness"),
         Method("scipy Radau", False, 5, _of_scipy("Radau"), "implicit Runge-Kutta of order 5"),

@@ -55,7 +55,7 @@ def models_experiment(
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> Experiment:
-    """What models leave out, against what they cost, on `scene`.
+    """Errors of simpler models against their cost, on `scene`.
 
     Directions and quasi-statics are held against the scene in all five directions, edge models
     against exact edges, the orbit and the marched transient against the settled part of the motion

@@ -1,4 +1,4 @@
-"""What a work-precision experiment finds: points of error against cost, failures among them."""
+"""Results of a work-precision experiment: points of error against cost, failures among them."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Reference:
-    """What errors are measured from, and why it is believed.
+    """Reference of the errors, and the reason to trust it.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class Experiment:
     errors
         what each error is, with its unit, by name; the first is the one to draw.
     evaluations
-        what is counted as cost beside time.
+        measure of cost other than time.
     references
         by name; "" is that of every point that names none.
     points
@@ -152,7 +152,7 @@ class Experiment:
         return "dB" if "[dB]" in self.errors[error] else "1"
 
     def table(self) -> ResultTable:
-        """A row a point: who, how set, its errors, its cost, and how it went."""
+        """A row a point: method, setting, errors, cost and status."""
         points = self.points
         return table_of(
             ("method", "", [p.method for p in points]),
@@ -209,7 +209,7 @@ def failed(
 def least_time(
     work: Callable[[], T], *, runs: int = 5, budget: float = 0.5
 ) -> tuple[T, float, int]:
-    """What `work` returns, the least time [s] of several runs after a warm-up, how many runs.
+    """Result of `work`, the least time [s] of several runs after a warm-up, number of runs.
 
     The warm-up counts as the one run where it alone takes longer than `budget` [s] and the work is
     compiled already; runs end when the budget is spent.

@@ -115,7 +115,7 @@ class StabilityChart:
         )
 
     def text(self) -> str:
-        """Methods down, steps across, with the linear limit beside, for a terminal."""
+        """Methods down, steps across, with the linear limit next to them, for a terminal."""
         rates = sorted({trial.step_rate for trial in self.trials})
         names = list(dict.fromkeys(trial.method for trial in self.trials))
         width = max(len(name) for name in names) + 2

@@ -50,7 +50,7 @@ LEFT_OUT = (
 )
 
 WRONG, STRICT = 0.1, 1e-6
-"""Where a solver that was asked for the second tolerance or less calls an answer solved whose
+"""Where a solver with the second tolerance or less calls an answer solved whose
 stiffness errs by more than the first, it has failed."""
 
 

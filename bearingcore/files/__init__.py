@@ -1,1 +1,1 @@
-"""Signals out of files: columns of numbers, what the file says about them, what is to be asked."""
+"""Signals out of files: columns of numbers, their meaning by the file, open questions."""

@@ -31,7 +31,7 @@ _TIMES = {"t", "time", "seconds", "zeit", "temps", "timestamp", "date", "datetim
 
 @dataclass(frozen=True)
 class Column:
-    """What is known of a column.
+    """Meaning of a column.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Choice:
 
 
 def column_of(name: str) -> Column:
-    """What a heading says."""
+    """Meaning of a column by its heading."""
     words = words_of(name)
     unit = unit_in(name)
     first = re.split(r"[\s_\[(/,]", name.strip().lower(), maxsplit=1)[0]

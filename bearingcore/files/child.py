@@ -29,7 +29,7 @@ WALL_SECONDS = 20.0
 """[s] that reading a file may take by the clock."""
 
 MEMORY = 500 * 10**6
-"""[bytes] that the process may take beside its libraries."""
+"""[bytes] that the process may take in addition to its libraries."""
 
 LONGEST_ANSWER = 2**22
 """[bytes] of the line of words that is read back."""
@@ -130,7 +130,7 @@ def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
 def _received(
     pipe: IO[bytes], most_numbers: int
 ) -> tuple[dict[str, Any], NDArray[np.float64]] | None:
-    """What the process writes, no more than is taken; None where it ended before its time."""
+    """Output of the process, limited in size; None where it ended early."""
     line = pipe.readline(LONGEST_ANSWER)
     if not line.endswith(b"\n"):
         return None

@@ -16,7 +16,7 @@ from bearingcore.files.units import FORCES
 
 @dataclass(frozen=True)
 class Known:
-    """What is known of files of a shape.
+    """Properties of files of a known shape.
 
     Unit, sample rate [Hz], load [N], the places of all columns, the directions of the last ones.
     """
@@ -32,7 +32,7 @@ class Known:
 def known_shape(
     names: Sequence[str], rows: int, clock: int, named: Sequence[Named], headed: bool
 ) -> Known:
-    """What the shape of a file lets guess.
+    """Guess from the shape of a file.
 
     Parameters
     ----------

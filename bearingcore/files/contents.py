@@ -1,4 +1,4 @@
-"""What a file says about itself, what may be guessed, and what has to be asked."""
+"""Meaning of the columns of a file: statements of the file, guesses, open questions."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ USUAL_LEVEL = 5.0
 """[m/s²] root mean square of bearings in machines, in the middle of what is usual."""
 
 GRAVITY_SHARE = 0.1
-"""How near a mean comes to gravity where it is that."""
+"""Relative difference to gravity up to which a mean is taken for it."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +44,9 @@ class FileColumns:
     names
         of the columns.
     columns : (n, c)
-        their numbers; gaps are NaN, as is what lies after the end of a shorter column.
+        their numbers; gaps are NaN, as is the rest after the end of a shorter column.
     sample_rate
-        [Hz] where the file's format tells it (WAV), else None.
+        [Hz] where the file's format has it (WAV), else None.
     scalars
         single numbers that the file names, such as a speed or a rate.
     name
@@ -91,14 +91,14 @@ class FileColumns:
 
 @dataclass(frozen=True)
 class FileContents:
-    """What a file says about itself, and guesses at what it does not say.
+    """Statements of a file about itself, and guesses at the rest.
 
     Attributes
     ----------
     columns
         role, unit, direction and place of each column.
     choice
-        the columns of this bearing by direction, or the question to ask.
+        the columns of this bearing by direction, or an open question.
     unit
         of the chosen columns, or of all signals where none are chosen.
     sample_rate
@@ -124,7 +124,7 @@ class FileContents:
 
 
 def contents_of(table: FileColumns) -> FileContents:
-    """What a table says about itself."""
+    """Statements of a table about itself, and guesses at the rest."""
     named = [
         *(Named(name, value) for name, value in table.scalars.items()),
         *facts.named_in(table.remarks),

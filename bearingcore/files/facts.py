@@ -1,6 +1,6 @@
-"""What a file says beside its signals: sample rate, shaft speed, load.
+"""Facts in a file apart from its signals: sample rate, shaft speed, load.
 
-It stands in single numbers of MATLAB files, in lines above a table, and in the file's name.
+They are in single numbers of MATLAB files, in lines above a table, and in the file's name.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ class Finding(Generic[T]):
     value
         in SI units.
     reason
-        where it stands, or why it is likely, in a few words.
+        its place, or why it is likely, in a few words.
     stated
-        whether the file says so; else it is a guess, and whoever knows better is to be asked.
+        whether the file says so; else it is a guess to be confirmed.
     supported
         whether anything speaks for a guess; else the value is a default.
     unit

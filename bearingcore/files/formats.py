@@ -108,7 +108,7 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
 
 @dataclass
 class Variables:
-    """What a file names: matrices in the kind of number they are stored in, and words."""
+    """Variables of a file: matrices in the kind of number they are stored in, and words."""
 
     numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)
@@ -123,7 +123,7 @@ class Variables:
             self.texts[path] = text[:LONGEST_TEXT].strip()
 
     def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
-        """Vectors and matrices about as long as the longest as columns, the rest beside them."""
+        """Vectors and matrices about as long as the longest as columns, and the rest."""
         scalars: dict[str, float] = {}
         parts: dict[str, NDArray[Any]] = {}
         for variable, matrix in self.numbers.items():
@@ -210,7 +210,7 @@ def _walk_hdf5(content: bytes, found: Variables) -> None:
 def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
     """A group, which is how a struct is kept, or a data set, with the words and numbers at it.
 
-    Only what lies in the file itself: links to other files, data kept elsewhere and views of other
+    Only data of the file itself: links to other files, data kept elsewhere and views of other
     data sets would name files of this machine.
     """
     import h5py

@@ -1,4 +1,4 @@
-"""How often a column of times says that was sampled, and what is wrong with it.
+"""Sample rate from a time column, and its faults.
 
 Printed times are rounded, clocks jump, loggers leave rows out. A rate that is still known is
 proposed; rows after a jump are not joined to those before it.
@@ -15,7 +15,7 @@ from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 UNEVEN = 0.5
-"""How far times may stray from even steps, in steps: printed ones are rounded, but they do not
+"""Greatest deviation of times from even steps, in steps: printed ones are rounded, but do not
 wander."""
 
 JUMP = 1.5
@@ -35,7 +35,7 @@ _CUSTOMARY = (
 
 @dataclass(frozen=True)
 class Sampling:
-    """What a column of times says.
+    """Sample rate and faults of a column of times.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Sampling:
 
 
 def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
-    """What a column of times says, in `unit` [s]."""
+    """Sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)
     if not np.isfinite(time).all():
         return Sampling(None, False, 0, n, "There are gaps in the time column.")
@@ -105,7 +105,7 @@ def _customary(rate: float, error: float, unit: float, n: int) -> float:
 
 
 def _rounded(time: NDArray[np.float64], steps: NDArray[np.float64]) -> float | None:
-    """What times were rounded to where this is more than a step, else None."""
+    """Grain to which times were rounded where this is more than a step, else None."""
     if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
         return None
     grain = float(steps[steps > 0.0].min())
@@ -171,7 +171,7 @@ def _jumps(
     last: int,
     shared: bool,
 ) -> str:
-    """What is said of jumps; where rows share times nobody knows how many samples are missing."""
+    """Sentence on jumps; where rows share times the number of missing samples is not known."""
     back = int((steps[jumps] <= 0.0).sum())
     # rounded times have rounded steps: only their mean is as long as a step is
     even = np.delete(steps, jumps)
@@ -193,7 +193,7 @@ def _jumps(
 
 
 def clock_columns(columns: NDArray[np.float64]) -> int:
-    """How many columns, from the first on, are hours, minutes, seconds (and parts of a second).
+    """Number of columns, from the first on, that are hours, minutes, seconds (and parts of them).
 
     4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
     0 where the first columns are something else.

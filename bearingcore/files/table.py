@@ -32,11 +32,11 @@ RATE_DOUBT = 0.005
 
 @dataclass(frozen=True)
 class Table(FileColumns):
-    """Columns of numbers out of a file, which can be asked what they are and made a recording."""
+    """Columns of numbers out of a file, with their meaning, for making a recording."""
 
     @cached_property
     def contents(self) -> FileContents:
-        """What the file says about itself, and guesses at what it does not say."""
+        """Statements of the file about itself, and guesses at the rest."""
         return contents_of(self)
 
     @property
@@ -74,18 +74,18 @@ class Table(FileColumns):
             one of `bearingcore.files.units.UNITS`; None takes what the headings say.
             Velocities are differentiated, voltages divided by `sensitivity`.
         sample_rate
-            [Hz]; None takes what the file tells.
+            [Hz]; None takes that of the file.
         full_scale
-            what the number 1 in the file stands for [unit]: the full scale of a WAV file.
+            meaning of the number 1 in the file [unit]: the full scale of a WAV file.
         sensitivity
             of the sensor [V/(m/s²)], for voltages.
         shaft_speed
-            [rad/s]; None takes what the file tells, if it does.
+            [rad/s]; None takes that of the file, if it has one.
 
         Raises
         ------
         ValueError
-            for an unknown column, direction or unit, a rate that nobody tells, columns of several
+            for an unknown column, direction or unit, an unknown rate, columns of several
             bearings, or a voltage without a sensitivity.
         """
         picked = [self._index(column) for column in columns]
@@ -160,11 +160,11 @@ class Table(FileColumns):
                 )
         return checks.choice("unit", unit, tuple(UNITS))
 
-    def _rate(self, asked: float | None) -> tuple[float, list[str]]:
+    def _rate(self, given: float | None) -> tuple[float, list[str]]:
         """The sample rate [Hz], and what is to be said about it."""
         sampling, stated = self.contents.sampling, self.contents.sample_rate
         trouble = sampling.trouble if sampling is not None else ""
-        if asked is None:
+        if given is None:
             if stated is None or not stated.stated:
                 guess = (
                     f"; {number(stated.value, 6)} is likely ({stated.reason})"
@@ -176,7 +176,7 @@ class Table(FileColumns):
                     "sample_rate", None, f"a number [Hz]: the file does not tell it{guess}.{why}"
                 )
             return stated.value, [trouble]
-        rate = checks.number("sample_rate", asked, above=0.0, unit="Hz")
+        rate = checks.number("sample_rate", given, above=0.0, unit="Hz")
         notes = [trouble]
         if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
             notes.append(

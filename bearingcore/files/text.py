@@ -1,6 +1,6 @@
 """Tables of numbers written as text, in the many habits of those who write them.
 
-Columns stand between commas, semicolons, tabs or blanks; numbers have points or commas; there are
+Commas, semicolons, tabs or blanks separate columns; numbers have points or commas; there are
 headings, remarks, gaps, quotation marks, dates and times of day. Which of these a text has is seen
 in its first lines; pandas reads the rest. Runs in the process of `child` alone.
 """
@@ -127,7 +127,7 @@ def _day(text: str) -> int:
 
 @dataclass(frozen=True)
 class _Style:
-    """How lines of numbers are written; None as delimiter: blanks."""
+    """Style of lines of numbers; None as delimiter: blanks."""
 
     delimiter: str | None
     decimal_comma: bool
@@ -136,7 +136,7 @@ class _Style:
 
     @property
     def stamp(self) -> re.Pattern[str]:
-        """What a date or time of day looks like."""
+        """Regular expression of a date or time of day."""
         return _POINT_STAMP if self.delimiter == "," else _COMMA_STAMP
 
     def plain(self, text: str) -> str:
@@ -172,7 +172,7 @@ def _row(line: str, delimiter: str | None) -> list[float] | None:
 
 
 def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
-    """How the first line is written, and its columns; None where it holds anything but numbers.
+    """Style of the first line, and its columns; None where it holds anything but numbers.
 
     The lines that follow, and the headings `above`, decide where more than one way would do.
     """
@@ -192,7 +192,7 @@ def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
 
 
 def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | None:
-    """How many of the lines a style reads, the style in full, and the columns of the first."""
+    """Number of lines that a style reads, the style in full, and the columns of the first."""
     clocked = style.stamp.search(lines[0]) is not None
     trial = _Style(style.delimiter, style.decimal_comma, clock=_Clock() if clocked else None)
     plain = trial.plain("\n".join(lines)).split("\n")
@@ -226,7 +226,7 @@ def _looks_decimal(lines: Sequence[str]) -> bool:
     )
 
 
-# -- what stands above the numbers -----------------------------------------------------------------
+# -- lines above the numbers -----------------------------------------------------------------------
 
 
 def _decoded(line: bytes) -> str:
@@ -238,7 +238,7 @@ def _decoded(line: bytes) -> str:
 
 
 def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
-    """How numbers are written, columns, the first byte of numbers, and the lines above them."""
+    """Style of numbers, columns, the first byte of numbers, and the lines above them."""
     remarks: list[str] = []
     words, begin, place = 0, "", 0
     for line in io.BytesIO(content):
@@ -275,7 +275,7 @@ def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
 def _one_column(
     style: _Style, width: int, lines: Sequence[str], remarks: Sequence[str]
 ) -> tuple[_Style, int]:
-    """One column of numbers with commas, where a heading of one word stands above pairs."""
+    """One column of numbers with commas, where a heading of one word is above pairs."""
     if style.delimiter == "," and width == 2 and remarks and not re.search(r"[,;\t]", remarks[-1]):
         whole = all(_TWO_WHOLE.fullmatch(line.replace('"', "")) for line in lines)
         if whole and len({_cells(line, ",")[0] for line in lines}) < len(lines):
@@ -284,9 +284,9 @@ def _one_column(
 
 
 def _headings(remarks: Sequence[str], style: _Style, width: int) -> list[str] | None:
-    """The names of the columns, out of the last line above them that fits; its unit beside each.
+    """The names of the columns, out of the last line above them that fits; each with its unit.
 
-    A line of units alone may stand between the names and the numbers.
+    A line of units alone may be between the names and the numbers.
     """
     lines = remarks[-3:]
     names = _names(lines[-1], style, width) if lines else None
@@ -308,7 +308,7 @@ _UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?
 
 
 def _names(line: str, style: _Style, width: int) -> list[str] | None:
-    """The cells of a heading, whatever stands between them, if there are as many as columns."""
+    """The cells of a heading, by any delimiter, if there are as many as columns."""
     if width == 1:
         return [line.strip(' "\t,;')]
     for cells in (

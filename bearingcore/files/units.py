@@ -151,7 +151,7 @@ def unit_in(heading: str) -> str | None:
 
 
 def kind_of(unit: str) -> str:
-    """What a unit measures: "acceleration", "velocity", "voltage", "time" or "other"."""
+    """Quantity that a unit measures: "acceleration", "velocity", "voltage", "time" or "other"."""
     for kind, units in (
         ("acceleration", ACCELERATIONS),
         ("velocity", VELOCITIES),

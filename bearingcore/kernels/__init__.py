@@ -10,7 +10,6 @@ from bearingcore.kernels.balls.structs import BallSystem, Races
 from bearingcore.kernels.compiling import kept_on_disk, on_disk
 from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.modes import DOUBTFUL, modes_like
-from bearingcore.kernels.motion.adaptive import march_adaptive
 from bearingcore.kernels.motion.march import (
     between_steps,
     elastic_loads,
@@ -47,7 +46,6 @@ from bearingcore.kernels.structs import (
     PLANAR,
     SMOOTH,
     VELOCITIES,
-    Adaptive,
     Contacts,
     MapAnswers,
     MapMemory,
@@ -79,7 +77,6 @@ __all__ = [
     "TABLE",
     "TOO_MANY",
     "VELOCITIES",
-    "Adaptive",
     "BallSystem",
     "Contacts",
     "MapAnswers",
@@ -99,7 +96,6 @@ __all__ = [
     "elastic_loads",
     "kept_on_disk",
     "march",
-    "march_adaptive",
     "march_balls",
     "march_with_tangent",
     "modes_like",

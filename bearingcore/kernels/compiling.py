@@ -1,13 +1,13 @@
-"""How functions are compiled and kept on disk, and what keeps their machine code up to date.
+"""Compilation of functions, and a cache of machine code on disk that stays up to date.
 
-numba compares a function on disk with the file that the function stands in, and with nothing else:
+numba compares a function on disk with the file that the function is in, and with nothing else:
 a function that has compiled a callee from another file into itself would be used with the old
 callee for ever. And it believes what it reads: half a file ends the program with a traceback, a
 flipped byte in machine code ends the process. So each file carries a digest of itself, and a
 version made of the contents of all files of its folder of compiled code. What does not match is
 compiled again and takes its place; what cannot be written is not kept.
 
-Fast mathematics that drops NaN or reorders sums stays off: NaN stands where an answer is missing.
+Fast mathematics that drops NaN or reorders sums stays off: NaN where an answer is missing.
 "contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
 statics a quarter faster. NaN, signs and the order of sums are as written.
 """
@@ -40,7 +40,7 @@ def compiled(function: Callable[..., Any]) -> Any:
     return _made(function, _nrt=True)
 
 
-def borrowing(function: Callable[..., Any]) -> Any:
+def njit_no_refcount(function: Callable[..., Any]) -> Any:
     """A compiled function that uses its callers' arrays without counting itself among their owners.
 
     Counting them up and down again, array by array and at each call, took most of the time of
@@ -51,7 +51,7 @@ def borrowing(function: Callable[..., Any]) -> Any:
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """A `borrowing` function that becomes part of its callers.
+    """A `njit_no_refcount` function that becomes part of its callers.
 
     A call with many arrays costs more than a small kernel's work. LLVM puts it there: numba's own
     inlining types and translates the body again at each call. Every caller is a little slower to
@@ -69,7 +69,7 @@ def _made(function: Callable[..., Any], **options: bool) -> Any:
         kernel._cache = KernelCache(function)
     except RuntimeError:
         # numba found no folder that it may write to: neither next to the sources nor in the home
-        # of the user. Each start compiles then, which `kept_on_disk` tells.
+        # of the user. Each start compiles then, see `kept_on_disk`.
         _not_kept.append(function.__name__)
     return kernel
 
@@ -83,7 +83,7 @@ def kept_on_disk() -> bool:
 
 
 def on_disk(kernel: Any) -> bool:
-    """Whether machine code of a kernel, made of the sources of now, lies on disk."""
+    """Whether machine code of a kernel, made of the present sources, is on disk."""
     kept = getattr(kernel, "_cache", None)
     return kept._cache_file.has_any() if isinstance(kept, KernelCache) else True
 
@@ -126,7 +126,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
 class KernelFiles:
     """The files of one function, one for each signature: a digest, a version, machine code.
 
-    Stands for numba's `IndexDataCacheFile`, whose files tell nothing of a flipped byte: machine
+    Replaces numba's `IndexDataCacheFile`, whose files do not show a flipped byte: machine
     code with one ends the process.
     """
 
@@ -139,7 +139,7 @@ class KernelFiles:
         return any(self._read(file) is not None for file in files)
 
     def load(self, key: object) -> Any:
-        """What was saved with a key; None if it is missing, outdated or broken."""
+        """Data saved with a key; None if it is missing, outdated or broken."""
         content = self._read(self._file(key))
         return None if content is None else pickle.loads(content)
 

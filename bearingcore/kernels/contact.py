@@ -1,4 +1,4 @@
-"""One contact: where the centres stand, how far it is compressed, and what it then carries.
+"""One contact: places of the centres, compression and load.
 
 The paper's A (Eq. 8) is an unsigned distance, which mistakes a ball sunk beyond the other groove's
 centre for a loaded one; here the part of the distance along the unloaded line of contact counts
@@ -47,7 +47,7 @@ def compression(m, w, A0):
 
     m and w are the ball's displacement along and across the unloaded line of contact, so that
     (A0 + m, w) is the vector between the groove centres (Eqs. 8-10). δ ≤ 0 is a gap. In place of
-    1/A stands 0 where the centres have passed each other: only what lies across the line counts
+    1/A is 0 where the centres have passed each other: only what is across the line counts
     there, and the contact does not swivel.
     """
     p = A0 + m
@@ -79,7 +79,7 @@ def touch(x, cj, sj, drop, j, contacts):
 
 @inlined
 def tilting(er, ez, j, contacts):
-    """What a force of one unit along (er, ez) is to tilts, over r_d: it acts as (c, s) times it.
+    """Moment of a force of one unit along (er, ez), over r_d: it acts as (c, s) times it.
 
     Along q it is (er c, er s, ez, τ s, −τ c), τ this number.
     """
@@ -98,7 +98,7 @@ def carried(x, place, j, contacts):
 
 @inlined
 def seen_from_the_cage(x, v, cage_speed):
-    """Velocity of the inner ring against balls that stand still: their turning moved to the ring.
+    """Velocity of the inner ring against balls at rest: their turning moved to the ring.
 
     cage_speed is that of the balls' row. x and v (5,) are displacement and velocity against the
     outer ring; a tuple of five.

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.compiling import borrowing, compiled
+from bearingcore.kernels.compiling import compiled, njit_no_refcount
 
 # Matrices that are turned together: enough to fill the processor's vectors, few enough that all
 # stay in its nearest cache.
@@ -95,7 +95,7 @@ def modes_like(terms, mixing, offset, squared, order, likeness):
                         likeness[begin + k, i, j] = V[j, i, k] ** 2
 
 
-@borrowing
+@njit_no_refcount
 def in_modes(B, mixing, offset, half, A):
     """A = mixing B mixing' + offset, upper triangle (Eq. 25 in the template's modes)."""
     m, nd = mixing.shape
@@ -116,7 +116,7 @@ def in_modes(B, mixing, offset, half, A):
                     A[i, j, k] += factor * half[b, k]
 
 
-@borrowing
+@njit_no_refcount
 def diagonalise(A, V, cosine, sine):
     """Jacobi's rotations of upper triangles A (m, m, .) and of rows V, until A is diagonal."""
     m = len(A)
@@ -136,7 +136,7 @@ def diagonalise(A, V, cosine, sine):
             break
 
 
-@borrowing
+@njit_no_refcount
 def turn(A, V, p, q, cosine, sine):
     """The rotation that makes A[p, q] zero; the smaller of the two angles (Rutishauser)."""
     m = len(A)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
 from bearingcore.kernels.structs import Passage
 
 PATH_COLUMNS = (
@@ -36,7 +36,7 @@ BLOCK = 256
 """Half steps whose ball positions are laid out at once: small enough to stay in the cache."""
 
 
-@borrowing
+@njit_no_refcount
 def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
     """Drop of a ball's centre [m] at the angle x [rad] from the defect's middle, and its slope.
 
@@ -71,7 +71,7 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
     return drop, -steep if x > 0.0 else steep
 
 
-@borrowing
+@njit_no_refcount
 def path_drop(angle, cage_angle, row, path):
     """Drop [m] of a ball of a row at `angle`, and its derivative with its cage's turning [m/rad].
 
@@ -196,7 +196,7 @@ def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last):
 def drops_of_balls(cage, contacts, path, d, slope):
     """Drop [m] of every ball into d (n,) and its derivative [m/rad] with the cage's turning.
 
-    Only balls at a defect are asked for it: from the first one after the defect's beginning to the
+    Only balls at a defect are computed: from the first one after the defect's beginning to the
     last one before its end.
     """
     defects = path.defects
@@ -226,7 +226,7 @@ def drops_of_balls(cage, contacts, path, d, slope):
                 ball += 1.0
 
 
-@borrowing
+@njit_no_refcount
 def lay_out_drops(cage, contacts, path, d, slope):
     """`drops_of_balls`, called."""
     drops_of_balls(cage, contacts, path, d, slope)
@@ -241,7 +241,7 @@ def new_passage(instants, n):
     )
 
 
-@borrowing
+@njit_no_refcount
 def lay_out_unbalance(start, turn, count, rotor, passage):
     """Force of the unbalance at `count` cage angles start + i·turn [rad], into a passage."""
     if rotor.unbalance == 0.0:
@@ -256,7 +256,7 @@ def lay_out_unbalance(start, turn, count, rotor, passage):
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
     """Where the balls are at `count` cage angles start + i·turn [rad], into a passage.
 
-    Cages are turned by recurrence and each ball stands at a fixed angle to its own.
+    Cages are turned by recurrence and each ball is at a fixed angle to its own.
     """
     circle_c, circle_s = ball_circle(contacts.angle)
     fill_passage((start, turn, count, cage_speed), circle_c, circle_s, contacts, path, passage)
@@ -264,7 +264,7 @@ def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
 
 @inlined
 def fill_passage(turning, circle_c, circle_s, contacts, path, passage):
-    """What `lay_out_balls` does: turning is (start, turn, count, cage_speed)."""
+    """Body of `lay_out_balls`: turning is (start, turn, count, cage_speed)."""
     start, turn, count, cage_speed = turning
     rows = contacts.rows
     for row in range(rows.shape[0]):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
 from bearingcore.kernels.contact import (
     carried,
     components,
@@ -19,13 +19,13 @@ from bearingcore.kernels.path import ball_circle, lay_out_drops, place_balls
 from bearingcore.kernels.structs import Contacts, Descent, Path, Place
 
 CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
-"""What became of a cage angle; the sentences are beside `equilibrium`."""
+"""Statuses of a cage angle; their sentences are in `equilibrium`."""
 
 OPEN, REFUSED = -1, 5
-"""What a map says of a point beside the statuses above: not solved yet; no such defects."""
+"""Further statuses of a map's point: not solved yet; no such defects."""
 
 TOO_MANY = 6
-"""What is said of all cage angles where there are more of them than were to be solved."""
+"""Status of all cage angles where there are more of them than were to be solved."""
 
 # A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
 # it is still taken below the second. The third is the least pivot, relative to the greatest
@@ -36,7 +36,7 @@ RESIDUAL_AIM, RESIDUAL_LIMIT, LEAST_PIVOT = 1e-12, 1e-9, 1e-12
 MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = np.int64(60), np.int64(600)
 
 # A stiffness below this part of the greatest is none: rounding leaves more than it. Where a pivot
-# is below the second, taking them in the order of the directions does not tell.
+# is below the second, taking them in the order of the directions decides nothing.
 NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
 
 # Digits that q loses times the stiffness are a residual too: where a light load meets stiff balls
@@ -148,7 +148,7 @@ def energy_gradient_hessian(q, force, place, contacts, g, H):
     return energy - work, energy + abs(work), faintest
 
 
-@borrowing
+@njit_no_refcount
 def newton_direction(H, g, active, shift, L, p):
     """P = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
 
@@ -242,8 +242,8 @@ def with_factors(contacts, factor):
     )
 
 
-@borrowing
-def without_faint(q, noise, place, contacts, load, work, other):
+@njit_no_refcount
+def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
     """Whether the balls that carry more than `noise` [N] hold the ring on their own.
 
     The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
@@ -273,7 +273,7 @@ def pressed_load(q, place, contacts):
 
 
 @inlined
-def hardest(contacts):
+def stiffest_contact(contacts):
     """Number of the contact with the greatest load-deflection factor."""
     found = 0
     for j in range(contacts.factor.size):
@@ -291,7 +291,7 @@ def load_size(load):
     return math.sqrt(size)
 
 
-@borrowing
+@njit_no_refcount
 def descend(q, place, contacts, load, work, most):
     """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
 
@@ -304,7 +304,7 @@ def descend(q, place, contacts, load, work, most):
     L = work.L
     p = work.p
     trial = work.trial
-    hard = hardest(contacts)
+    hard = stiffest_contact(contacts)
     K = contacts.factor[hard]
     exponent = contacts.exponent[hard]
     carried_load = 0.0
@@ -326,7 +326,7 @@ def descend(q, place, contacts, load, work, most):
     faintest = 0.0
     now = 1
     evaluations = 0
-    # The first time round only evaluates the energy where q stands: written so, its code stands
+    # The first time round only evaluates the energy at q: written so, its code is
     # here once, which halves the time to compile it.
     for iteration in range(-1, most):
         g = G[now]
@@ -355,7 +355,7 @@ def descend(q, place, contacts, load, work, most):
             if residual <= RESIDUAL_AIM or settled or stuck:
                 noise = FAINT * max(residual, RESIDUAL_AIM) * whole
                 if faintest < noise:
-                    least = without_faint(q, noise, place, contacts, load, work, 1 - now)
+                    least = drop_negligible_contacts(q, noise, place, contacts, load, work, 1 - now)
                     if not least > NO_PIVOT:
                         now = 1 - now
                 if least < DOUBTFUL_PIVOT:
@@ -363,7 +363,7 @@ def descend(q, place, contacts, load, work, most):
                 status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
                 return now, status, residual, iteration, evaluations
             if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
-                # too few balls touch: a small spring to ground stands in for the missing stiffness
+                # too few balls touch: a small spring to ground replaces the missing stiffness
                 newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
                 shift_part = max(0.1 * shift_part, 1e-10)
             slope = 0.0
@@ -435,7 +435,7 @@ def descend(q, place, contacts, load, work, most):
     return now, NOT_CONVERGED, residual, most, evaluations
 
 
-@borrowing
+@njit_no_refcount
 def minimise_energy(q, place, contacts, load, work):
     """Move q to the minimum of V over the active directions.
 
@@ -445,7 +445,7 @@ def minimise_energy(q, place, contacts, load, work):
     A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
     as wide as a compression; Newton's straight steps in it are short. Where they do not come to
     their end it is reached with soft balls first, whose valley is wide, and from there with harder
-    ones: how far their answers lie apart is about what the softer balls are compressed.
+    ones: the difference of their answers is about what the softer balls are compressed.
     """
     now, status, residual, iterations, evaluations = descend(
         q, place, contacts, load, work, MOST_ITERATIONS
@@ -455,7 +455,7 @@ def minimise_energy(q, place, contacts, load, work):
     F = load.force
     active = load.active
     size = load_size(load)
-    one = hardest(contacts)
+    one = stiffest_contact(contacts)
     K = contacts.factor[one]
     exponent = contacts.exponent[one]
     soft = contacts.distance[one]  # compression of one ball under all of the load, at this softness
@@ -463,7 +463,7 @@ def minimise_energy(q, place, contacts, load, work):
     start = work.start
     soft_factor = work.soft
     for i in active:
-        # of a wedged ring without a load nothing tells how soft to begin
+        # of a wedged ring without a load nothing says how soft to begin
         away = contacts.clearance[one] / contacts.line_r[one] + soft
         start[i] = away * F[i] / size if size > 0.0 else q[i]
     ratio = 1.0
@@ -505,7 +505,7 @@ def minimise_energy(q, place, contacts, load, work):
 def extrapolate(cage_angles, k, q, active, state):
     """Guess the state at cage angle k: the parabola through the last three answers q.
 
-    Where they do not stand near and in order, the state stays as it is.
+    Where they are not near and in order, the state stays as it is.
     """
     x1 = cage_angles[k] - cage_angles[k - 1]
     x2 = cage_angles[k] - cage_angles[k - 2]
@@ -523,7 +523,7 @@ def extrapolate(cage_angles, k, q, active, state):
 def first_guess(contacts, load, state):
     """Put into state (5,): the clearance and one ball's compression, along the load."""
     size = load_size(load)
-    one = hardest(contacts)
+    one = stiffest_contact(contacts)
     reach = contacts.clearance[one] / contacts.line_r[one] + compression_under(
         size, contacts.factor[one], contacts.exponent[one]
     )

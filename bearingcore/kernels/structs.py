@@ -1,4 +1,4 @@
-"""What kernels take: small structs of arrays and numbers.
+"""Arguments of kernels: small structs of arrays and numbers.
 
 Quantity                                          | Symbol            | Unit
 ------------------------------------------------- | ----------------- | --------
@@ -44,7 +44,7 @@ class Contacts(NamedTuple):
     arm
         axial place z_k of the row over r_d.
     reach
-        radius on which the inner groove's centres of the row lie, over r_d.
+        radius on which the inner groove's centres of the row are, over r_d.
     line_r, line_z
         unloaded line of contact, radial and axial: cos α0, sin α0.
     distance [m]
@@ -127,7 +127,7 @@ class Descent(NamedTuple):
     Attributes
     ----------
     g : (2, 5) [N], H : (2, 5, 5) [N/m]
-        gradient and Hessian where the ring stands and where it is tried.
+        gradient and Hessian at the ring's place and at the place that is tried.
     L : (5, 5), p : (5,) [m], trial : (5,) [m]
         Cholesky factor, step, and the displacement tried.
     start : (5,) [m]
@@ -147,7 +147,7 @@ class Descent(NamedTuple):
 
 
 class MapPaths(NamedTuple):
-    """Paths of the e rows of a map: defects (e, m, columns), of which counts (e,) stand; tables."""
+    """Paths of the e rows of a map: defects (e, m, columns), counts (e,) of them used; tables."""
 
     defects: Array
     counts: Integers
@@ -155,14 +155,14 @@ class MapPaths(NamedTuple):
 
 
 class MapMemory(NamedTuple):
-    """What a map carries over from row to row: states (n, 5) [m], drops (n, contacts) [m]."""
+    """Data that a map carries over from row to row: states (n, 5) [m], drops (n, contacts) [m]."""
 
     q: Array
     drops: Array
 
 
 class MapAnswers(NamedTuple):
-    """What a map of e rows and n cage angles is filled with.
+    """Output arrays of a map of e rows and n cage angles.
 
     Attributes
     ----------
@@ -183,7 +183,7 @@ class MapAnswers(NamedTuple):
 
 
 VELOCITIES, SMOOTH, PLANAR = 0, 1, 2
-"""What a motion is marched in: v as it is; w; w where contacts stay in the plane. See `motion`."""
+"""Variables of a motion: v as it is; w; w where contacts stay in the plane. See `motion`."""
 
 
 class Rotor(NamedTuple):
@@ -229,28 +229,6 @@ class System(NamedTuple):
     rotor: Rotor
     contacts: Contacts
     path: Path
-
-
-class Adaptive(NamedTuple):
-    """How adaptive steps are chosen.
-
-    Attributes
-    ----------
-    sample_step [s]
-        between the rows of the history.
-    tolerance, scale : (4 n,)
-        the root mean square of error/scale of a step stays below the tolerance.
-    stops : (m,) [s]
-        rising times at each of which a step ends.
-    most_calls
-        right-hand sides before giving up.
-    """
-
-    sample_step: float
-    tolerance: float
-    scale: Array
-    stops: Array
-    most_calls: int
 
 
 class Forces(NamedTuple):
@@ -316,7 +294,7 @@ class Steps(NamedTuple):
 
 
 class TangentSteps(NamedTuple):
-    """What the tangent needs beside: its slopes, rates (4, 4 n, columns), and what is tried."""
+    """Work space of the tangent: its slopes, rates (4, 4 n, columns), and trial values."""
 
     slopes: Slopes
     k: Array

@@ -1,1 +1,1 @@
-"""What a scene is: bearing, defects, load, support. Values only; nothing is solved here."""
+"""Scenes: bearing, defects, load, support. Values only; nothing is solved here."""

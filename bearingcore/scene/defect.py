@@ -115,7 +115,7 @@ class Defect:
         return self.extent == 0.0 or self.depth == 0.0
 
     def turn_ratio(self, bearing: Bearing) -> float:
-        """How far the defect turns for each unit of cage angle: 0 (outer) or ω_s/ω_c (inner)."""
+        """Turning of the defect for each unit of cage angle: 0 (outer) or ω_s/ω_c (inner)."""
         return 0.0 if self.race == "outer" else 1.0 / bearing.cage_ratio
 
     def raceway_radius(self, bearing: Bearing) -> float:
@@ -149,7 +149,7 @@ class Defect:
             self.floor.check_length(self.extent * self.raceway_radius(bearing))
 
     def edge_row(self, bearing: Bearing) -> NDArray[np.float64]:
-        """How a ball follows the edges, in the order of `kernels.PATH_COLUMNS`."""
+        """Path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
         self.check_depth(bearing)
         r_b = bearing.ball_radius
         inner = self.race == "inner"
@@ -239,7 +239,7 @@ def _bytes_of_tables(
 # of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
 @kept(256, 64_000_000, _bytes_of_tables)
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
-    """What the kernels need to know of all defects: rows of numbers, and paths as tables.
+    """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
 
     The rows (n, len(kernels.PATH_COLUMNS)) describe one square defect each, or a stretch of the
     race whose path [m] is tabulated in the second array: a floor that is not flat, or several
@@ -356,7 +356,7 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, N
         raise checks.refuse(
             "row of a defect",
             [defect.row for defect in group],
-            "the same where defects touch, or defects that stand apart",
+            "the same where defects touch, or defects that are apart",
         )
     if any(defect.floor is not None or defect.edge != first.edge for defect in group):
         raise checks.refuse(
@@ -405,7 +405,7 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray
     whole = defect.extent >= TWO_PI
     # the corners belong to the healthy race; a whole race closes on itself
     surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
-    # no farther than the floor is long: a tiny defect would ask for steps without end
+    # no farther than the floor is long: a tiny defect would need steps without end
     with np.errstate(over="ignore", divide="ignore"):
         steps = math.ceil(min(0.5 * math.pi / step, angle.size))
     reach = np.arange(steps) * step

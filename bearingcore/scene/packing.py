@@ -124,12 +124,12 @@ def typical_compression(bearing: Bearing, load: float) -> float:
 
 
 def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:
-    """Where directions stand in x, y, z, rx, ry."""
+    """Indices of directions in x, y, z, rx, ry."""
     return np.array([DOF_NAMES.index(name) for name in dofs], dtype=np.int64)
 
 
 def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
-    """What a scaled displacement is divided by: 1 [m], or r_d for tilts [m/rad]."""
+    """Divisors of scaled displacements: 1 [m], or r_d for tilts [m/rad]."""
     lever = scene.bearing.groove_center_radius
     return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
 
@@ -163,7 +163,7 @@ def rotor(
     """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
 
     That is variables without jumps where the contact law has them, with the shorter sums of
-    contacts that stay in the plane where they do; `velocities` asks for these as they are, which
+    contacts that stay in the plane where they do; `velocities` takes these as they are, which
     adaptive steps and general-purpose integrators take. contact_damping: c [N·s/m] of Eq. 18.
     """
     published = scene.contact_law == "published"

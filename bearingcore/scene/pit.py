@@ -11,7 +11,7 @@ from bearingcore.scene.scene import Scene
 
 
 def pit(scene: Scene, length: float, race: str = "outer", depth: float | None = None) -> Defect:
-    """A small pit of a race, in the middle of the load zone, with the edges that geometry asks for.
+    """A small pit of a race, in the middle of the load zone, with the edges that geometry requires.
 
     Parameters
     ----------

@@ -50,11 +50,11 @@ ASSUMED = (
     "speed unless said otherwise, and the rotor and support of the fan rig, with which no rig of "
     "this bearing has been measured."
 )
-"""How notes end."""
+"""End of every note."""
 
 
 class Preset(NamedTuple):
-    """What a scene is called, what makes it when it is needed, and the note on its numbers."""
+    """Name of a scene, function that makes it, and the note on its numbers."""
 
     label: str
     make: Callable[[], Scene]
@@ -355,7 +355,7 @@ class UnknownPresetError(KeyError):
 
 
 class _Scenes(Mapping[str, Scene]):
-    """Scenes by name, each made when it is first asked for.
+    """Scenes by name, each made when it is first used.
 
     Those from drawings need SciPy's elliptic integrals, which take longer to import than the rest
     of this package together.
@@ -388,7 +388,7 @@ presets: Mapping[str, Scene] = _Scenes()
 preset_labels: Mapping[str, str] = MappingProxyType(
     {name: preset.label for name, preset in _PRESETS.items()}
 )
-"""What each preset is called on the page."""
+"""Name of each preset on the page."""
 
 preset_notes: Mapping[str, str] = MappingProxyType(
     {name: preset.note for name, preset in _PRESETS.items()}

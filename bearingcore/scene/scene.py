@@ -28,7 +28,7 @@ CONTACT_LAWS = ("published", "no tension")
 
 MASSLESS, WITH_MASS = "massless", "with mass"
 BALLS = (MASSLESS, WITH_MASS)
-"""What a simulated motion takes balls for. `massless`: each is a spring between the rings (Eq. 13).
+"""Models of balls in a simulated motion. `massless`: each is a spring between the rings (Eq. 13).
 `with mass`: each has its place, its inertia, centrifugal load and weight, and two contacts."""
 
 
@@ -105,7 +105,7 @@ class Scene:
             defect.check_depth(self.bearing)
             defect.check_floor(self.bearing)
         if len(self.defects) > 1:
-            path_tables(self.defects, self.bearing)  # refuses defects that cannot stand together
+            path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
 
     def _check_directions(self) -> None:
         """Refuse loads and directions that the kind of bearing cannot have."""

@@ -15,7 +15,7 @@ from bearingcore.common import checks
 @dataclass(frozen=True)
 class Support:
     """Two rigid bodies: the inner ring with the shaft, and the outer ring with the housing, which
-    stands on springs and dampers to ground (Eqs. 22, 23).
+    rests on springs and dampers to ground (Eqs. 22, 23).
 
     Masses [kg], stiffness [N/m] and damping [N·s/m] along x, y, z; about x and y (rx, ry)
     stiffness [N·m/rad], damping [N·m·s/rad] and moments of inertia [kg·m²]. What is None is not

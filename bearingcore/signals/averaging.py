@@ -1,4 +1,4 @@
-"""What a signal does on average while one ball follows another: averages over ball passes.
+"""Averages over ball passes: the mean signal while one ball follows another.
 
 An outer-race defect meets ball after ball, N_b f_c times a second. What repeats with the balls adds
 up over the passes and everything else, noise above all, averages out.
@@ -50,7 +50,7 @@ class BallPasses:
         what noise adds to `power`, estimated from the quietest stretches of the spectrum, or of
         what differs from pass to pass around each harmonic; 0 for a simulated motion.
     prominence
-        how far the ball-pass lines stand above those of other frequencies close by, in standard
+        how far the ball-pass lines are above those of other frequencies close by, in standard
         deviations of the latter; infinite for a simulated motion.
     begins : (passes + 1,) [s] or None
         when the passes begin, and the last one ends, where the cage was followed; None where it
@@ -129,7 +129,7 @@ def average_passes(
         [Hz]
     lowest, highest, widest
         [Hz]: the frequency is searched by its harmonics from `lowest` to `highest`; harmonics up
-        to `widest` are kept; what lies well below `lowest` is filtered out.
+        to `widest` are kept; all well below `lowest` is filtered out.
     slip
         how far off nominal the frequency may be, as a fraction of it.
     follow
@@ -243,7 +243,7 @@ def _ball_pass_frequency(
     lowest: float,
     highest: float,
 ) -> tuple[float, float]:
-    """The frequency whose harmonics stand highest, and how far they stand out."""
+    """The frequency whose harmonics are highest, and their height over the others."""
     from scipy.fft import next_fast_len
 
     n = len(signal)

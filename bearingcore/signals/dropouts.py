@@ -1,4 +1,4 @@
-"""What is wrong with a signal itself: dropouts, clipping, single blows."""
+"""Faults of a signal itself: dropouts, clipping, single blows."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ RAIL = 1e-6
 
 @dataclass(frozen=True)
 class SignalFaults:
-    """What is wrong with one direction of a recording.
+    """Faults of one direction of a recording.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class SignalFaults:
     dropped_share
         of the samples, 0 to 1.
     clipped_share
-        of the samples that lie at the greatest or least value, where several in a row do.
+        of the samples at the greatest or least value, where several in a row do.
     """
 
     dropped: NDArray[np.bool_] = field(repr=False)

@@ -26,7 +26,7 @@ DYNAMIC_RANGE = 1e-4
 def impulsive_band(
     signal: ArrayLike, sample_rate: float, lowest: float, highest: float
 ) -> tuple[float, float]:
-    """The octave (from, to) [Hz] in which knocks stand out most, between two frequencies.
+    """The octave (from, to) [Hz] in which knocks are clearest, between two frequencies.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def impulsive_band(
     Raises
     ------
     ValueError
-        for limits that do not lie between 0 and half the sample rate, or a signal that is not a
+        for limits that are not between 0 and half the sample rate, or a signal that is not a
         row of finite numbers.
     """
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
@@ -66,8 +66,8 @@ def impulsive_band(
         squared = np.abs(hilbert(inside, size)[: len(samples)]) ** 2
         power[index] = squared.mean()
         impulsiveness[index] = np.median([_kurtosis(part) for part in _pieces(squared)])
-    heard = power >= DYNAMIC_RANGE * power.max()
-    best = float(edges[int(np.where(heard, impulsiveness, -math.inf).argmax())])
+    loud = power >= DYNAMIC_RANGE * power.max()
+    best = float(edges[int(np.where(loud, impulsiveness, -math.inf).argmax())])
     return best, 2.0 * best
 
 
@@ -78,6 +78,6 @@ def _pieces(values: NDArray[np.float64]) -> list[NDArray[np.float64]]:
 
 
 def _kurtosis(squared: NDArray[np.float64]) -> float:
-    """How uneven a squared envelope is: 2 for noise, 1 for a steady tone, more for knocks."""
+    """Unevenness of a squared envelope: 2 for noise, 1 for a steady tone, more for knocks."""
     mean = float(squared.mean())
     return float((squared**2).mean()) / mean**2 if mean > 0.0 else 0.0

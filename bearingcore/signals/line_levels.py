@@ -1,4 +1,4 @@
-"""Lines in the spectrum of an envelope: how far they stand above what surrounds them."""
+"""Lines in the spectrum of an envelope, and their height above the local noise."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class LineLevels(NamedTuple):
     depth : (m,)
         by how much the envelope swings at a frequency, as a share of its mean.
     averages
-        independent spectra that the mean stands for.
+        independent spectra that the mean is worth.
     floor : (m,)
-        the depth that the surroundings stand for.
+        the depth of the surroundings.
     """
 
     step: float

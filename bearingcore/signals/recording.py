@@ -1,4 +1,4 @@
-"""A measured signal: acceleration in SI units, and what is known beside it."""
+"""A measured signal: acceleration in SI units, and further facts."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Recording:
     name
         where it comes from.
     shaft_speed
-        [rad/s] at the measurement, None where nobody knows.
+        [rad/s] at the measurement, None where it is not known.
     notes
         sentences on what was done to the signal, or left out of it.
 

@@ -29,7 +29,7 @@ def without_shaft_tones(
     sample_rate, shaft
         [Hz]
     passing
-        ball-pass frequency [Hz]: harmonics of the shaft beside one of its own are left in.
+        ball-pass frequency [Hz]: harmonics of the shaft next to one of its own are left in.
     """
     from scipy.fft import rfft  # imported late: see `spectrum`
     from scipy.signal import zoom_fft

@@ -13,7 +13,7 @@ from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
 
 MOST_SAMPLES = 100_000_000
-"""Samples of all signals that are taken at most unless asked otherwise: some seconds of one core,
+"""Samples of all signals that are taken at most by default: some seconds of one core,
 and some gigabytes."""
 
 

@@ -1,4 +1,4 @@
-"""How far two spectra are apart where they count."""
+"""Difference of two spectra where they count."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The bearing at rest: equilibrium, stiffness maps, what a load asks of the contacts."""
+"""The bearing at rest: equilibrium, stiffness maps, pressure, film and life of the contacts."""

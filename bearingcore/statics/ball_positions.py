@@ -40,7 +40,7 @@ UNSETTLED = StaticStatus.NOT_CONVERGED
 class BallPositions:
     """Static equilibrium of a scene whose balls find their own places, at n cage angles.
 
-    NaN stands where there is no answer. Of what has a row a race, the inner race comes first.
+    NaN where there is no answer. Of what has a row a race, the inner race comes first.
 
     Attributes
     ----------
@@ -241,7 +241,7 @@ def static_state(
     *,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
-    """Static equilibrium as the scene asks for it.
+    """Static equilibrium by the model of the scene.
 
     `equilibrium` of massless balls. Balls with mass (`Scene.balls`) carry their centrifugal load at
     the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
@@ -272,7 +272,7 @@ def static_state(
 
 @dataclass(frozen=True)
 class CentrifugalEffect:
-    """What centrifugal load changes of a scene's static state, the greatest over its cage angles.
+    """Changes of a scene's static state by centrifugal load, the greatest over its cage angles.
 
     Attributes
     ----------
@@ -363,7 +363,7 @@ def _unbalanced(
 
 
 def static_balls(scene: Scene, races: kernels.Races) -> kernels.StaticBalls:
-    """What `kernels.ball_positions` needs of a scene."""
+    """Arguments of `kernels.ball_positions` for a scene."""
     return kernels.StaticBalls(
         packing.contacts(scene.bearing),
         races,

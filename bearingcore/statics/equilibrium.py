@@ -17,7 +17,7 @@ from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
-from bearingcore.statics.load_capacity import runs_away
+from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.status import StaticStatus
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -43,13 +43,13 @@ TERM_SYMBOLS = {
 ANGLES_A_PERIOD = 121
 
 MOST_CONTACTS = 20_000_000
-"""Contacts, those of all balls at all cage angles, that are solved at most unless asked otherwise:
+"""Contacts, those of all balls at all cage angles, that are solved at most by default:
 some seconds of one core and a gigabyte of answers."""
 
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Static equilibrium of a scene at n cage angles. NaN stands where there is no answer.
+    """Static equilibrium of a scene at n cage angles. NaN where there is no answer.
 
     Attributes
     ----------
@@ -246,7 +246,7 @@ def equilibrium(
 
 
 def too_many_contacts(scene: Scene, points: int, most: int) -> str:
-    """What solving so many points of a scene would cost, where it is too much; else empty."""
+    """Cost of solving so many points of a scene in words, where it is too much; else empty."""
     most = checks.whole_number("most_contacts", most, at_least=1, at_most=10**12)
     contacts = points * packing.contacts(scene.bearing).angle.size
     if contacts <= most:
@@ -304,7 +304,7 @@ def _explain(
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif status[k] == StaticStatus.NOT_CONVERGED and runs_away(
+        elif status[k] == StaticStatus.NOT_CONVERGED and is_unbounded(
             scene, angles[k], active, load.force[active]
         ):
             status[k] = StaticStatus.NOT_CARRIED

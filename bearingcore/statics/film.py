@@ -58,7 +58,7 @@ TOUCHING, PARTED = 1.0, 3.0
 ever do."""
 
 LUBRICATION = ("boundary", "mixed", "full film")
-"""What there is below the first, between, and above the second."""
+"""Lubrication below the first, between, and above the second."""
 
 MINERAL_OIL = 2.0e-8
 """Pressure-viscosity coefficient ξ [1/Pa] of a usual mineral oil: 1.5 to 2.5e-8."""
@@ -128,7 +128,7 @@ class Film:
 
     @property
     def limit(self) -> Limit:
-        """The film parameter of the thinner film beside the one below which surfaces touch."""
+        """The film parameter of the thinner film against the one below which surfaces touch."""
         value = self.thinner.film_parameter
         return Limit("film parameter", value, TOUCHING, "", value < TOUCHING, self.thinner.sentence)
 

@@ -27,7 +27,7 @@ Which loads are averaged, and how: `bearingcore.statics.race_loads`.
 
 What the standard leaves out, and a damaged race has: it rates fatigue that begins below smooth
 races. Pressure on the edges of a defect is several times that of the smooth race, each passing ball
-strikes the far edge, and debris dents the rest. All of that shortens the life, so what is told here
+strikes the far edge, and debris dents the rest. All of that shortens the life, so the life here
 for a damaged bearing is the effect of the changed load distribution alone: an upper bound, no
 forecast and no promise. Lubrication, cleanliness and the fatigue limit (a_ISO) are left out too.
 
@@ -75,7 +75,7 @@ LARGE_BALL = 25.4
 
 
 class ContactLife(NamedTuple):
-    """What ISO 16281 says of a kind of contact.
+    """Constants of ISO 16281 for a kind of contact.
 
     Load against life p and scatter of lives e; then, for the rating of each race, what part of
     C_r/(Z cos α) each takes, what rows count together, and how races share: a factor, and powers of
@@ -97,7 +97,7 @@ POINT_CONTACT = ContactLife(3.0, 10.0 / 9.0, 0.407, 0.389, 0.7, 1.044, 1.72, 0.4
 LINE_CONTACT = ContactLife(4.0, 9.0 / 8.0, 0.378, 0.364, 7.0 / 9.0, 1.038, 143.0 / 108.0, 0.0)
 """Of rollers, loaded evenly along their length. The standard divides the ratings by λν = 0.83 and
 adds up the true load along each roller with its edge stress; where that load is not computed the
-factor that stands for it stays in C_r, and half a load zone lasts as long as ISO 281 says. Divided
+factor in its place stays in C_r, and half a load zone lasts as long as ISO 281 says. Divided
 by it, but without edge stress, lives would come out at double."""
 
 
@@ -108,7 +108,7 @@ class Life:
     Attributes
     ----------
     scene, dynamic_load_rating [N], positions, turning_race
-        what was asked.
+        arguments of `life`.
     inner_rating, outer_rating [N]
         Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns.
     inner_load, outer_load [N]
@@ -382,7 +382,7 @@ def ratings_of_races(
 
 
 def _groove_ratio(f_i: float, f_e: float) -> float:
-    """What the grooves do to Q_ci/Q_ce; f are groove radii over the ball diameter."""
+    """Effect of the grooves on Q_ci/Q_ce; f are groove radii over the ball diameter."""
     return f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
 
 
@@ -429,7 +429,7 @@ def _roller_rating(bearing: Bearing, length: float) -> float:
     """C_r [N] of cylindrical rollers of a length [m]; see `dynamic_load_rating`.
 
     f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
-    stands for what a real load along the roller takes.
+    allows for what a real load along the roller takes.
     """
     gamma = bearing.ball_diameter / bearing.pitch_diameter
     B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)

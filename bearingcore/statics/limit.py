@@ -1,4 +1,4 @@
-"""A number of a scene beside what it should not pass, and what it means in words."""
+"""A number of a scene against its limit, and what it means in words."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bearingcore.common.table import ResultTable, table_of
 
 @dataclass(frozen=True)
 class Limit:
-    """One number of a scene beside what it should not pass.
+    """One number of a scene against its limit.
 
     Attributes
     ----------

@@ -22,14 +22,14 @@ Array = NDArray[np.float64]
 EPSILON = float(np.finfo(float).eps)
 
 ROUNDING = 1e-13
-"""A gradient below this is that of a ball which stands across the direction to a digit."""
+"""A gradient below this is that of a ball which is across the direction to a digit."""
 
 LEAST_GAIN, ALIKE = 1e-14, 1e-11
-"""The part of a load of size 1 that another ball must be able to take for it to be asked, and how
+"""The part of a load of size 1 that another ball must be able to take for it to be tried, and how
 much two rays must differ to be two."""
 
 
-def way_out(
+def descent_direction(
     scene: Scene, cage_angle: float, active: NDArray[np.int64], load: Array
 ) -> tuple[Array, float]:
     """Direction (len(active),) in which a load works and no ball is ever pressed, and its share.
@@ -63,16 +63,16 @@ def way_out(
     return left @ still, float(np.linalg.norm(left))
 
 
-def runs_away(scene: Scene, cage_angle: float, active: NDArray[np.int64], load: Array) -> bool:
+def is_unbounded(scene: Scene, cage_angle: float, active: NDArray[np.int64], load: Array) -> bool:
     """True where some motion does work on the load and never presses a ball.
 
     The energy then falls without end. `load` belongs to the active directions.
     """
-    return way_out(scene, cage_angle, active, load)[1] > RESIDUAL_LIMIT
+    return descent_direction(scene, cage_angle, active, load)[1] > RESIDUAL_LIMIT
 
 
 def beyond_cone(rays: Array, point: Array) -> Array:
-    """What is left of `point` (m,) after its nearest in the cone of `rays` (m, k) is taken off.
+    """Rest of `point` (m,) after its nearest in the cone of `rays` (m, k) is taken off.
 
     Lawson and Hanson's active sets, with a tolerance, as rays of balls opposite each other are.
     """

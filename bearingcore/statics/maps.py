@@ -27,20 +27,20 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     too_many_contacts,
 )
-from bearingcore.statics.load_capacity import runs_away
+from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
 
 GREATEST_EXTENT = math.radians(90.0)
-"""How far maps go unless asked otherwise, as the paper's Figs. 5 and 6 do."""
+"""Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
 
 
 @dataclass(frozen=True)
 class Maps:
     """Static answers over m extents of a scene's first defect and n cage angles.
 
-    NaN stands where there is no answer.
+    NaN where there is no answer.
 
     Attributes
     ----------
@@ -150,7 +150,7 @@ def stiffness_maps(
     -------
     Maps
         with a status for each point. That there is no answer, or that defects of this extent
-        cannot stand together, is a status and not an error.
+        exclude each other, is a status and not an error.
 
     Raises
     ------
@@ -200,7 +200,7 @@ def stiffness_maps(
         )
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
-    # takes long: the first row tells which cage angles the others need not try.
+    # takes long: the first row shows which cage angles the others need not try.
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
     solved, evaluations = solve(start, begun)
@@ -236,7 +236,7 @@ def _run_away(
     """Indices of the cage angles without an answer at which nothing can carry the load."""
     failed = np.flatnonzero((status == StaticStatus.NOT_CONVERGED).any(axis=0))
     active, force = load.active, load.force[load.active]
-    gone = [k for k in failed if runs_away(scene, float(angles[k]), active, force)]
+    gone = [k for k in failed if is_unbounded(scene, float(angles[k]), active, force)]
     return np.array(gone, dtype=np.int64)
 
 
@@ -278,7 +278,7 @@ def _paths(
     for extent in extents:
         defects = (dataclasses.replace(first, extent=extent), *others)
         try:
-            # past its cache, which this would fill with what nobody asks for again
+            # past its cache, which this would fill with what is not needed again
             found.append(inspect.unwrap(path_tables)(defects, bearing))
             refusals.append("")
         except ValueError as error:

@@ -45,7 +45,7 @@ def ball_drop(
 ) -> NDArray[np.float64]:
     """Drop d(φ) [m] of ball centres at `ball_angle` [rad] over all defects of a scene.
 
-    `cage_angle` [rad] moves inner-race defects. `race` asks for the drop into that race alone;
+    `cage_angle` [rad] moves inner-race defects. `race` takes the drop into that race alone;
     None for both together, as the contacts see it; `row` for balls of that row. Shapes broadcast.
     """
     if race is not None:
@@ -102,7 +102,7 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
 
 
 def passing_rate(scene: Scene, defect: Defect, row: int) -> float:
-    """How far a ball of a row turns past a defect for each unit of cage angle; the race may pass it
+    """Turning of a ball of a row past a defect for each unit of cage angle; the race may pass it
     instead, which is below 0.
     """
     own = scene.bearing.of_row(row)
@@ -125,7 +125,7 @@ def path_kinks(scene: Scene, first: float, last: float) -> NDArray[np.float64]:
     """Cage angles [rad] from first to last, rising, at which a ball meets an edge or a floor.
 
     The path of a ball has a corner, or its curvature jumps, there and only there, as long as
-    floors are flat and defects stand apart.
+    floors are flat and defects are apart.
     """
     found = []
     for crossing in crossings(scene, first - math.pi, last + math.pi):

@@ -1,4 +1,4 @@
-"""What every place of a race carries in the long run, and the one load that tires it as much.
+"""Long-run load of every place of a race, and the one load that tires it as much.
 
 Quantity                                         | Symbol | Name            | Unit
 ------------------------------------------------ | ------ | --------------- | ----
@@ -18,16 +18,16 @@ Two averages follow each other (Lundberg and Palmgren; Harris, chapter "Fatigue 
 
 A place of the standing race of a healthy bearing always sees the same load, a place of the turning
 race sees all of them, which leaves the second average alone for the one and the first alone for the
-other: the two means of ISO 16281. A defect breaks this up, as it stands in one of the races:
+other: the two means of ISO 16281. A defect breaks this up, as it is in one of the races:
 
-- in the outer race it stands in the load too, and nothing changes: a ball that comes to φ finds the
+- in the outer race it keeps to the load too, and nothing changes: a ball that comes to φ finds the
   cage, the other balls and the defect as every ball before it did;
 - in the inner race it turns against the load, so that every place of either race sees varying
   loads, and places of one race differ: both averages are needed for both races.
 
 Each row has races of its own, which all have to live: their lives combine as those of places do.
 
-Rows whose cages turn at speeds of their own come to stand to each other everywhere in the long run:
+Rows whose cages turn at speeds of their own take all positions to each other in the long run:
 loads are then averaged over a whole turn of the cage, and over TURNS_OF_ROWS ways in which the rows
 are turned to each other, spread evenly. What passes a standing place then varies a little; that is
 counted by the second average too, which is on the safe side.
@@ -258,7 +258,7 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
         used = (own / size) ** load_exponent
         along = float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
         inner.append(size * along**root)
-        # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ tells it between
+        # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ interpolates
         theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
         series = np.fft.rfft(used, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))

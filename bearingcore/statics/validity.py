@@ -18,14 +18,14 @@ What the model leaves out and what is looked at here:
 - the balls' inertia: what centrifugal force changes of loads, stiffness and contact angles, found
   by solving with it (`ball_positions`), and its size against the contact load. Gyroscopic moments,
   which go with it, and the shock of a ball that meets the far edge of a defect are left out too;
-- the size of the contact: Hertz takes it for small beside the ball;
+- the size of the contact: Hertz takes it for small against the ball;
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect.
 
 Not looked at: friction, temperature, fits, rings that bend, a cage that slips.
 Balls sunk deep into a defect, which the printed Eq. 8 mistakes for loaded ones, need no warning:
-the kernels tell them apart exactly.
+the kernels distinguish them exactly.
 """
 
 from __future__ import annotations
@@ -85,9 +85,9 @@ def usual_shoulder_height(contact_angle: float) -> float:
 
 
 def looked_at(scene: Scene) -> NDArray[np.float64]:
-    """Cage angles [rad] at which `limits` looks: fine, and the same for everybody who asks.
+    """Cage angles [rad] at which `limits` looks: fine, and always the same.
 
-    A verdict must not depend on how finely somebody draws. A defect that turns with the shaft, and
+    A verdict must not depend on the resolution of a figure. A defect that turns with the shaft, and
     rows of unlike balls, have a period eight times as long, or more, and a third of the angles for
     each part of it.
     """
@@ -103,7 +103,7 @@ def limits(
     shoulder_height: float | None = None,
     film: Film | None = None,
 ) -> tuple[Limit, ...]:
-    """What the model leaves out of `scene`, each with its number, its limit and a sentence.
+    """Limits of the model for `scene`, each with its number, its limit and a sentence.
 
     Parameters
     ----------
@@ -303,7 +303,7 @@ def centrifugal_force(scene: Scene) -> float:
 
 
 def _centrifugal(scene: Scene, state: Equilibrium) -> tuple[Limit, Limit]:
-    """What centrifugal force changes, and its size against the load of the least loaded ball.
+    """Effect of centrifugal force, and its size against the load of the least loaded ball.
 
     Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
     the second takes the least loaded of those that carry, at the median cage angle. Of rows that
@@ -332,7 +332,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
 
 
 def _centrifugal_change(scene: Scene) -> Limit:
-    """What centrifugal load changes of loads and stiffness, found by solving with it."""
+    """Change of loads and stiffness by centrifugal load, found by solving with it."""
     force = centrifugal_force(scene)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     try:

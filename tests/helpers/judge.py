@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from bearingcore import DOF_NAMES, Equilibrium, kernels
-from bearingcore.statics.load_capacity import way_out
+from bearingcore.statics.load_capacity import descent_direction
 from tests.helpers.contact_law import Array, Balls, Long
 
 RESIDUAL = 1e-9
@@ -253,7 +253,7 @@ def _judge_not_carried(answer: Equilibrium, i: int, balls: Balls, active: list[i
     """There is a direction in which the energy falls without end."""
     if np.any(np.isfinite(answer.displacement[i])) or np.any(np.isfinite(answer.stiffness[i])):
         return "a state that is not has a number"
-    w, share = way_out(
+    w, share = descent_direction(
         balls.scene, balls.cage_angle, np.array(active), balls.load[active].astype(float)
     )
     if share < 0.5 * RESIDUAL:

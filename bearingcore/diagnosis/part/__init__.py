@@ -1,1 +1,1 @@
-"""Which part of the bearing is damaged, if that can be told."""
+"""Diagnosis of the damaged part of a bearing."""

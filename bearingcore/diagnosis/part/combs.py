@@ -29,7 +29,7 @@ def harmonics(values: NDArray[np.float64], step: float, frequency: NDArray[np.fl
               count: int = HARMONICS) -> NDArray[np.float64]:  # fmt: skip
     """The greatest value within one step of each harmonic: (count, len(frequency)).
 
-    Zero where a harmonic lies above the values' last frequency.
+    Zero where a harmonic is above the values' last frequency.
     """
     peak = values.copy()
     np.maximum(peak[1:], values[:-1], out=peak[1:])
@@ -57,7 +57,7 @@ def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def noise_chance(level: float, averages: float) -> float:
-    """How often the comb at one frequency reaches a level [dB] where there is only noise."""
+    """Probability that the comb at one frequency reaches a level [dB] by noise alone."""
     sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)))
     if level >= edge:
         return float(_TAIL * np.exp(-(level - edge) / scale))

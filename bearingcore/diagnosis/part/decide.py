@@ -34,7 +34,7 @@ FAINT = 1.0
 healthy."""
 
 SURE = 0.99
-"""The greatest probability: there is always what nobody thought of."""
+"""The greatest probability: a cause outside the model is always possible."""
 
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
@@ -79,7 +79,7 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 
 
 def _undecided(judged: Judged) -> str:
-    """Why lines that are seen do not tell one part."""
+    """Reason why visible lines do not identify one part."""
     if judged.above_second < PART_MARGIN:
         return say.alike(judged.own, judged.second.lines.part, judged.second.level)
     if judged.above_other < OTHER_MARGIN:

@@ -5,9 +5,9 @@ that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's pre-w
 squared envelopes are taken in the bands of the fast kurtogram; in their spectra combs of six
 harmonics are looked for, with one common slip (see `combs`). A part is named if its comb
 
-- stands well above what noise reaches anywhere it was looked for (NOISE_MARGIN),
+- is well above the level that noise reaches anywhere in the search (NOISE_MARGIN),
 - swings the envelope by more than healthy bearings do (LEAST_DEPTH),
-- stands well above the combs of the other parts (PART_MARGIN) and above every other comb there is
+- is well above the combs of the other parts (PART_MARGIN) and above every other comb there is
   (OTHER_MARGIN), of this bearing or not, but those that follow from it: multiples and sidebands,
 - has the sidebands that its own turning makes: an inner race those of the shaft, a ball the cage's.
 
@@ -37,7 +37,7 @@ SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 
 
 MOST_SAMPLES = 20_000_000
-"""Samples of all directions that are listened to at most unless asked otherwise: about a minute of
+"""Samples of all directions that are analysed at most by default: about a minute of
 one core, and some gigabytes."""
 
 
@@ -49,7 +49,7 @@ def diagnose(
     slip: float = 0.02,
     most_samples: int = MOST_SAMPLES,
 ) -> Diagnosis:
-    """Which part of a bearing is damaged, if that can be told from a signal.
+    """Diagnosis of the damaged part of a bearing from a signal.
 
     Parameters
     ----------
@@ -140,10 +140,10 @@ def _second_opinion(
     given: float,
     slip: float,
 ) -> Diagnosis:
-    """What the signal says that is not whitened, where the whitened one names no part.
+    """Diagnosis of the signal as it is, where the whitened one names no part.
 
     A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
-    are none of the bearing's are heard too, so this names a part only where it leads in the
+    are none of the bearing's show too, so this names a part only where it leads in the
     whitened signal too, or stands out by far in a band; else it keeps a bearing from being called
     healthy.
     """

@@ -1,4 +1,4 @@
-"""What a diagnosis says, and on what grounds."""
+"""Result of a diagnosis, and its evidence."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FAULTS = (*PARTS, NONE_SEEN, CANNOT_TELL)
 
 @dataclass(frozen=True)
 class PartEvidence:
-    """What speaks for damage of one part.
+    """Evidence for damage of one part.
 
     Attributes
     ----------
@@ -112,14 +112,14 @@ class EnvelopeLines:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What a signal says about which part of a bearing is damaged.
+    """Diagnosis of the damaged part of a bearing.
 
     Attributes
     ----------
     fault
         "outer race", "inner race", "ball", "none seen" or "cannot tell".
     probability
-        that the fault named is the true one, never 1; where it cannot be told, that of the part
+        that the fault named is the true one, never 1; without a clear result that of the part
         that leads.
     status
         sentences to pass on.
@@ -165,7 +165,7 @@ class Diagnosis:
         raise KeyError(part)
 
     def table(self) -> ResultTable:
-        """A row a part with its evidence; beside them the spectrum of the envelope, if any."""
+        """A row a part with its evidence; next to them the spectrum of the envelope, if any."""
         parts, spectrum = self.evidence, self.spectrum
         count = len(parts[0].harmonics) if parts else 0
         columns = table_of(

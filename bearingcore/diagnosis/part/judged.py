@@ -1,4 +1,4 @@
-"""How the combs of the parts stand against noise, each other and everything else."""
+"""Levels of the combs of the parts against noise, each other and all other lines."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Judged:
     above_second: float
     above_other: float
     above_other_in_band: float
-    """The same against those in the band alone in which the part is heard best."""
+    """The same against those in the band alone in which the part is clearest."""
     above_sidebands: float
     evidence: tuple[PartEvidence, ...]
     detectable: float
@@ -137,7 +137,7 @@ def most_telling(
     known_speed: bool,
     given: float | None = None,
 ) -> tuple[Combs, list[Combs]]:
-    """The combs at the resolution where one stands highest above noise, and at all of them."""
+    """The combs at the resolution where one is highest above noise, and at all of them."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
     envelopes = signal.heard(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
@@ -156,7 +156,7 @@ def compare(
     slip: float,
     given: float | None = None,
 ) -> Judged:
-    """How the combs of the parts stand against noise, each other and everything else."""
+    """Levels of the combs of the parts against noise, each other and all other lines."""
     shaft = combs.shaft
     cage = next(lines.sidebands for lines in parts if lines.part == BALL) * shaft
     best, rivals = _ranked(combs, cage, slip, given or shaft)
@@ -204,7 +204,7 @@ def compare(
 def _slower(combs: Combs, best: Found) -> np.ndarray:
     """Which combs (n,) are the best one's own, seen at a half or a third of its frequency.
 
-    A motion may repeat every second or third knock only, and then lines stand between the knocks'
+    A motion may repeat every second or third knock only, and then lines are between the knocks'
     own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
     """
     found = np.zeros(len(combs.frequency), dtype=bool)
@@ -223,10 +223,10 @@ def _slower(combs: Combs, best: Found) -> np.ndarray:
 
 
 def _ranked(combs: Combs, cage: float, slip: float, given: float) -> tuple[Found, list[Found]]:
-    """The part whose comb stands highest, and its rivals.
+    """The part whose comb is highest, and its rivals.
 
     No rival is a part whose comb is a multiple of the best one's, or its skirt: it has those lines
-    for free. Where one comb lies in the windows of two parts, as a ball's and an outer race's may,
+    for free. Where one comb is in the windows of two parts, as a ball's and an outer race's may,
     the sidebands decide.
     """
     ranked = sorted(combs.found, key=lambda found: -found.level)
@@ -246,7 +246,7 @@ def _ranked(combs: Combs, cage: float, slip: float, given: float) -> tuple[Found
         )
     ]
     rivals = [found for found in ranked if found is not best and found not in for_free]
-    if not rivals:  # all that is left shares its lines: nothing else is there to be told from
+    if not rivals:  # all that is left shares its lines: there is nothing else to distinguish
         rivals = [replace(for_free[-1], level=combs.noise)]
     return best, rivals
 

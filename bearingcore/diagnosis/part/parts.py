@@ -20,7 +20,7 @@ PARTS = (OUTER, INNER, BALL)
 
 @dataclass(frozen=True)
 class PartLines:
-    """Where a part's lines lie, in turns of the shaft (orders).
+    """Places of a part's lines, in turns of the shaft (orders).
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class PartLines:
     order
         of its first line, by the geometry.
     sidebands
-        how far from a line the sidebands lie that the part's own turning makes; 0 for none.
+        distance of the sidebands, made by the part's own turning, from a line; 0 for none.
     """
 
     part: str

@@ -70,7 +70,7 @@ def alike(own: PartEvidence, part: str, level: float) -> str:
 
 
 def no_stronger(own: PartEvidence, other: OtherLines) -> str:
-    """Lines that are none of this bearing's stand as high."""
+    """Lines that are none of this bearing's are as high."""
     return (
         f"Cannot tell: the lines of the {own.part} ({decibels(own.level)}) are no stronger than "
         f"others that repeat {number(other.order)} times a turn ({decibels(other.level)}), which "

@@ -31,7 +31,7 @@ LOWEST_ORDER = 1.05
 """Combs below a line each turn are the shaft's or the cage's own."""
 
 INDEPENDENT_BANDS = 0.5
-"""Bands lie in one another: of so many, this share counts as independent."""
+"""Bands overlap: of so many, this share counts as independent."""
 
 SURROUNDINGS = 2.0
 """Turns of the shaft a second over which a line's background is taken."""
@@ -40,7 +40,7 @@ WANDER = 0.003
 """By how much a cage's speed may wander while it is measured, as a fraction."""
 
 RARE = 1e-3
-"""How often noise may reach a level anywhere for that to be the level of noise."""
+"""Probability with which noise reaches the level of noise anywhere."""
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ def beside(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Levels [dB] at a distance [Hz] below and above each harmonic: twice (count, n)."""
     step = one.levels.step
-    level = one.cleared  # where a sideband falls on a line of the shaft it tells nothing
+    level = one.cleared  # where a sideband falls on a line of the shaft it is no evidence
     peak = level.copy()
     np.maximum(peak[1:], level[:-1], out=peak[1:])
     np.maximum(peak[:-1], level[1:], out=peak[:-1])
@@ -232,12 +232,12 @@ def beside(
 
 
 def excess(combs: Combs) -> float:
-    """By how much [dB] the best comb of any part stands above what noise reaches."""
+    """By how much [dB] the best comb of any part is above the level of noise."""
     return max(found.level for found in combs.found) - combs.noise
 
 
 def near(combs: Combs, frequency: float, other: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which frequencies [Hz] cannot be told from one, as segments are short and cages wander."""
+    """Mask of frequencies [Hz] too near one to be distinguished: segments end, cages wander."""
     resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
     return np.asarray(np.abs(other - frequency) <= resolution + WANDER * frequency)
 

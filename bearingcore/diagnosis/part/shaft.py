@@ -1,4 +1,4 @@
-"""Finding the shaft's own lines, which tell its speed better than a nameplate."""
+"""Finding the shaft's own lines, which give its speed better than a nameplate."""
 
 from __future__ import annotations
 

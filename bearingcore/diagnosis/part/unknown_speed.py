@@ -24,13 +24,13 @@ NARROW = 1.3
 """A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
 
 SHAFT_MARGIN = 6.0
-"""[dB] by which the shaft's lines at one speed must stand above those at another."""
+"""[dB] by which the shaft's lines at one speed must be above those at another."""
 
 
 def in_range(
     signal: ListenedSignal, bearing: Bearing, low: float, high: float, slip: float, source: str
 ) -> Diagnosis:
-    """The diagnosis at a speed that lies between two [Hz]: it is looked for.
+    """The diagnosis at a speed between two [Hz], which is looked for.
 
     The strongest comb in the signal may be of each part that has its line there at some speed of
     the range. Which it is, the shaft's own lines at that speed decide.
@@ -102,7 +102,7 @@ class _Hypothesis:
     def at(
         cls, signal: ListenedSignal, parts: Sequence[PartLines], speed: float, slip: float
     ) -> _Hypothesis:
-        """What follows if the shaft turns about `speed` times a second [Hz]."""
+        """Diagnosis if the shaft turns about `speed` times a second [Hz]."""
         shaft = signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip))
         return cls(shaft, judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
 

@@ -1,1 +1,1 @@
-"""How large a defect is, if that can be told."""
+"""Estimation of the size of a defect."""

@@ -1,4 +1,4 @@
-"""Whether a mean ball pass tells anything: is it one, and explained better than by chance?
+"""Whether a mean ball pass is evidence: is it one, and explained better than by chance?
 
 A few harmonics can be laid over many simulated passes, and some of those will fit by luck. How well
 luck does is found with the signal's own harmonics, their sizes kept and their phases drawn anew: of
@@ -22,7 +22,7 @@ DRAWS = 24
 
 @dataclass(frozen=True)
 class PassQuality:
-    """What a mean ball pass consists of, in the band that is compared.
+    """Composition of a mean ball pass, in the band that is compared.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ def pass_quality(target: Target) -> PassQuality:
 
 
 class ByChance:
-    """How well passes with the phases drawn anew are explained by the same simulations."""
+    """Fit of passes with the phases drawn anew by the same simulations."""
 
     def __init__(self, target: Target) -> None:
         rng = np.random.default_rng(0)

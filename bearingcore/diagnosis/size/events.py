@@ -2,12 +2,12 @@
 
 An edge knocks at the rings: what rings afterwards is the resonances' and predictable, the knock
 itself is not. So the mean ball pass is freed of what a linear prediction gives, and what is left
-stands at the two edges. Its direction tells the edges apart, and more: a ball on its way into the
+occurs at the two edges. Its direction distinguishes the edges, and more: a ball on its way into the
 defect hits the housing along the line from the shaft to that edge. The directions of the two knocks
 enclose the whole extent, not only its remainder after ball spacings. They are rough; the time
 between the knocks is fine.
 
-The knocks stand where a ball loses its load and takes it up again, a little inside the edges.
+The knocks occur where a ball loses its load and takes it up again, a little inside the edges.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class _Knocks:
 def find_events(passes: BallPasses, scene: Scene, directions: tuple[str, ...]) -> Events:
     """Entry and exit in the mean ball pass of a housing's acceleration along `directions`.
 
-    `scene` tells bearing, load and where the defect's middle is; not its extent.
+    `scene` gives bearing, load and the centre of the defect; not its extent.
     """
     spacing = scene.bearing.ball_spacing
     (defect,) = scene.defects
@@ -113,7 +113,7 @@ def find_events(passes: BallPasses, scene: Scene, directions: tuple[str, ...]) -
         turns.append(again.phases[1] - again.phases[0])
     between = found.phases[1] - found.phases[0]
     strays = np.angle(np.exp(1j * (np.array(turns) - between)))
-    # a draw whose knocks stand elsewhere altogether widens the uncertainty; and no time is better
+    # a draw whose knocks are elsewhere altogether widens the uncertainty; and no time is better
     # known than what it was smoothed over
     noisy = float(np.sqrt(np.mean(strays**2))) * spacing / (2.0 * math.pi)
     spread = math.hypot(noisy, 0.3 * SMOOTHED_OVER)
@@ -169,7 +169,7 @@ def _knocks(
         both = _smoothed(along * across, 0.75 * width)[at]
         squares = [_smoothed(part**2, 0.75 * width)[at] for part in (along, across)]
         slope = both / np.sqrt(squares[0] * squares[1])
-        # the entry stands at an angle before the defect's middle, the exit after it
+        # the entry is at an angle before the defect's middle, the exit after it
         order = np.argsort(slope)
         angle = 0.5 * np.arctan2(2.0 * both, squares[0] - squares[1])[order]
         at = at[order]
@@ -181,7 +181,7 @@ def _knocks(
 def _unpredicted(
     harmonics: NDArray[np.complex128], scatter: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """What a linear prediction of the mean pass does not give, (SAMPLES, d)."""
+    """Residual of a linear prediction of the mean pass, (SAMPLES, d)."""
     from scipy.linalg import solve_toeplitz  # imported late: see `spectrum`
 
     count = min(len(harmonics), SAMPLES // 2 - 1)

@@ -44,7 +44,7 @@ PITS = np.radians([0.2, 0.28, 0.4, 0.55, 0.75])
 """[rad] Shorter ones than two steps, which are simulated too."""
 
 DRAWS = 2
-"""Simulations of each extent with its scene's numbers varied, beside the one as given."""
+"""Simulations of each extent with its scene's numbers varied, in addition to the one as given."""
 
 PARTS = 16
 """In which the library is simulated, so that progress can be shown and work given up."""
@@ -68,17 +68,17 @@ MOST_OFF = 2.5
 
 STARTS = 10
 STARTS_APART = math.radians(0.8)
-"""How many extents are refined, and how far apart they are [rad]."""
+"""Number of extents that are refined, and their least distance [rad]."""
 
 FURTHER = (4, 4, 2, 2, 2, 2)
-"""How many of them are refined further in each round; the last only while they gain by it."""
+"""Number of them refined further in each round; the last only while they gain by it."""
 
 HOPPING = (4, 2)
-"""How many of the best are asked in each round whether an extent beside theirs does as well."""
+"""Number of the best whose neighbouring extents are tried in each round."""
 
 HOPS = np.radians([0.25, 0.5, 0.75, 1.0, 1.5])
 OTHER_EDGE_HOPS = np.radians([0.2, 0.45, 0.7, 1.0, 1.3])
-"""How far beside [rad]: where edges excite the resonances a cycle later."""
+"""Distance of neighbours [rad]: edges there excite the resonances a cycle later."""
 
 Stop = Callable[[float], None]
 
@@ -116,7 +116,7 @@ class Guess:
     level
         natural logarithm of simulated over measured power.
     path
-        what lies between housing and sensor.
+        path between housing and sensor.
     extent_spread
         standard deviation [rad] of the extent where the scene's numbers may vary; NaN until it was
         refined.
@@ -142,14 +142,14 @@ class Guess:
 
 @dataclass(frozen=True)
 class Search:
-    """What stays the same while a signal is explained."""
+    """Everything that stays the same while a signal is explained."""
 
     scene: Scene
     target: Target
     columns: tuple[int, ...]
     tolerances: Tolerances
     paths: tuple[PathModel, ...] = (DIRECT,)
-    """What may lie between housing and sensor."""
+    """Possible paths between housing and sensor."""
 
     @property
     def count(self) -> int:
@@ -223,7 +223,7 @@ class Search:
         return variant(self.scene, extent, edge, offsets * self.tolerances.spread)
 
     def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
-        """What least squares make small, so weighted that near `about` it does as the score."""
+        """Residuals of least squares, so weighted that near `about` their sum is as the score."""
         directions = len(about.waveform_misfit)
         weighed = (np.abs(about.waveform_residual) ** 2).sum(axis=0)
         waveform = np.sqrt(2.0 * WAVEFORM_WEIGHT / directions / (1.0 + weighed))
@@ -238,7 +238,7 @@ class Search:
     def beside(self, guess: Guess) -> Guess:
         """The best of extents a little shorter and longer, and of other edges, refined once.
 
-        Steps from a guess do not get there: between lie extents whose edges excite the resonances
+        Steps from a guess do not get there: between are extents whose edges excite the resonances
         out of step.
         """
         tried = [
@@ -310,7 +310,7 @@ class _Library:
 
 @dataclass(frozen=True)
 class _Sought:
-    """What a library is made of: the same for all signals of nearly the same speed."""
+    """Arguments of a library: the same for all signals of nearly the same speed."""
 
     scene: Scene
     frequency: float
@@ -443,8 +443,8 @@ def guesses(
 
     With them: how often chance would explain a pass of such a spectrum as well, see `ByChance`.
 
-    `cells` numbers the cells that extents fall into once the best guess is known: it is asked for
-    differences of extents [rad]. `progress` is told the share that is done, and may raise to end.
+    `cells` numbers the cells that extents fall into once the best guess is known; it takes
+    differences of extents [rad]. `progress` is called with the share done, and may raise to end.
     Threads share the work, most of which holds no interpreter lock; nothing depends on which is
     done first, as everything is taken in its own order.
     """
@@ -468,7 +468,7 @@ def _library_compared(
     sought = _Sought(scene, frequency, search.count, search.columns, search.tolerances)
 
     def explained(library: _Library, against_chance: bool) -> NDArray[np.float64]:
-        """How well each path (p, m) makes a library explain the signal."""
+        """Score (p, m) of a library for each path."""
         exits = exit_phases(scene, library.extents)
         tried = []
         for path in search.paths:

@@ -1,4 +1,4 @@
-"""How well simulated ball passes explain a measured one, whatever path lies between.
+"""Match of simulated ball passes with a measured one, for any path between them.
 
 Both are compared as averages over ball passes: the mean pass, whatever its place in time, and the
 smoothed spectrum, direction by direction.
@@ -32,7 +32,7 @@ SPECTRUM_FLOOR = 0.05
 
 WAVEFORM_WEIGHT = 12.0
 SPECTRUM_WEIGHT = 12.0
-"""What a factor e in a misfit counts, before the temperature: chosen by hand on scenes other than
+"""Weight of a factor e in a misfit, before the temperature: chosen by hand on scenes other than
 those that the method is judged by."""
 
 GREATEST_MISFIT = 2.0
@@ -54,7 +54,7 @@ FINER = ((0.05, 2), (0.02, 2), (0.008, 2))
 
 @dataclass(frozen=True)
 class Match:
-    """How well m simulated passes explain a measured one.
+    """Match of m simulated passes with a measured one.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Match:
 
     @property
     def score(self) -> NDArray[np.float64]:
-        """How well misfits speak for their cause, (m,)."""
+        """Evidence of the misfits for their cause, (m,)."""
         return np.asarray(
             -WAVEFORM_WEIGHT * self.waveform_cost.mean(axis=1)
             - SPECTRUM_WEIGHT * np.log(SPECTRUM_FLOOR + self.spectrum_misfit).mean(axis=1)
@@ -125,7 +125,7 @@ class Target:
         self._path_fits: dict[PathModel, tuple[PathFit, ...]] = {}
 
     def path_fits(self, model: PathModel) -> tuple[PathFit, ...]:
-        """What a path may do to the pass of each direction."""
+        """Fits of a path to the pass of each direction."""
         found = self._path_fits.get(model)
         if found is None:
             found = tuple(
@@ -166,7 +166,7 @@ class Prepared:
         simulated = harmonics[:, target.kept]
         self.bad = np.asarray(~np.isfinite(simulated).all(axis=(1, 2)), dtype=bool)
         self.simulated = np.where(self.bad[:, None, None], 0.0, simulated)
-        # of a pass of power 1 in each direction: the weaker one, which tells sizes apart, is heard
+        # of a pass of power 1 in each direction: the weaker one, which distinguishes sizes, counts
         self.scale = 1.0 / np.sqrt(target.energy)
         self.relative = self.simulated * self.scale
         self.explained: list[Explained] = []
@@ -199,7 +199,7 @@ class Prepared:
         return other
 
     def least_cost(self, harmonics: NDArray[np.complex128]) -> NDArray[np.float64]:
-        """How much speaks against the cause of a pass (n, d), mean over directions: (m,)."""
+        """Cost of explaining a pass (n, d), mean over directions: (m,)."""
         measured = harmonics * self.scale
         if not self.model.direct:
             return self._laid(measured, FINER[:1], FEWER_PEAKS)[1]
@@ -308,7 +308,7 @@ class Prepared:
     def _left(
         self, measured: NDArray[np.complex128], lags: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
-        """What is left (m, l, n, d) of a measured pass turned back by lags (m, l)."""
+        """Residual (m, l, n, d) of a measured pass turned back by lags (m, l)."""
         turn = np.exp(-1j * lags[:, :, None] * self.target.order)
         return np.asarray(measured * turn[:, :, :, None] - self.relative[:, None])
 

@@ -1,6 +1,6 @@
-"""What the way from the housing to the sensor may have done to a simulated ball pass.
+"""Effect of the path from the housing to the sensor on a simulated ball pass.
 
-Sensors do not feel the rings: between them lie plates and screws that ring, and a ball that strikes
+Sensors are not on the rings: between them are plates and screws that ring, and a ball that strikes
 the far edge makes more ring than two rigid bodies can. Neither is known, both are of a kind: a path
 answers a blow at once and fades, and a strike happens where the exit is. So the measured pass D_n
 is taken for
@@ -38,7 +38,7 @@ FEW = 8
 
 @dataclass(frozen=True)
 class PathModel:
-    """What a path may do; all 0 for a sensor on the housing itself."""
+    """Parameters of a path; all 0 for a sensor on the housing itself."""
 
     strength: float = 0.0
     ringing: float = 0.0
@@ -56,7 +56,7 @@ DIRECT = PathModel()
 
 
 class PathFit:
-    """How well simulated passes, behind any path, explain a measured one of a direction.
+    """Evidence of simulated passes, behind any path, for a measured one of a direction.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class PathFit:
     frequency
         of ball passes [Hz].
     noise : (N,)
-        variance of the measured coefficients beside the simulation's, the pass having power 1.
+        variance of the measured coefficients about the simulation's, the pass having power 1.
     """
 
     def __init__(
@@ -114,7 +114,7 @@ class Explained:
     def root(self) -> NDArray[np.complex128]:
         """(m, N, N) that makes what may be measured white; its square inverts the covariances.
 
-        The squares themselves, N³ of work for each, are not needed: what they are asked for are
+        The squares themselves, N³ of work for each, are not needed: all that is used are
         products with vectors. Of many passes, which are compared and not refined, it is kept in
         half the digits: covariances of the noise allowed for are well conditioned.
         """

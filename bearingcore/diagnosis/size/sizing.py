@@ -4,9 +4,9 @@ The time from a ball's entry to a ball's exit gives the extent only up to whole 
 (Petersen, Howard & Prime 2014, Section 4). So every extent is simulated, what is only roughly known
 about the scene is varied with it, and each candidate Δφ + k·360°/N_b is asked how well it explains
 the signal: the mean ball pass in both directions and the spectrum. The answer is a probability for
-each candidate, and a word where the signal cannot tell.
+each candidate, and a word where there is no clear result.
 
-First the diagnosis is asked, which needs no model of the machine: an extent is looked for only
+First comes the diagnosis, which needs no model of the machine: an extent is looked for only
 where it names the outer race. Then the mean ball pass must be one: several harmonics, more than
 noise, and explained better than chance would (see `chance`).
 
@@ -60,7 +60,7 @@ from bearingcore.signals.spectrum import check_samples
 from bearingcore.statics.passes import crossings
 
 MOST_STEPS = 100_000_000
-"""Steps of integration of all simulations together, unless asked otherwise: ten times what a usual
+"""Steps of integration of all simulations together, by default: ten times what a usual
 scene takes, about a minute of one core."""
 
 TEMPERATURE = 3.0
@@ -79,14 +79,14 @@ SPREAD_FLOOR = math.radians(0.02)
 """[rad] No extent is better known than what is simulated of it."""
 
 WIDEST = 0.1
-"""Of a ball spacing: where extents that are nearly as good lie further apart than this (their
+"""Of a ball spacing: where extents that are nearly as good differ by more than this (their
 standard deviation at `TEMPERATURE`), no size is given."""
 
 CLEAR = 0.9
 """Probability from which a candidate counts as found."""
 
 MUCH_UNEXPLAINED = 0.2
-"""Part of the mean ball pass, beside noise: where the best candidate leaves more, none is it."""
+"""Part of the mean ball pass without noise: where the best candidate leaves more, none is it."""
 
 PIT = math.radians(2.0)
 """[rad] Extents up to which a defect counts as a pit."""
@@ -96,7 +96,7 @@ PIT_UNEXPLAINED = 0.45
 
 MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
 """Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
-a tone that happens to lie on a harmonic is not a defect."""
+a tone that happens to be on a harmonic is not a defect."""
 
 LEAST_CHANCE = 0.05
 """Part of passes with phases drawn anew that may be explained as well as the measured one."""
@@ -139,7 +139,7 @@ class Candidate:
     lag
         ball-pass phase [rad] of the simulation at which the measured signal begins.
     path
-        what lies between housing and sensor, of what was tried.
+        path between housing and sensor, of those that were tried.
     """
 
     turns: int
@@ -177,7 +177,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Sizing:
-    """What a signal says about the size of a defect.
+    """Result of sizing a defect by a signal.
 
     Attributes
     ----------
@@ -190,7 +190,7 @@ class Sizing:
     conclusive
         whether one candidate stands out from all the others, and its extent is not a bound.
     bound
-        "at most" or "at least" where the best extent stands at an end of the search; else "".
+        "at most" or "at least" where the best extent is at an end of the search; else "".
     diagnosis
         which part the signal names; None where it was given by hand.
     quality
@@ -198,7 +198,7 @@ class Sizing:
     chance
         how often a pass of such a spectrum is explained as well with its phases drawn anew.
     apart
-        how far apart [rad] extents lie that explain it nearly as well, in half a ball spacing.
+        spread [rad] of extents that explain it nearly as well, in half a ball spacing.
     path
         what was allowed for between housing and sensor.
     events
@@ -252,7 +252,7 @@ class Sizing:
         """Δt [s] from a ball entering to the next that leaves, by the most probable candidate.
 
         What its extent leaves over whole ball spacings, at the speed of the measured cage. The
-        knocks in the signal stand closer together (`events`): a ball loses its load a little inside
+        knocks in the signal are closer together (`events`): a ball loses its load a little inside
         the edge and takes it up again before the other.
         """
         best = self.best
@@ -271,7 +271,7 @@ class Sizing:
         return self.end(self.bound) if self.bound else math.nan
 
     def end(self, bound: str) -> float:
-        """How long [rad] the defect is at most, or at least, by `bound`."""
+        """Length [rad] of the defect at most, or at least, by `bound`."""
         room = 2.0 * self.extent_uncertainty
         if bound == AT_MOST:
             return max(self.best.extent + room, self.resolved)
@@ -668,7 +668,7 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
 
 
 def _like_a_pit(sized: Sizing) -> float:
-    """How short a pit [rad] is that knocks as the best extent does; 0 where there is none.
+    """Length [rad] of a pit that knocks as the best extent does; 0 where there is none.
 
     Whole ball spacings long, a defect is entered by one ball as another leaves it. What tells it
     from a pit is how the rings swing between, and that rests on the support alone, which is never

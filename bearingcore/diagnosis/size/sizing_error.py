@@ -1,4 +1,4 @@
-"""How far the size of a defect is missed when its own simulated signal is all there is to go by."""
+"""Error of the estimated size of a defect, by its own simulated signal."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""How much the size of a defect depends on the support of the machine, where nobody knows it.
+"""Dependence of the size of a defect on the support of the machine, where that is not known.
 
-Masses and stiffness of a housing decide where its modes lie, and those decide which extent is
+Masses and stiffness of a housing decide its natural frequencies, and those decide which extent is
 found. Where they are not known others are tried, and each counts by how well it explains the same
 signal.
 """
@@ -23,7 +23,7 @@ COUNTED = 0.01
 
 @dataclass(frozen=True)
 class SupportTrial:
-    """What a support makes of a signal.
+    """Result of sizing with one support.
 
     Attributes
     ----------

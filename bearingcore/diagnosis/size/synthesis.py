@@ -199,7 +199,7 @@ class Simulator:
         return found, Begin(history[-1, [0, 1, 3, 4]], resting)
 
     def _row(self, extent: float, edge: str, deeper: float) -> Array:
-        """How a ball follows a defect's edges; only the first of an edge and depth takes time."""
+        """Path of a ball over a defect's edges; only the first of an edge and depth takes time."""
         key = edge, float(deeper)
         row = self._rows.get(key)
         if row is None:

@@ -22,7 +22,7 @@ extent that needs none to be explained fairly is the likelier one."""
 
 @dataclass(frozen=True)
 class Tolerances:
-    """How well a scene is known: standard deviations of natural logarithms of its numbers.
+    """Uncertainty of a scene: standard deviations of natural logarithms of its numbers.
 
     0.1 says: right within 10 % in two cases of three. 0 holds a number fast.
     """
@@ -46,7 +46,7 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class PathTolerances:
-    """What may lie between the motion of the bearing and its measurement, each switchable.
+    """Effects between the motion of the bearing and its measurement, each switchable.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class PathTolerances:
 
     @property
     def models(self) -> tuple[PathModel, ...]:
-        """What is tried in turn: the sensor on the housing first."""
+        """Paths that are tried in turn: the sensor on the housing first."""
         found = [DIRECT]
         for path in PATHS:
             one = PathModel(
@@ -126,7 +126,7 @@ def variant(scene: Scene, extent: float, edge: str, exponents: NDArray[np.float6
 def system_variant(
     system: kernels.System, row: NDArray[np.float64], exponents: NDArray[np.float64]
 ) -> kernels.System:
-    """What kernels need of a `variant`, of what they need of its scene: a tenth of the time.
+    """System of a `variant` for the kernels, from that of its scene: a tenth of the time.
 
     `row` describes the defect, see `kernels.PATH_COLUMNS`. A static load goes with the same factor
     as the rotor's force, exp(exponents[2]).

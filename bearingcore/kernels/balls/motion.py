@@ -38,10 +38,10 @@ from bearingcore.kernels.balls.contacts import (
 )
 from bearingcore.kernels.balls.release import smooth_start, true_forces, update_released
 from bearingcore.kernels.balls.structs import INNER, OUTER, BallForces, BallMarch
-from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
 from bearingcore.kernels.contact import contact_load
 from bearingcore.kernels.motion.march import advance, all_finite, stage_part
-from bearingcore.kernels.motion.rings import accelerations
+from bearingcore.kernels.motion.rings import record, ring_accelerations
 from bearingcore.kernels.path import (
     BLOCK,
     drops_of_balls,
@@ -62,17 +62,6 @@ def ring_velocities(y, k, rotor, work, sign):
         k[2 * n + a] = y[3 * n + a] + sign * rotor.inverse_outer[a] * work.S[OUTER, active[a]]
         work.v[INNER, active[a]] = k[a]
         work.v[OUTER, active[a]] = k[2 * n + a]
-
-
-@inlined
-def ring_accelerations(y, k, rotor, a, work, push):
-    """Of both rings along active direction a (Eq. 18), with the unbalance's push (5,)."""
-    n = rotor.active.size
-    d = rotor.active[a]
-    # each ring feels its own contacts, so that of each pair one is left aside
-    inner, _ = accelerations(rotor, a, work.f[INNER, d], push[d], 0.0, 0.0)
-    _, outer = accelerations(rotor, a, work.f[OUTER, d], 0.0, y[2 * n + a], k[2 * n + a])
-    return inner, outer
 
 
 @inlined
@@ -124,24 +113,12 @@ def ball_rates(y, k, passage, inner, at, system, work):
             for part in range(2):
                 k[speeds + part * n_balls + j] = work.ball[part, j] * races.inverse_mass[j]
     for a in range(n):
-        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, work, passage.push[at])
+        k[n + a], k[3 * n + a] = ring_accelerations(
+            y, k, rotor, a, work.f[INNER], work.f[OUTER], passage.push[at]
+        )
 
 
-@inlined
-def record_rings(history, sample, y, k, rotor, work, push):
-    """Displacements, velocities and accelerations of one instant into history[sample]."""
-    n = rotor.active.size
-    for a in range(n):
-        inner, outer = ring_accelerations(y, k, rotor, a, work, push)
-        history[sample, 0, a] = y[a]
-        history[sample, 1, a] = k[a]
-        history[sample, 2, a] = inner
-        history[sample, 3, a] = y[2 * n + a]
-        history[sample, 4, a] = k[2 * n + a]
-        history[sample, 5, a] = outer
-
-
-@borrowing
+@njit_no_refcount
 def lay_out_inner(start, turn, count, system, inner):
     """Drops into defects of the inner race, with their rates, at `count` cage angles."""
     if system.inner_path.defects.shape[0] == 0:
@@ -230,7 +207,9 @@ def march_balls(y, h, start_angle, stride, system, history, places):
             if step % stride == 0:
                 true_forces(k[0], passage, inner, at, system, work)
                 sample = step // stride
-                record_rings(history, sample, y, k[0], rotor, work, passage.push[at])
+                record(
+                    history, sample, y, k[0], rotor, work.f[INNER], work.f[OUTER], passage.push[at]
+                )
                 for b in range(places.shape[1] * n_balls):
                     places[sample, b // n_balls, b % n_balls] = y[first + b]
             if step == n_steps:
@@ -270,7 +249,7 @@ def race_loads(inner_x, outer_x, places, active, turning, system):
     """Elastic loads (2, m, n_balls) [N] of inner and outer contacts.
 
     Displacements (m, len(active)) of the rings [m], tilts times r_d, and places (m, k, n_balls) of
-    the balls; turning is (start, turn): the cage stands at start + i·turn at row i.
+    the balls; turning is (start, turn): the cage is at start + i·turn at row i.
     """
     contacts = system.contacts
     n_balls = contacts.angle.size
@@ -291,7 +270,7 @@ def race_loads(inner_x, outer_x, places, active, turning, system):
     return loads
 
 
-@borrowing
+@njit_no_refcount
 def loads_of_races(place, loads, i, system, march):
     """Loads of one instant of `race_loads`."""
     find_contacts(place, 0, march.passage, march.inner, 0, system, march.forces)

@@ -11,7 +11,7 @@ in q and all b together, and what is left of it when each b has found its minimu
 
 is convex too, with the gradient Q_i e_i of the inner contact and the Hessian
 (M_i⁻¹ + M_e⁻¹)⁻¹, M = k₁ e e' + (Q/A) t t' the stiffness of a contact. Newton's method with a line
-search finds each minimum: a 2×2 problem a ball, inside of one in q. Without F both contacts lie on
+search finds each minimum: a 2×2 problem a ball, inside of one in q. Without F both contacts are on
 one line, and this is the energy of `statics`.
 
 Symbols as in `ball_mass`; the outer ring stands still.
@@ -26,7 +26,7 @@ import numpy as np
 
 from bearingcore.kernels.balls.contacts import race_touch, ring_at_ball
 from bearingcore.kernels.balls.structs import INNER, OUTER, Races
-from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
 from bearingcore.kernels.contact import components, compression_under, contact_load, tilting
 from bearingcore.kernels.path import ball_circle, lay_out_drops, place_balls
 from bearingcore.kernels.statics import (
@@ -135,7 +135,7 @@ def first_place(r, z, force, j, balls, places):
     return r + (Ai - di) * ca - reach, z + (Ai - di) * sa, True
 
 
-@borrowing
+@njit_no_refcount
 def settle_ball(r, z, j, balls, places):
     """Move ball j to its minimum; (r, z) is the displacement of the inner groove's centre.
 
@@ -229,7 +229,7 @@ def settle_ball(r, z, j, balls, places):
         det = h_rr * h_zz - h_rz * h_rz
         trace = h_rr + h_zz
         if not det > 1e-13 * trace * trace:
-            # a small spring stands in for stiffness that is missing
+            # a small spring replaces stiffness that is missing
             _, _, k_typical = contact_load(
                 compression_under(size, races.factor[OUTER, j], balls.contacts.exponent[j]),
                 races.factor[OUTER, j],
@@ -279,7 +279,7 @@ def settle_ball(r, z, j, balls, places):
     return energy, settled, w_rr, w_rz, w_zz
 
 
-@borrowing
+@njit_no_refcount
 def ring_energy(q, force, balls, places, g, H):
     """V(q) [N·m] with all balls at their minima, its gradient g (5,) and Hessian H (5, 5).
 
@@ -328,7 +328,7 @@ def ring_energy(q, force, balls, places, g, H):
     return energy, size, settled
 
 
-@borrowing
+@njit_no_refcount
 def settle_ring(q, load, balls, places, work):
     """Move q to the minimum of V. Returns (which, status, residual, iterations).
 

@@ -1,4 +1,4 @@
-"""What compiled functions of balls with mass take: their numbers, and their work space."""
+"""Arguments of compiled functions of balls with mass: their numbers, and their work space."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ INNER, OUTER = 0, 1
 
 
 class Races(NamedTuple):
-    """What each ball has beside the numbers of `Contacts`, each array (n,), or (2, n) by race.
+    """Numbers of each ball that are not in `Contacts`, each array (n,), or (2, n) by race.
 
     The first row is that of the inner, the second that of the outer contact.
 

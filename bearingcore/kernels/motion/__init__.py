@@ -1,1 +1,1 @@
-"""Motion of both rings: equations of motion, steps fixed and adaptive, and their tangent."""
+"""Motion of both rings: equations of motion, fixed steps, and their tangent."""

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
 from bearingcore.kernels.contact import (
     approach,
     carried,
@@ -35,7 +35,7 @@ from bearingcore.kernels.contact import (
     touch,
 )
 from bearingcore.kernels.motion.planar import planar_equations_of_motion, planar_forces
-from bearingcore.kernels.motion.rings import accelerations
+from bearingcore.kernels.motion.rings import record, ring_accelerations
 from bearingcore.kernels.motion.tangent import contact_slopes, new_slopes, saltation, tangent_rates
 from bearingcore.kernels.path import BLOCK, lay_out_balls, lay_out_unbalance, new_passage
 from bearingcore.kernels.structs import (
@@ -188,30 +188,8 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
         v[active[a]] = k[a] - k[2 * n + a]
     push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
     for a in range(n):
-        push = passage.push[at, active[a]]
-        k[n + a], k[3 * n + a] = accelerations(
-            rotor, a, f[active[a]], push, y[2 * n + a], k[2 * n + a]
-        )
+        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, f, f, passage.push[at])
     return count
-
-
-@inlined
-def record(history, step, y, k, rotor, force, push):
-    """Displacements, velocities and accelerations (Eq. 18) of one instant into history[step].
-
-    `force` (5,) is that of the contacts, `push` (5,) that of the unbalance.
-    """
-    active = rotor.active
-    n = active.size
-    for a in range(n):
-        d = active[a]
-        inner, outer = accelerations(rotor, a, force[d], push[d], y[2 * n + a], k[2 * n + a])
-        history[step, 0, a] = y[a]
-        history[step, 1, a] = k[a]
-        history[step, 2, a] = inner
-        history[step, 3, a] = y[2 * n + a]
-        history[step, 4, a] = k[2 * n + a]
-        history[step, 5, a] = outer
 
 
 @inlined
@@ -225,13 +203,13 @@ def all_finite(y):
 
 @inlined
 def stage_part(stage, h):
-    """How far [s] into a step the stage lies whose rate leads on from its beginning."""
+    """Time [s] from a step's beginning to the stage whose rate leads on from there."""
     return 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
 
 
 @inlined
 def advance(h, first, second, third, fourth):
-    """What a step of h [s] adds, by the rates of its four stages: classical Runge-Kutta."""
+    """Increment of a step of h [s], by the rates of its four stages: classical Runge-Kutta."""
     return h / 6.0 * (first + 2.0 * (second + third) + fourth)
 
 
@@ -289,7 +267,7 @@ def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
                     planar_forces(y, k[0], passage, at, rotor, contacts, forces.f)
                 elif rotor.variables == SMOOTH:
                     push_of_contacts(passage, at, rotor, contacts, forces, count, False)
-                record(history, step, y, k[0], rotor, forces.f, passage.push[at])
+                record(history, step, y, k[0], rotor, forces.f, forces.f, passage.push[at])
                 if step == n_steps:
                     break
         if step == n_steps:
@@ -331,7 +309,7 @@ def march(y, h, start_angle, system, history):
 
 @compiled
 def march_with_tangent(y, Y, h, start_angle, system, history):
-    """`march`, and beside it the tangent Y (4 n, columns): how the end changes with the beginning.
+    """`march`, together with the tangent Y (4 n, columns): how the end changes with the beginning.
 
     In smooth variables nothing jumps as balls touch: the steps of the tangent are the derivative of
     those of the motion, without corrections.
@@ -370,7 +348,7 @@ def turn_smooth(y, sign, angle, system):
         y[3 * n + a] -= rotor.inverse_outer[a] * jump
 
 
-@borrowing
+@njit_no_refcount
 def rates_at(angle, y, k, system, passage, work):
     """`equations_of_motion` at a cage angle [rad], which takes laying out the balls."""
     rotor = system.rotor
@@ -396,7 +374,7 @@ def motion_rates(times, states, start_angle, system):
 def elastic_loads(x, active, start_angle, turn, contacts, path):
     """K δ^n (m, contacts) [N] (Eq. 13) at displacements x (m, len(active)) [m], tilts times r_d.
 
-    The cage stands at start_angle + k·turn at row k.
+    The cage is at start_angle + k·turn at row k.
     """
     n_contacts = contacts.angle.size
     passage = new_passage(BLOCK, n_contacts)
@@ -409,7 +387,7 @@ def elastic_loads(x, active, start_angle, turn, contacts, path):
     return loads
 
 
-@borrowing
+@njit_no_refcount
 def loads_of_block(x, active, first, contacts, passage, q, loads):
     """Loads of the instants from `first` on that a passage holds; q (5,) is work space, 0."""
     for i in range(min(BLOCK, x.shape[0] - first)):
@@ -425,7 +403,7 @@ def between_steps(history, body, weights, first, out):
     """Fill out (n_out, n) with a quantity of one body, samples from `first` on, between steps.
 
     weights (ratio, 6) multiply x, v, acceleration at a step and at the next one; body is 0 for the
-    inner and 3 for the outer ring. Sample k lies (k mod ratio)/ratio of a step after step k//ratio.
+    inner and 3 for the outer ring. Sample k is (k mod ratio)/ratio of a step after step k//ratio.
     """
     ratio = weights.shape[0]
     last = history.shape[0] - 2

@@ -60,8 +60,10 @@ def planar_equations_of_motion(y, part, before, k, passage, at, rotor, contacts)
     vo0 = wo0 + rotor.inverse_outer[0] * S0
     vo1 = wo1 + rotor.inverse_outer[1] * S1
     w = rotor.cage_speed
-    ai0, ao0 = accelerations(rotor, 0, f0 + w * S1, passage.push[at, 0], xo0, vo0)
-    ai1, ao1 = accelerations(rotor, 1, f1 - w * S0, passage.push[at, 1], xo1, vo1)
+    f0 += w * S1
+    f1 -= w * S0
+    ai0, ao0 = accelerations(rotor, 0, f0, f0, passage.push[at, 0], xo0, vo0)
+    ai1, ao1 = accelerations(rotor, 1, f1, f1, passage.push[at, 1], xo1, vo1)
     k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7] = vi0, vi1, ai0, ai1, vo0, vo1, ao0, ao1
 
 
@@ -98,7 +100,7 @@ def planar_forces(y, k, passage, at, rotor, contacts, f):
 
 @inlined
 def planar_slopes(y, passage, at, rotor, contacts, slopes):
-    """How Σ δ e and p change with x, into slopes.Sx and slopes.Px."""
+    """Derivatives of Σ δ e and p by x, into slopes.Sx and slopes.Px."""
     x0 = y[0] - y[4]
     x1 = y[1] - y[5]
     clearance = contacts.clearance

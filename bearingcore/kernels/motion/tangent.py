@@ -1,10 +1,10 @@
-"""How a motion changes with its beginning: the tangent, marched beside it as columns."""
+"""Derivative of a motion by its beginning: the tangent, marched with it as columns."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from bearingcore.kernels.compiling import borrowing, compiled, inlined
+from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
 from bearingcore.kernels.contact import approach, contact_load, seen_from_the_cage, tilting
 from bearingcore.kernels.motion.planar import planar_slopes
 from bearingcore.kernels.structs import PLANAR, SMOOTH, VELOCITIES, Slopes
@@ -29,7 +29,7 @@ def new_slopes(size, columns, n_contacts):
 
 @inlined
 def contact_slopes(y, passage, at, system, work, count, slopes):
-    """How Σ δ e and the force change with x and v at the state y, into slopes.Sx, Px and Pv."""
+    """Derivatives of Σ δ e and the force by x and v at the state y, into slopes.Sx, Px and Pv."""
     rotor = system.rotor
     contacts = system.contacts
     if rotor.variables == PLANAR:
@@ -38,7 +38,7 @@ def contact_slopes(y, passage, at, system, work, count, slopes):
         swivelling_slopes(passage, at, rotor, contacts, work, count, slopes)
 
 
-@borrowing
+@njit_no_refcount
 def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
     """`contact_slopes` where contacts swivel.
 
@@ -113,7 +113,7 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
 
 @inlined
 def directions_in_q(er, ez, cj, sj, et, e, e_turn):
-    """What (er, ez) at a ball is along q, into e, and its derivative with the cage's turning."""
+    """Components of (er, ez) at a ball along q, into e, and their derivatives by the cage angle."""
     e[0] = er * cj
     e[1] = er * sj
     e[2] = ez
@@ -126,7 +126,7 @@ def directions_in_q(er, ez, cj, sj, et, e, e_turn):
     e_turn[4] = et * sj
 
 
-@borrowing
+@njit_no_refcount
 def tangent_rates(Y, kY, rotor, slopes):
     """Rate of the tangent Y (4 n, columns) into kY: the equations of motion, differentiated."""
     active = rotor.active
@@ -167,7 +167,7 @@ def tangent_rates(Y, kY, rotor, slopes):
             )
 
 
-@borrowing
+@njit_no_refcount
 def saltation(Y, passage, at, rotor, contacts, work, count, slopes):
     """Apply to the tangent Y what contacts that touched during a step do to it.
 

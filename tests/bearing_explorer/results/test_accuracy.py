@@ -34,12 +34,12 @@ EXPERIMENT = Experiment(
     "Motion",
     {"spectrum": "[dB]"},
     "right-hand sides",
-    {"": Reference(("LSODA", "Dormand-Prince"), {"spectrum": 2e-7}, True, 1.0)},
+    {"": Reference(("LSODA", "DOP853"), {"spectrum": 2e-7}, True, 1.0)},
     (
         point("RK4", 32768.0, 1e-2, 1e-3, settings={"step_rate": 32768.0}),
         point("RK4", 65536.0, 1e-4, 2e-3, settings={"step_rate": 65536.0}),
-        point("Dormand-Prince", 65536.0, 1e-1, 2e-2),
-        point("Dormand-Prince", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
+        point("scipy RK45", 65536.0, 1e-1, 2e-2),
+        point("scipy RK45", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
         point("scipy LSODA", 8192.0, math.inf, 1e-3),
     ),
 )
@@ -59,7 +59,7 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
     assert sources["accuracy_1"]["error"].tolist() == [1e-1]
     assert sources["accuracy_2"]["error"].size == 0
     failed = sources["accuracy_failed"]
-    assert [NAMES[int(k)] for k in failed["method"]] == ["Dormand-Prince", "scipy LSODA"]
+    assert [NAMES[int(k)] for k in failed["method"]] == ["scipy RK45", "scipy LSODA"]
     assert failed["named"].tolist() == [1.0, 2.0]
     low, high = ranges["accuracy_error"]
     assert low < 1e-4
@@ -73,9 +73,9 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
 def test_words_and_numbers_name_the_reference_and_what_failed() -> None:
     view = measured()
     words = view.sentence(Results(RIG))
-    assert "LSODA and Dormand-Prince agree" in words
+    assert "LSODA and DOP853 agree" in words
     assert "2·10⁻⁷ dB" in words
-    assert "Dormand-Prince failed: diverged" in words
+    assert "scipy RK45 failed: diverged" in words
     assert view.sentence(Results(RIG.healthy())).startswith("The scene has changed")
     table = view.table(Results(RIG))
     assert table["spectrum_error_db"][0] == 1e-2

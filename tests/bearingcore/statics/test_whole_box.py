@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from bearingcore import DOF_NAMES, EDGES, RACES, equilibrium, kernels
-from bearingcore.statics.load_capacity import way_out
+from bearingcore.statics.load_capacity import descent_direction
 from tests.helpers.box import (
     DOF_SETS,
     FACTORS,
@@ -365,7 +365,7 @@ def test_a_way_out_lies_in_the_cone_of_motions_that_press_no_ball() -> None:
         if not F.any():
             continue
         F /= np.linalg.norm(F)
-        way, share = way_out(scene, point.cage_angle, active, F)
+        way, share = descent_direction(scene, point.cage_angle, active, F)
         along, across = (rows[:, active].astype(float) for rows in balls.along_across)
         assert np.max(along @ way, initial=0.0) <= 1e-10
         assert np.max(np.abs(across @ way), initial=0.0) <= 1e-10

@@ -73,10 +73,6 @@ class BallComparison:
         times = self.seconds / max(self.massless_seconds, 1e-9)
         return f"massless: {holds}; with mass {number(times, 2)} times the time"
 
-    def enough_up_to(self, frequency: float) -> bool:
-        """Whether massless balls are within the budget up to a frequency [Hz], or all compared."""
-        return self.massless_up_to >= min(frequency, float(self.edges[-1]))
-
     def table(self) -> ResultTable:
         """A row a third octave: its ends, and what mass adds along each direction."""
         return table_of(

@@ -33,7 +33,7 @@ def curves_of(state: Equilibrium, curves: str) -> Array:
     checks.choice("curves", curves, CURVES)
     scene, dofs = state.scene, state.dofs
     index = [DOF_NAMES.index(name) for name in dofs]
-    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    mass = scene.support.inertias(dofs)
     K = two_body_matrix(state.stiffness[:, index][:, :, index], scene.support.stiffness(dofs))
     frequency = np.full((len(K), mass.size), math.nan)
     known = np.isfinite(K).all(axis=(1, 2))

@@ -194,9 +194,7 @@ def modes_at(state: Equilibrium, like: Modes | None = None) -> Modes:
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
     index = [DOF_NAMES.index(name) for name in dofs]
-    mass = np.concatenate(
-        [scene.support.inertia("inner", dofs), scene.support.inertia("outer", dofs)]
-    )
+    mass = scene.support.inertias(dofs)
     if state.cost:
         support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
         _, template = _undamped(support, mass)
@@ -261,7 +259,7 @@ def undamped_bands(
     """
     dofs = scene.active_dofs
     nd = len(dofs)
-    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    mass = scene.support.inertias(dofs)
     support = scene.support.stiffness(dofs)
     chosen = terms[
         [STIFFNESS_TERMS.index(f"k_{a}{b}") for i, a in enumerate(dofs) for b in dofs[i:]]
@@ -324,7 +322,7 @@ def highest_natural_frequency(scene: Scene) -> float:
     known = np.isfinite(K_b).all(axis=(1, 2))
     if not known.any():
         return math.nan
-    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    mass = scene.support.inertias(dofs)
     frequency, _ = _undamped(two_body_matrix(K_b[known], scene.support.stiffness(dofs)), mass)
     return float(frequency.max())
 

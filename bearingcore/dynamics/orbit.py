@@ -114,11 +114,6 @@ class Orbit:
         time = np.asarray(time, dtype=float).ravel() % self.period
         return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
 
-    def finer_history(self, factor: int) -> NDArray[np.float64]:
-        """Rows as those of `history`, `factor` times as many, without the one that closes it."""
-        steps = factor * (len(self.history) - 1)
-        return self._states(self.period * np.arange(steps) / steps)
-
     def _states(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
         parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]

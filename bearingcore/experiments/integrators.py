@@ -53,8 +53,6 @@ class Method:
         as charts show it.
     fixed_step
         True where the setting is a step rate [Hz], False where it is a tolerance.
-    order
-        of its local expansion on smooth motions.
     march
         does it.
     note
@@ -63,7 +61,6 @@ class Method:
 
     name: str
     fixed_step: bool
-    order: int
     march: Marcher
     note: str
 
@@ -162,7 +159,6 @@ METHODS: dict[str, Method] = {
         Method(
             "RK4",
             True,
-            4,
             _runge_kutta(velocities=False),
             "Runge-Kutta of order 4 as the program uses it: in variables that do not jump where "
             "the scene allows them",
@@ -170,15 +166,14 @@ METHODS: dict[str, Method] = {
         Method(
             "RK4 in velocities",
             True,
-            4,
             _runge_kutta(velocities=True),
             "the same steps with velocities as variables, which jump in rate as a ball touches",
         ),
-        Method("scipy RK45", False, 5, _of_scipy("RK45"), "embedded pair of Dormand and Prince"),
-        Method("scipy DOP853", False, 8, _of_scipy("DOP853"), "Runge-Kutta of order 8"),
-        Method("scipy LSODA", False, 12, _of_scipy("LSODA"), "Adams or BDF by stiffness"),
-        Method("scipy Radau", False, 5, _of_scipy("Radau"), "implicit Runge-Kutta of order 5"),
-        Method("scipy BDF", False, 5, _of_scipy("BDF"), "implicit, of variable order"),
+        Method("scipy RK45", False, _of_scipy("RK45"), "embedded pair of Dormand and Prince"),
+        Method("scipy DOP853", False, _of_scipy("DOP853"), "Runge-Kutta of order 8"),
+        Method("scipy LSODA", False, _of_scipy("LSODA"), "Adams or BDF by stiffness"),
+        Method("scipy Radau", False, _of_scipy("Radau"), "implicit Runge-Kutta of order 5"),
+        Method("scipy BDF", False, _of_scipy("BDF"), "implicit, of variable order"),
     )
 }
 """Ways to march by name."""

@@ -172,29 +172,6 @@ class Experiment:
             ("reference", "", [p.against for p in points]),
         )
 
-    def text(self) -> str:
-        """All points as text, one a line, for a terminal."""
-        lines = [self.title]
-        lines += [
-            f"  reference{f' {name}' if name else ''}: {reference.sentence}"
-            for name, reference in self.references.items()
-        ]
-        width = max([len(p.method) for p in self.points] + [6]) + 2
-        other = max([len(p.setting) for p in self.points] + [7]) + 2
-        heads = "".join(f"{name:>14}" for name in self.errors)
-        lines.append(f"  {'method':{width}}{'setting':{other}}{heads}{'ms':>10}{'calls':>11}")
-        for p in self.points:
-            cells = "".join(f"{p.errors.get(name, nan):>14.1e}" for name in self.errors)
-            text = f"  {p.method:{width}}{p.setting:{other}}{cells}{1e3 * p.seconds:>10.2f}"
-            text += f"{p.evaluations:>11}"
-            lines.append(text + (f"  {p.status}" if p.failed else ""))
-        lines += [f"  {name}: {text}" for name, text in self.errors.items()]
-        if self.left_out:
-            lines.append(f"  left out: {self.left_out}")
-        if not self.completed:
-            lines.append("  cancelled before its end")
-        return "\n".join(lines)
-
 
 nan = math.nan
 

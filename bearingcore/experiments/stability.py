@@ -51,7 +51,7 @@ class Trial:
     Attributes
     ----------
     method, step_rate [Hz]
-        who, and how many steps a second.
+        name of the method, and steps a second.
     verdict
         one of VERDICTS.
     spectrum_error
@@ -114,22 +114,6 @@ class StabilityChart:
             ("linear_limit", "Hz", [self.linear_limit[t.method] for t in trials]),
         )
 
-    def text(self) -> str:
-        """Methods down, steps across, with the linear limit next to them, for a terminal."""
-        rates = sorted({trial.step_rate for trial in self.trials})
-        names = list(dict.fromkeys(trial.method for trial in self.trials))
-        width = max(len(name) for name in names) + 2
-        lines = [f"steps/s over the highest natural frequency of {self.highest_frequency:.0f} Hz"]
-        heads = "".join(f"{rate / self.highest_frequency:>9.1f}" for rate in rates)
-        lines.append(f"  {'method':{width}}{heads}   linear limit")
-        short = {RIGHT: "right", LOST: "lost", WRONG: "wrong", DIVERGED: "diverged"}
-        by_place = {(t.method, t.step_rate): short[t.verdict] for t in self.trials}
-        for name in names:
-            cells = "".join(f"{by_place.get((name, rate), ''):>9}" for rate in rates)
-            limit = self.linear_limit[name] / self.highest_frequency
-            lines.append(f"  {name:{width}}{cells}{limit:>15.2f}")
-        return "\n".join(lines)
-
 
 def linear_limits(scene: Scene) -> dict[str, float]:
     """Least stable step rate [Hz] of each fixed-step method at the scene's stiffest static state.
@@ -139,7 +123,7 @@ def linear_limits(scene: Scene) -> dict[str, float]:
     dofs = scene.active_dofs
     index = [DOF_NAMES.index(name) for name in dofs]
     state = equilibrium(scene, default_cage_angles(scene, 31), dofs)
-    mass = np.concatenate([scene.support.inertia(body, dofs) for body in ("inner", "outer")])
+    mass = scene.support.inertias(dofs)
     damping = contact_damping(scene) * loaded_directions(state)
     systems = []
     for k in np.flatnonzero(state.converged):

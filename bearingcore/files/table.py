@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
-from bearingcore.files.channels import TIME
 from bearingcore.files.child import read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
 from bearingcore.files.units import UNITS, differentiated, kind_of, level_doubt
@@ -38,18 +37,6 @@ class Table(FileColumns):
     def contents(self) -> FileContents:
         """Statements of the file about itself, and guesses at the rest."""
         return contents_of(self)
-
-    @property
-    def time_column(self) -> int | None:
-        """The first column of times, if there is one."""
-        roles = [column.role for column in self.contents.columns]
-        return roles.index(TIME) if TIME in roles else None
-
-    @property
-    def suggested_rate(self) -> float | None:
-        """Sample rate [Hz] that the file tells; None where it does not, or only lets it guess."""
-        rate = self.contents.sample_rate
-        return rate.value if rate is not None and rate.stated else None
 
     def recording(
         self,

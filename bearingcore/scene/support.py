@@ -67,6 +67,11 @@ class Support:
         """Damping to ground along `dofs` [N·s/m, N·m·s/rad]. ValueError where it is not known."""
         return self._along("damping", dofs)
 
+    def inertias(self, dofs: Iterable[str]) -> NDArray[np.float64]:
+        """`inertia` of both bodies, the inner one first: (2 len(dofs),)."""
+        names = tuple(dofs)
+        return np.concatenate([self.inertia(body, names) for body in ("inner", "outer")])
+
     def inertia(self, body: str, dofs: Iterable[str]) -> NDArray[np.float64]:
         """Mass [kg] or moment of inertia [kg·m²] of `body` ("inner", "outer") along `dofs`."""
         values = []

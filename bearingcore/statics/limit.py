@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bearingcore.common.numbers import count
-from bearingcore.common.table import ResultTable, table_of
 
 
 @dataclass(frozen=True)
@@ -34,18 +33,6 @@ class Limit:
     unit: str
     crossed: bool
     sentence: str
-
-
-def limits_table(found: Sequence[Limit]) -> ResultTable:
-    """Limits as a table: a row each; what is not known is NaN."""
-    return table_of(
-        ("limit_of", "", [one.name for one in found], "what is looked at"),
-        ("value", "", [one.value for one in found]),
-        ("limit", "", [one.limit for one in found]),
-        ("unit", "", [one.unit for one in found]),
-        ("crossed", "", [one.crossed for one in found]),
-        ("sentence", "", [one.sentence for one in found]),
-    )
 
 
 def unknown(name: str, limit: float, unit: str, why: str) -> Limit:

@@ -41,7 +41,7 @@ def main() -> None:
         for march in BALL_METHODS.values():  # so that nothing is compiled while time is taken
             march(heavy, 1, 0.01, 65536.0)
         print(law)
-        print(balls_experiment(scene, duration=arguments.duration).text())
+        print(balls_experiment(scene, duration=arguments.duration).table().csv())
         motion = simulate(heavy, 0.01)
         massless = least(scene.replace(balls=MASSLESS), arguments.duration)
         cost = least(heavy, arguments.duration)

@@ -177,12 +177,12 @@ def main() -> None:
             (motion, ("spectrum", "acceleration", "displacement")),
             (models, ("spectrum", "level")),
         ):
-            print(f"{experiment.text()}\n{pace()}\n", flush=True)
+            print(f"{experiment.title}\n{experiment.table().csv()}\n{pace()}\n", flush=True)
             title = f"{name}: {experiment.title}"
             draw_experiment(experiment, f"{name}-{experiment.name}", title, errors)
     charts = {name: stability_chart(presets[name]) for name in ("fan-rig", "liew-lim")}
     for name, chart in charts.items():
-        print(f"{name}\n{chart.text()}", flush=True)
+        print(f"{name}\n{chart.table().csv()}", flush=True)
     draw_stability(charts)
 
 

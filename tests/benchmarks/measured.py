@@ -109,7 +109,7 @@ def size_verdict(record: Record, found: Sizing) -> str:
     if truth is None:
         return UNCHECKED
     if found.bound == AT_MOST:
-        return RIGHT if math.degrees(found.bound_extent) >= truth else WRONG
+        return RIGHT if math.degrees(found.end(found.bound)) >= truth else WRONG
     away = abs(math.degrees(found.best.extent) - truth)
     near = away <= max(1.0, 2.0 * math.degrees(found.extent_uncertainty))
     return RIGHT if near and not found.bound else WRONG

@@ -123,7 +123,7 @@ def size(family: int, number: int) -> Answer:
         math.degrees(sized.extent_uncertainty),
         sized.conclusive,
         sized.bound,
-        math.degrees(sized.bound_extent),
+        math.degrees(sized.end(sized.bound)) if sized.bound else math.nan,
         f"{scene.shaft_speed / 2.0 / math.pi:.1f} Hz {-scene.load.fy:.0f} N {decibels:.0f} dB",
         sized.status,
     )

@@ -265,11 +265,6 @@ class Sizing:
         spacing = self.best.scene.bearing.ball_spacing
         return spacing * self.passes.frequency / self.band.highest
 
-    @property
-    def bound_extent(self) -> float:
-        """[rad] where the bound lies; NaN where there is none."""
-        return self.end(self.bound) if self.bound else math.nan
-
     def end(self, bound: str) -> float:
         """Length [rad] of the defect at most, or at least, by `bound`."""
         room = 2.0 * self.extent_uncertainty

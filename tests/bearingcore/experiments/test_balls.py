@@ -22,7 +22,7 @@ def test_methods_for_balls_agree_and_too_long_steps_are_shown_as_failed() -> Non
     assert by_step["RK4", 4].errors[band] < by_step["RK4 in velocities", 4].errors[band]
     # six ball passes: means over few of them
     assert found.references[""].agreement[band] < 1.0
-    assert "heavier by a part in ten thousand" in found.text()
+    assert "heavier by a part in ten thousand" in found.references[""].sentence
 
 
 def test_contacts_must_stay_in_the_plane() -> None:

@@ -132,7 +132,6 @@ def test_methods_break_where_linear_theory_says() -> None:
         assert coarsest.verdict == DIVERGED
     finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
     assert all(trial.verdict == "right" for trial in finest)
-    assert "linear limit" in chart.text()
     table = chart.table()
     assert table["verdict"].tolist() == [trial.verdict for trial in chart.trials]
     assert table.unit("linear_limit") == table.unit("step_rate") == "Hz"
@@ -141,7 +140,7 @@ def test_methods_break_where_linear_theory_says() -> None:
 # --- experiments ----------------------------------------------------------------------------------
 
 
-def check_that_all_is_told(experiment: Experiment) -> None:
+def check_that_all_is_given(experiment: Experiment) -> None:
     assert experiment.completed
     assert all(reference.trusted for reference in experiment.references.values())
     for point in experiment.points:
@@ -150,17 +149,14 @@ def check_that_all_is_told(experiment: Experiment) -> None:
         if not point.failed:
             assert set(point.errors) <= set(experiment.errors)
             assert point.errors
-    text = experiment.text()
     table = experiment.table()
     assert table["method"].tolist() == [point.method for point in experiment.points]
     assert {table.unit(name) for name in table if name.endswith("_error")} <= {"dB", "1"}
-    for method in experiment.methods:
-        assert method in text
 
 
 def test_statics() -> None:
     experiment = statics_experiment(LIEW_LIM, n_angles=13)
-    check_that_all_is_told(experiment)
+    check_that_all_is_given(experiment)
     (compiled,) = experiment.of("compiled energy Newton")
     assert compiled.errors["stiffness"] < 1e-8
     for name in ("scipy hybr", "scipy lm"):
@@ -171,7 +167,7 @@ def test_statics() -> None:
 
 def test_angles() -> None:
     experiment = angles_experiment(FAN_RIG)
-    check_that_all_is_told(experiment)
+    check_that_all_is_given(experiment)
     equal = experiment.of("equally spaced")
     assert equal[-1].errors["trace"] < 0.3 * equal[0].errors["trace"]
     assert equal[-1].errors["mean"] < 1e-3
@@ -182,7 +178,7 @@ def test_angles() -> None:
 def test_motion() -> None:
     names = ("RK4", "RK4 in velocities", "scipy RK45", "scipy LSODA")
     experiment = motion_experiment(FAN_RIG, duration=0.1, methods=names)
-    check_that_all_is_told(experiment)
+    check_that_all_is_given(experiment)
     assert experiment.methods == names
     for name in names:
         errors = [point.errors["displacement"] for point in experiment.of(name)]
@@ -195,7 +191,7 @@ def test_motion() -> None:
 
 def test_models() -> None:
     experiment = models_experiment(LIEW_LIM, duration=0.2)
-    check_that_all_is_told(experiment)
+    check_that_all_is_given(experiment)
     points = {point.method: point for point in experiment.points}
     assert points["5 DOF"].errors["spectrum"] < 0.1 < points["2 DOF"].errors["spectrum"]
     assert points["quasi-static"].errors["spectrum"] == math.inf
@@ -208,23 +204,21 @@ def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
     experiment = models_experiment(fast, duration=0.1)
     (orbit,) = experiment.of("orbit")
     assert orbit.status == "failed: unstable orbit through -1"
-    assert "unstable orbit" in experiment.text()
 
 
-def test_an_experiment_tells_its_progress_and_can_be_cancelled() -> None:
-    told: list[float] = []
+def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
+    shares: list[float] = []
     answers = iter([False, False, True])
     experiment = statics_experiment(
         FAN_RIG,
         n_angles=5,
-        progress=lambda part, doing: told.append(part),
+        progress=lambda part, doing: shares.append(part),
         cancelled=lambda: next(answers),
     )
     assert len(experiment.points) == 2
     assert not experiment.completed
-    assert "cancelled" in experiment.text()
-    assert told == sorted(told)
-    assert 0.0 <= told[0] <= told[-1] < 1.0
+    assert shares == sorted(shares)
+    assert 0.0 <= shares[0] <= shares[-1] < 1.0
 
 
 def test_refusals() -> None:

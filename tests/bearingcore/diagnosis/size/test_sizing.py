@@ -419,7 +419,7 @@ def test_a_pit_is_sized_where_its_edges_are_resolved_and_bounded_elsewhere(speed
     sized = size_defect(recording, rig, fault="outer race")
     if bounded:
         assert (sized.bound, sized.conclusive) == ("at most", False)
-        assert truth.extent < sized.bound_extent < math.radians(3.0)
+        assert truth.extent < sized.end(sized.bound) < math.radians(3.0)
     else:
         assert sized.conclusive
         assert sized.best.extent == pytest.approx(truth.extent, abs=math.radians(0.08))

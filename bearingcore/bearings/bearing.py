@@ -53,7 +53,7 @@ class Bearing:
     contact_angle
         unloaded contact angle α0 [rad], at least 0 and at most 80°.
     groove_center_radius
-        radius r_d [m] of the circle on which the inner groove's centres of curvature lie: the
+        radius r_d [m] of the circle on which the inner groove's centres of curvature are: the
         lever with which a tilt of the ring moves a ball's contact along z (Eq. 12).
     groove_center_distance
         distance A0 [m] between the groove centres of an unloaded ball (Eqs. 9, 10).
@@ -463,7 +463,7 @@ class Bearing:
         """Sideways play of the inner ring from contact to contact [m], grooves opposite.
 
         2 (A0 (1 − cos α0) + r_L): the clearance that a contact angle and a clearance on top of it
-        stand for together.
+        amount to together.
         """
         # 1 − cos α0 without cancellation
         return (

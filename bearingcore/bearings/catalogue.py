@@ -64,7 +64,7 @@ class CatalogueBearing:
     Attributes
     ----------
     name
-        under which it stands there.
+        of the bearing in the table.
     bearing
         with groove radii, steel on steel.
     dynamic_load_rating
@@ -72,7 +72,7 @@ class CatalogueBearing:
     note
         where the numbers come from, as given.
     assumed
-        what stands in for empty cells, in words.
+        values assumed for empty cells, in words.
     """
 
     name: str
@@ -95,7 +95,7 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     Raises
     ------
     ValueError
-        that names each fault by line and column, with what stands there and what is allowed.
+        that names each fault by line and column, with the text found and what is allowed.
     """
     lines = _lines(_text(table))
     if not lines:
@@ -115,7 +115,7 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
         entry = _bearing(number, headings, cells, separator, here)
         if entry is not None and entry.name in found:
             here.append(
-                f"line {number}, column name: {entry.name!r} stands in line "
+                f"line {number}, column name: {entry.name!r} is in line "
                 f"{first_line[entry.name]} already; allowed: a name of its own for each bearing"
             )
         elif entry is not None:

@@ -1,6 +1,6 @@
 """Data of a kind of bearing; each kind is a file that fills this in.
 
-A `Bearing` asks its kind, and everything else asks `bearing.kind` for data: a flag, a sentence, a
+A `Bearing` uses its kind, and everything else reads data of `bearing.kind`: a flag, a sentence, a
 tuple of names. Nothing outside this package compares numbers to find out what a bearing is.
 """
 

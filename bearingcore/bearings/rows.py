@@ -37,7 +37,7 @@ class Row:
     """One row of balls. What it does not give of its own is the bearing's.
 
     The cage of a row with dimensions of its own may turn at another speed than the bearing's. A
-    cage angle φ is that of the bearing's own numbers; the cage of a row stands at φ times its speed
+    cage angle φ is that of the bearing's own numbers; the cage of a row is at φ times its speed
     over the bearing's, and at φ = 0 as `turn` says (`Bearing.pace`).
 
     Parameters

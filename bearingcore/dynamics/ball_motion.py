@@ -42,7 +42,7 @@ def ball_system(
 ) -> kernels.BallSystem:
     """System of a scene with heavy balls for the kernels, moving along `dofs`.
 
-    `velocities` asks for these as variables, which general-purpose integrators take; places are
+    `velocities` takes these as variables, which general-purpose integrators take; places are
     then radial and axial always.
     """
     c = contact_damping(scene)
@@ -147,7 +147,7 @@ def fastest_decay(scene: Scene) -> float:
 def ball_step_rate(scene: Scene, sample_rate: float) -> float:
     """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
 
-    As many as the contact resonance of the heaviest loaded ball and its decay ask for.
+    As many as the contact resonance of the heaviest loaded ball and its decay need.
     """
     needed = max(
         STEPS_A_CONTACT_CYCLE * contact_resonance(scene), fastest_decay(scene) / STABLE_DECAY

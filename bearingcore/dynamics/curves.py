@@ -52,7 +52,7 @@ def swings(values: Array) -> Array:
         return np.ones(values.shape[1])
     size = np.abs(known).max(axis=0)
     swing = np.maximum(np.ptp(known, axis=0), LEAST_SWING * size)
-    if values.shape[1] == 15:  # stiffness: a term counts beside the diagonal ones of its directions
+    if values.shape[1] == 15:  # stiffness: a term counts over the diagonal ones of its directions
         rows, columns = _TERMS
         diagonal = size[rows == columns]
         swing = np.maximum(swing, 1e-6 * np.sqrt(diagonal[rows] * diagonal[columns]))

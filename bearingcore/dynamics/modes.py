@@ -26,7 +26,7 @@ from bearingcore.statics.equilibrium import (
 )
 
 DAMPING_OVER_STIFFNESS = 1e-5
-"""β [s] of the healthy bearing where a scene does not say its contact damping; the paper asks for
+"""β [s] of the healthy bearing where a scene does not say its contact damping; the paper takes
 0.25e-5 to 2.5e-5 s."""
 
 
@@ -89,7 +89,7 @@ class Modes:
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest frequency [Hz] of each mode at the cage angles, by label.
 
-        NaN for both where no angle has an answer. What lies between the angles is not looked at:
+        NaN for both where no angle has an answer. Nothing between the angles counts:
         see `frequency_bands`.
         """
         return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
@@ -135,9 +135,9 @@ def modes(
 def frequency_bands(
     scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
 ) -> dict[str, tuple[float, float]]:
-    """Least and greatest natural frequency [Hz] of each mode, wherever the cage stands.
+    """Least and greatest natural frequency [Hz] of each mode over all cage angles.
 
-    Unlike those of `Modes.bands` they do not depend on where the samples lie: around each least
+    Unlike those of `Modes.bands` they do not depend on the places of the samples: around each least
     and greatest sample it is looked for ever closer, to 1/64 of the distance between them.
 
     Parameters
@@ -370,7 +370,7 @@ def _mean_stiffness_a_ball(healthy: Scene) -> float:
 def contact_damping(scene: Scene) -> float:
     """Viscous damping c [N·s/m] of a loaded contact: the scene's, or β·mean(k_xx + k_yy)/mean(n).
 
-    The paper does not print c; it asks for a damping of the healthy bearing that is 0.25e-5 to
+    The paper does not print c; it takes a damping of the healthy bearing that is 0.25e-5 to
     2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
     state to take it from.
     """
@@ -441,7 +441,7 @@ def _damped(
     mass: NDArray[np.float64],
     shape: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each beside its undamped mode.
+    """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each in the place of its undamped mode.
 
     State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
     """

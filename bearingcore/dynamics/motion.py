@@ -33,14 +33,14 @@ STEPS_A_CYCLE = 16.0
 """Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
 error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim bearing, in five
 directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
-that asks for them, as steps stay stable down to 2.2."""
+that needs them, as steps stay stable down to 2.2."""
 
 MOST_STEPS = 1_000_000
-"""Steps that a motion, or the periods of one orbit, take at most unless asked otherwise: up to
+"""Steps that a motion, or the periods of one orbit, take at most by default: up to
 15 s of marching in five directions, 40 s with the tangent."""
 
 MOST_STEPS_IN_ALL = 1_000_000_000
-"""Steps that all points of a map or speeds of a run take at most unless asked otherwise: some
+"""Steps that all points of a map or speeds of a run take at most by default: some
 minutes of marching in two directions, hours in five."""
 
 MOST_SAMPLES = 10_000_000
@@ -58,7 +58,7 @@ class Motion:
     status
         how it ended. A motion that is not completed is NaN from where it broke off.
     detail
-        numbers of a status that has some, in words to stand behind it.
+        numbers of a status that has some, in words that follow it.
     right_hand_side_calls
         how often the accelerations were evaluated.
     time : (n,) [s]
@@ -68,7 +68,7 @@ class Motion:
     inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
         the outer one is what a sensor on the housing measures.
     ball_load : (n, N_b) [N] or None
-        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if they were asked for; of balls with mass
+        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; of balls with mass
         those of the outer race.
     ball_place : (n, 1 or 2, N_b) [m] or None
         radial, and where they move along the shaft axial, place of balls that have mass.
@@ -497,7 +497,7 @@ def hermite_weights(
 ) -> NDArray[np.float64]:
     """Quintic weights (n, 6) of x, v, a at both ends of a step of h [s], at fractions (n,) of it.
 
-    `derivative` 0, 1, 2 asks for displacement, velocity, acceleration.
+    `derivative` 0, 1, 2 gives displacement, velocity, acceleration.
     """
     return np.stack(
         [

@@ -201,7 +201,7 @@ def orbit(
 ) -> Orbit:
     """The periodic motion of `scene`, by Newton's method on P(y) = y (shooting).
 
-    The variational equations are integrated beside the motion. Newton finds unstable orbits as
+    The variational equations are integrated with the motion. Newton finds unstable orbits as
     well as stable ones, so the multipliers are part of the answer: only a stable orbit is what a
     machine settles to.
 
@@ -223,7 +223,7 @@ def orbit(
         steps of integration that may be taken in all. They are counted before each period: where
         there would be more, the search ends and the status says so.
     give_up
-        asked after every period that was integrated; True ends the search, which has then not
+        called after every period that was integrated; True ends the search, which has then not
         converged unless the orbit was just found.
 
     Raises

@@ -119,13 +119,13 @@ def speed_run(
         is more nothing is begun, and `cost` says how many. Where orbits take what is left, the
         speeds that are left are refused.
     progress, cancelled
-        called and asked before each speed.
+        called before each speed.
 
     Raises
     ------
     ValueError
         for speeds that are not above zero, or where `simulate` refuses every speed. One that is
-        refused among others stands in `refusals`.
+        refused among others is in `refusals`.
     """
     speeds = np.asarray(shaft_speeds, dtype=float).ravel()
     if not 1 <= speeds.size <= 1000:

@@ -112,7 +112,7 @@ def stability_map(
         by what its corners take: where that is more nothing is begun, and `cost` says how many.
         Where they are used up, the points that are left say so.
     progress, cancelled
-        called before each row; asked before each row and point.
+        the first called before each row, the second before each point too.
 
     Raises
     ------

@@ -68,7 +68,7 @@ def strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
 
 
 RACES_OF_LOADS = ("inner", "outer")
-"""In the order in which loads stand."""
+"""In the order of the loads."""
 
 
 def _stretches(which: NDArray[np.bool_]) -> list[tuple[int, int]]:

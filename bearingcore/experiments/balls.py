@@ -153,13 +153,13 @@ def balls_experiment(
     heavier = scene.replace(density=1.0001 * scene.bearing.density)
     spread = apart(levels("RK4", heavier), truth)
     agreement = apart(levels("RK4 in velocities"), truth)
-    told = ", ".join(f"{name} {value:.2f} dB" for name, value in spread.items())
+    spreads = ", ".join(f"{name} {value:.2f} dB" for name, value in spread.items())
     reference = Reference(
         ("RK4", "RK4 in velocities"),
         agreement,
         all(agreement[name] <= max(2.0 * spread[name], REACH[name]) for name in BANDS),
         time.perf_counter() - began,
-        f"spread with balls heavier by a part in ten thousand: {told}",
+        f"spread with balls heavier by a part in ten thousand: {spreads}",
     )
     points = []
     tasks = [(name, stride) for name in BALL_METHODS for stride in steps]

@@ -140,14 +140,14 @@ class _Models:
         motion, seconds, runs = least_time(
             lambda: simulate(scene, self.duration, self.sample_rate).outer_acceleration
         )
-        told = simulate(scene, self.duration, self.sample_rate)
-        words = f"{told.step_rate:.0f} steps/s"
-        if not told.completed:
-            return failed(model, words, told.step_rate, told.reason, seconds)
-        errors = self._errors(against, motion[:, :2], told.inner_displacement[:, :2])
+        found = simulate(scene, self.duration, self.sample_rate)
+        words = f"{found.step_rate:.0f} steps/s"
+        if not found.completed:
+            return failed(model, words, found.step_rate, found.reason, seconds)
+        errors = self._errors(against, motion[:, :2], found.inner_displacement[:, :2])
         return Point(
-            model, words, told.step_rate, errors, seconds, runs, told.right_hand_side_calls,
-            RIGHT, against, {"step_rate": told.step_rate},
+            model, words, found.step_rate, errors, seconds, runs, found.right_hand_side_calls,
+            RIGHT, against, {"step_rate": found.step_rate},
         )  # fmt: skip
 
     def _errors(self, against: str, acceleration: Array, inner: Array) -> dict[str, float]:
@@ -189,11 +189,11 @@ class _Models:
         """Marching and dropping the first part."""
         first, truth = self._settled()
         start = time.perf_counter()
-        told = simulate(self.scene, self.duration, self.sample_rate)
-        signal = told.outer_acceleration[first:, :2]
+        found = simulate(self.scene, self.duration, self.sample_rate)
+        signal = found.outer_acceleration[first:, :2]
         first_time = time.perf_counter() - start
-        if not told.completed:
-            return failed("transient", "", math.nan, told.reason, first_time)
+        if not found.completed:
+            return failed("transient", "", math.nan, found.reason, first_time)
         _, seconds, runs = least_time(
             lambda: simulate(self.scene, self.duration, self.sample_rate).outer_acceleration
         )
@@ -203,8 +203,8 @@ class _Models:
             "level": _level_error(signal[:n], truth[:n]),
         }
         return Point(
-            "transient", f"{told.step_rate:.0f} steps/s", told.step_rate, errors, seconds, runs,
-            told.right_hand_side_calls, RIGHT, SETTLED, {"step_rate": told.step_rate},
+            "transient", f"{found.step_rate:.0f} steps/s", found.step_rate, errors, seconds, runs,
+            found.right_hand_side_calls, RIGHT, SETTLED, {"step_rate": found.step_rate},
         )  # fmt: skip
 
     def _orbit(self) -> Point:

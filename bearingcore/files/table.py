@@ -143,7 +143,7 @@ class Table(FileColumns):
             unit = column.unit or (of_file.value if of_file.stated else None)
             if unit is None:
                 raise checks.refuse(
-                    "unit", None, f"one of {', '.join(UNITS)}: the file does not tell it"
+                    "unit", None, f"one of {', '.join(UNITS)}: the file does not say it"
                 )
         return checks.choice("unit", unit, tuple(UNITS))
 
@@ -160,7 +160,7 @@ class Table(FileColumns):
                 )
                 why = f" {trouble}" if trouble else ""
                 raise checks.refuse(
-                    "sample_rate", None, f"a number [Hz]: the file does not tell it{guess}.{why}"
+                    "sample_rate", None, f"a number [Hz]: the file does not say it{guess}.{why}"
                 )
             return stated.value, [trouble]
         rate = checks.number("sample_rate", given, above=0.0, unit="Hz")

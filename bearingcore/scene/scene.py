@@ -175,7 +175,7 @@ class Scene:
         Raises
         ------
         ValueError
-            that names the table and field, what stands there and what is allowed.
+            that names the table and field, its value and what is allowed.
         """
         table = scene_file.table("scene", data)
         version = table.pop("version", scene_file.VERSION)
@@ -200,7 +200,7 @@ class Scene:
         Raises
         ------
         ValueError
-            that names the table and field, what stands there and what is allowed.
+            that names the table and field, its value and what is allowed.
         """
         return cls.from_data(scene_file.from_toml(text))
 

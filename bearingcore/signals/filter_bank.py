@@ -136,7 +136,7 @@ def squared_envelopes(
 def thinned(
     values: NDArray[np.float64], rate: float, highest: float
 ) -> tuple[NDArray[np.float64], float]:
-    """The values without what lies above `highest` [Hz], and their new rate [Hz]."""
+    """The values without all above `highest` [Hz], and their new rate [Hz]."""
     from scipy.fft import irfft, next_fast_len, rfft
 
     if rate <= 3.0 * highest:

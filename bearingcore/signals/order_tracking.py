@@ -1,6 +1,6 @@
 """Following a cage whose speed wanders, by the ball passes themselves.
 
-One pass is much like the next, whatever it looks like. So the delay between neighbours tells how
+One pass is much like the next, whatever it looks like. So the delay between neighbours shows how
 fast balls pass just then; added up it aligns all passes roughly, and each is then laid over their
 mean. The mean sharpens with every round, and with it what it is compared with.
 

@@ -22,7 +22,7 @@ STANDS_OUT = 4.0
 def without_shaft_tones(
     signal: NDArray[np.float64], sample_rate: float, shaft: float, passing: float
 ) -> NDArray[np.float64]:
-    """The signal (n, d) without those of the shaft's harmonics that stand out.
+    """The signal (n, d) without those of the shaft's harmonics that are clear.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def without_shaft_tones(
         np.abs(zoom_fft(faded, k * trials[[0, -1]], TRIALS, fs=sample_rate, endpoint=True, axis=0))
         for k in order.tolist()
     ]
-    # lines that stand out by their height over the surroundings, so that not one speaks alone
+    # lines that are clear by their height over the surroundings, so that not one speaks alone
     around = [_surroundings(height, k * shaft / step, 3.0 * shaft / step) for k in order]
     over = np.stack([line.sum(axis=1) for line in lines], axis=1) / around
     best = int(np.log(np.maximum(over / STANDS_OUT, 1.0)).sum(axis=1).argmax())

@@ -484,20 +484,20 @@ def _sentence(
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
         return "No ball carries load: nothing tires."
-    told = f"Nine of ten bearings reach {number(L, 4)} million turns"
+    words = f"Nine of ten bearings reach {number(L, 4)} million turns"
     if math.isnan(hours):
-        told += "; the shaft stands still, so there are no hours."
+        words += "; the shaft stands still, so there are no hours."
     else:
         rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
-        told += f", {number(hours, 4)} hours at {number(rpm, 4)} rpm."
+        words += f", {number(hours, 4)} hours at {number(rpm, 4)} rpm."
     if share > HEAVIEST_SHARE:
-        told += (
+        words += (
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
             f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
         )
     if scene.defects:
-        told += (
+        words += (
             f" That is {percent(L / L_healthy)} of the healthy bearing's {number(L_healthy, 4)} "
             f"million. {LEFT_OUT}"
         )
-    return told
+    return words

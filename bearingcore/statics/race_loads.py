@@ -230,7 +230,7 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     bearing, ratio = scene.bearing, scene.bearing.cage_ratio
     if not bearing.rows_are_alike:
         raise checks.refuse(
-            "race of a defect", "inner", "outer, where life is asked of rows that are not alike"
+            "race of a defect", "inner", "outer, for the life of rows that are not alike"
         )
     both = any(defect.race == "outer" for defect in scene.defects)
     n = SHAFT_ANGLES_BOTH if both else SHAFT_ANGLES

@@ -291,7 +291,7 @@ def _shoulder_of(
         made_of += " (half the contact ellipse comes on top, not known without groove radii)"
     sentence = (
         f"The contact reaches {math.degrees(value):.1f}° from the bottom of the groove, "
-        f"{made_of}; a shoulder {number(height, 2)} ball diameters high stands at "
+        f"{made_of}; a shoulder {number(height, 2)} ball diameters high is at "
         f"{math.degrees(limit):.1f}°" + (": the ball rides over its edge." if crossed else ".")
     )
     return Limit(name, value, limit, "rad", crossed, sentence)
@@ -407,8 +407,8 @@ def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
             f": above {percent(GREATEST_COMPRESSION)} grooves so close around the ball touch it "
             "far up their sides, and Hertz's small contact no longer holds."
             if crossed
-            else f"; up to {percent(GREATEST_COMPRESSION)} the contact is small beside the ball, "
-            "as Hertz asks."
+            else f"; up to {percent(GREATEST_COMPRESSION)} the contact is small against the ball, "
+            "as Hertz assumes."
         )
     )
     return Limit(name, share, GREATEST_COMPRESSION, "", crossed, sentence)

@@ -181,15 +181,15 @@ METHODS: dict[str, Callable[[Heard, float], Heard]] = {
 @contextmanager
 def _listening(choose: Callable[[Heard, float], Heard], whiten: bool) -> Iterator[None]:
     """Diagnoses on other bands, of the signal whitened or as measured."""
-    heard_in_all, filtered = listened_signal.ListenedSignal.heard, listened_signal.squared_envelopes
+    of_all, filtered = listened_signal.ListenedSignal.envelopes, listened_signal.squared_envelopes
 
-    def heard(self: listened_signal.ListenedSignal, shaft: float, highest: float) -> Heard:
-        return choose(heard_in_all(self, shaft, highest), self.rate)
+    def envelopes(self: listened_signal.ListenedSignal, shaft: float, highest: float) -> Heard:
+        return choose(of_all(self, shaft, highest), self.rate)
 
     def as_measured(*told: Any) -> list[Envelope]:
         return filtered(*told[:5], None)
 
-    with mock.patch.object(listened_signal.ListenedSignal, "heard", heard):
+    with mock.patch.object(listened_signal.ListenedSignal, "envelopes", envelopes):
         if whiten:
             yield
         else:

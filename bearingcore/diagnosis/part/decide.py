@@ -63,7 +63,7 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
     else:
         fault, chance = NONE_SEEN, _unharmed(judged)
         status = say.healthy(judged.detectable)
-    one = judged.combs.heard[judged.best.place]
+    one = judged.combs.envelopes[judged.best.place]
     frequency = one.levels.step * np.arange(len(one.levels.level), dtype=float)
     return Diagnosis(
         fault=fault,
@@ -96,17 +96,17 @@ def _impulsiveness(combs: Combs, signal: ListenedSignal) -> float:
     sixth = signal.rate / 12.0
     broad = [
         one.kurtosis - 5.0 * math.sqrt(20.0 / (signal.duration * (one.band.high - one.band.low)))
-        for one in combs.heard
+        for one in combs.envelopes
         if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
     ]
-    return max(broad or [one.kurtosis for one in combs.heard])
+    return max(broad or [one.kurtosis for one in combs.envelopes])
 
 
 def _deep(judged: Judged) -> bool:
     """Whether the lines of something else swing the envelope as damage does."""
     combs, frequency = judged.combs, judged.other.frequency
     index = int(np.abs(combs.frequency - frequency).argmin())
-    one = combs.heard[int(combs.level[:, index].argmax())]
+    one = combs.envelopes[int(combs.level[:, index].argmax())]
     depths = np.sort(harmonics(one.levels.depth, one.levels.step, np.array([frequency]))[:, 0])
     return bool(depths[:-1].mean() >= LEAST_DEPTH)
 

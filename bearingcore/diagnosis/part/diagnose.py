@@ -144,7 +144,7 @@ def _second_opinion(
 
     A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
     are none of the bearing's show too, so this names a part only where it leads in the
-    whitened signal too, or stands out by far in a band; else it keeps a bearing from being called
+    whitened signal too, or by far in a band; else it keeps a bearing from being called
     healthy.
     """
     shaft = judged.combs.shaft

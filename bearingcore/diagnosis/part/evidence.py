@@ -130,7 +130,7 @@ class Diagnosis:
     speed_source
         where that is from: "given", "its own lines in the signal", ...
     other
-        the strongest lines that are none of this bearing's, if any stand out.
+        the strongest lines that are none of this bearing's, if any are clear.
     detectable_depth
         the least swing of the envelope, as a share of its mean, that would have been seen.
     spectrum

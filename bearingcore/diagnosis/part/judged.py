@@ -17,11 +17,11 @@ from bearingcore.diagnosis.part.search import (
     WANDER,
     Combs,
     Found,
-    beside,
     excess,
     listen,
     multiples,
     near,
+    side_levels,
     sideband_combs,
     within,
 )
@@ -49,7 +49,7 @@ STRONG_SIDEBANDS, WEAK_SIDEBANDS = 9.0, 14.0
 those of a part that stands still not louder than the other. They decide where lines do not."""
 
 ALONE = 3.0
-"""[dB] beyond the margins by which a part stands out that fills a band."""
+"""[dB] beyond the margins by which a part leads that fills a band."""
 
 LEAD_UNDER_NOISE = 2.0
 """[dB] below the level of noise down to which a part that leads may be borne out otherwise."""
@@ -97,7 +97,7 @@ class Judged:
 
     @property
     def seen(self) -> bool:
-        """Whether any part's lines stand out at all."""
+        """Whether any part's lines are clear at all."""
         return self.above_noise >= NOISE_MARGIN and self.own.depth >= LEAST_DEPTH
 
     @property
@@ -139,7 +139,7 @@ def most_telling(
 ) -> tuple[Combs, list[Combs]]:
     """The combs at the resolution where one is highest above noise, and at all of them."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
-    envelopes = signal.heard(shaft, (HARMONICS * top + 2.0) * shaft)
+    envelopes = signal.envelopes(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
     for turns in TURNS:
         resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns, given))
@@ -213,7 +213,7 @@ def _slower(combs: Combs, best: Found) -> np.ndarray:
         if not len(near_it):
             continue
         column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
-        one = combs.heard[int(combs.level[:, column].argmax())]
+        one = combs.envelopes[int(combs.level[:, column].argmax())]
         at = np.array([combs.frequency[column]])
         depth = harmonics(one.levels.depth, one.levels.step, at, part * (HARMONICS // part))[:, 0]
         shared = np.arange(1, len(depth) + 1) % part == 0
@@ -270,10 +270,10 @@ def _by_sidebands(combs: Combs, top: Found, same: Sequence[Found], cage: float) 
 
 def _sidebands(combs: Combs, found: Found, cage: float) -> tuple[float, float]:
     """Mean level [dB] of the first sidebands of shaft and of cage, about the first harmonics."""
-    one, at = combs.heard[found.place], np.array([found.frequency])
+    one, at = combs.envelopes[found.place], np.array([found.frequency])
 
     def mean(spacing: float) -> float:
-        sides = beside(one, at, spacing)
+        sides = side_levels(one, at, spacing)
         return float(np.mean([side[: HARMONICS // 2].mean() for side in sides]))
 
     return mean(combs.shaft), mean(cage)
@@ -296,7 +296,7 @@ def _above_sidebands(combs: Combs, best: Found, cage: float) -> float:
 
 
 def _evidence(combs: Combs, found: Found, cage: float) -> PartEvidence:
-    one = combs.heard[found.place]
+    one = combs.envelopes[found.place]
     lines, at = found.lines, np.array([found.frequency])
     spacing = cage if lines.part == BALL else combs.shaft
     levels = harmonics(one.cleared, one.levels.step, at)[:, 0]
@@ -313,7 +313,7 @@ def _evidence(combs: Combs, found: Found, cage: float) -> PartEvidence:
         level=found.level,
         noise=combs.noise,
         depth=float(depths[:-1].mean()),
-        sidebands=np.hstack(beside(one, at, spacing)),
+        sidebands=np.hstack(side_levels(one, at, spacing)),
         sideband_spacing=spacing,
         sideband_source="cage" if lines.part == BALL else "shaft",
         band=one.band,
@@ -325,6 +325,6 @@ def _evidence(combs: Combs, found: Found, cage: float) -> PartEvidence:
 
 def _detectable(combs: Combs, signal: ListenedSignal) -> float:
     """The least swing of the envelope in the widest band that would have been seen."""
-    widest = max(combs.heard, key=lambda one: one.band.high - one.band.low)
+    widest = max(combs.envelopes, key=lambda one: one.band.high - one.band.low)
     needed = 10.0 ** (0.1 * (combs.noise + NOISE_MARGIN)) - 1.0
     return float(np.median(widest.levels.floor)) * math.sqrt(max(needed, 0.0))

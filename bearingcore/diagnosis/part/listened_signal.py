@@ -65,7 +65,7 @@ class ListenedSignal:
         """Share of the samples that are clipped."""
         return max(one.clipped_share for one in self.faults)
 
-    def heard(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
+    def envelopes(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
         """Envelopes in all bands, with their directions."""
         bands = split(self.rate, NARROWEST * shaft)
         return [
@@ -89,7 +89,7 @@ class ListenedSignal:
 def _with_a_floor(samples: np.ndarray) -> np.ndarray:
     """The samples with the noise that any recorder has.
 
-    A computed signal may have none: then whatever rounding and leakage leave would stand out.
+    A computed signal may have none: then the remains of rounding and leakage would show.
     """
     noise = np.random.default_rng(0).standard_normal(len(samples))
     return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)

@@ -28,8 +28,8 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
     """Too few knocks."""
     return (
         f"Cannot tell: {number(duration)} s hold "
-        f"{count(round(passes), 'ball pass', 'ball passes')}, and no fewer than {fewest} tell "
-        "anything."
+        f"{count(round(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
+        "needed."
     )
 
 
@@ -56,7 +56,7 @@ def damaged(own: PartEvidence) -> str:
         f"Damage on the {own.part}: knocks repeat {number(own.frequency, 4)} times a second "
         f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), "
         f"{decibels(own.level)} above what surrounds them, {shown} of {len(own.harmonics)} "
-        "harmonics clear, heard best from "
+        "harmonics clear, demodulation band "
         f"{span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
     )
 
@@ -81,7 +81,7 @@ def no_stronger(own: PartEvidence, other: OtherLines) -> str:
 def no_sidebands(own: PartEvidence) -> str:
     """The part turns, and its lines do not show it."""
     return (
-        f"Cannot tell: lines lie where the {own.part} would have them ({decibels(own.level)}), but "
+        f"Cannot tell: lines are where the {own.part} would have them ({decibels(own.level)}), but "
         f"without the sidebands of the {own.sideband_source} that it makes as it turns through the "
         "load. Check the bearing's geometry."
     )
@@ -115,14 +115,14 @@ def weak(detectable: float, duration: float) -> str:
     """Nothing seen, but nothing would have been."""
     return (
         f"Cannot tell: no damage shows, but in {number(duration)} s it would only if it made the "
-        f"envelope swing by {percent(detectable, 2)} or more. A longer recording tells more."
+        f"envelope swing by {percent(detectable, 2)} or more. A longer recording shows more."
     )
 
 
 def healthy(detectable: float) -> str:
     """None seen."""
     return (
-        "No damage seen on outer race, inner race or balls: their lines do not stand out, and "
+        "No damage seen on outer race, inner race or balls: their lines do not show, and "
         f"knocks that make the envelope swing by {percent(detectable, 2)} would have been seen."
     )
 
@@ -130,7 +130,7 @@ def healthy(detectable: float) -> str:
 def faint(own: PartEvidence) -> str:
     """Lines too faint to name a part."""
     return (
-        f"Cannot tell: faint lines lie where damage on the {own.part} would have them "
+        f"Cannot tell: faint lines are where damage on the {own.part} would have them "
         f"({number(own.frequency, 4)} Hz, {decibels(own.level)} above what surrounds them; noise "
         f"reaches {decibels(own.noise)}). Measure again, longer or nearer to the bearing."
     )
@@ -141,7 +141,7 @@ def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
     ways = " or ".join(f"the {part} at {number(60.0 * speed, 4)}" for part, speed in readings)
     return (
         f"Cannot tell: knocks repeat {number(frequency, 4)} times a second, which may be {ways} "
-        "turns a minute. Tell the shaft speed."
+        "turns a minute. Enter the shaft speed."
     )
 
 

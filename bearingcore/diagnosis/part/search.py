@@ -90,7 +90,7 @@ class Combs:
         of the shaft in a segment.
     shaft
         turns of the shaft a second [Hz].
-    heard
+    envelopes
         the bands.
     frequency : (n,) [Hz]
         first lines of combs.
@@ -101,7 +101,7 @@ class Combs:
 
     turns: float
     shaft: float
-    heard: tuple[Listened, ...]
+    envelopes: tuple[Listened, ...]
     frequency: NDArray[np.float64] = field(repr=False)
     level: NDArray[np.float64] = field(repr=False)
     found: tuple[Found, ...]
@@ -109,7 +109,7 @@ class Combs:
     @property
     def averages(self) -> float:
         """Independent spectra in a mean."""
-        return self.heard[0].levels.averages
+        return self.envelopes[0].levels.averages
 
     @property
     def noise(self) -> float:
@@ -122,7 +122,7 @@ class Combs:
         segment = self.turns / self.shaft
         places = 1.0 + 2.0 * slip * frequency * segment * 0.5 * HARMONICS
         either = 2.0 if lines.part == BALL else 1.0
-        return places * either * max(1.0, INDEPENDENT_BANDS * len(self.heard)) * len(TURNS)
+        return places * either * max(1.0, INDEPENDENT_BANDS * len(self.envelopes)) * len(TURNS)
 
 
 def listen(
@@ -150,12 +150,12 @@ def listen(
     segment = turns / shaft
     top = max(lines.order for lines in parts) * (1.0 + slip)
     highest = (HARMONICS * top + 1.5) * shaft
-    heard = []
+    listened = []
     for direction, envelope in envelopes:
         levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
         width = 1.5 / segment + 5e-4 * shaft
         cleared = without(levels, shaft if known_speed else 0.0, width)
-        heard.append(Listened(direction, envelope.band, envelope.kurtosis, levels, cleared))
+        listened.append(Listened(direction, envelope.band, envelope.kurtosis, levels, cleared))
     duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
     resolution = 1.0 / min(segment, duration)
     slowest = 0.9 * min(lines.order for lines in parts) * (1.0 - slip)
@@ -163,11 +163,11 @@ def listen(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
     )
     level = np.stack(
-        [comb_level(harmonics(one.cleared, one.levels.step, frequency)) for one in heard]
+        [comb_level(harmonics(one.cleared, one.levels.step, frequency)) for one in listened]
     )
-    combs = Combs(turns, shaft, tuple(heard), frequency, level, ())
+    combs = Combs(turns, shaft, tuple(listened), frequency, level, ())
     found = tuple(_best(combs, lines, slip, given or shaft) for lines in parts)
-    return Combs(turns, shaft, tuple(heard), frequency, level, found)
+    return Combs(turns, shaft, tuple(listened), frequency, level, found)
 
 
 def _best(combs: Combs, lines: PartLines, slip: float, given: float) -> Found:
@@ -178,7 +178,7 @@ def _best(combs: Combs, lines: PartLines, slip: float, given: float) -> Found:
         level = np.stack(
             [
                 comb_level(_with_sidebands(one, combs.frequency[inside], lines, combs.shaft))
-                for one in combs.heard
+                for one in combs.envelopes
             ]
         )
     place, column = np.unravel_index(int(level.argmax()), level.shape)
@@ -207,11 +207,11 @@ def _with_sidebands(
     """Lines of a ball: each itself, or its two sidebands if both are louder."""
     return np.maximum(
         harmonics(one.cleared, one.levels.step, frequency),
-        np.minimum(*beside(one, frequency, lines.sidebands * shaft)),
+        np.minimum(*side_levels(one, frequency, lines.sidebands * shaft)),
     )
 
 
-def beside(
+def side_levels(
     one: Listened, frequency: NDArray[np.float64], spacing: float, count: int = HARMONICS
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Levels [dB] at a distance [Hz] below and above each harmonic: twice (count, n)."""

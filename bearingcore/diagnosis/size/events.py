@@ -54,7 +54,7 @@ class Events:
         Δt from entry to exit and its standard deviation [s].
     remainder, remainder_uncertainty
         extent less the whole ball spacings in it [rad]: ω_c Δt and what a ball turns unloaded
-        beside the edges.
+        away from the edges.
     direction_extent
         the angle [rad] between the knocks' directions; None with a single direction.
     ball_spacing

@@ -235,7 +235,7 @@ class Search:
             [left.real, left.imag, (guess.spectrum_residual * spectrum).ravel(), guess.offsets]
         )
 
-    def beside(self, guess: Guess) -> Guess:
+    def neighbouring(self, guess: Guess) -> Guess:
         """The best of extents a little shorter and longer, and of other edges, refined once.
 
         Steps from a guess do not get there: between are extents whose edges excite the resonances
@@ -538,7 +538,7 @@ def _refined(
     for done, count in enumerate(FURTHER):
         found.sort(key=lambda guess: -guess.score)
         if done < len(HOPPING):
-            found += threads.map(search.beside, found[: HOPPING[done]])
+            found += threads.map(search.neighbouring, found[: HOPPING[done]])
             found.sort(key=lambda guess: -guess.score)
         before = [guess.score for guess in found[:count]]
         found[:count] = threads.map(search.refined, found[:count])

@@ -2,7 +2,7 @@
 
 The time from a ball's entry to a ball's exit gives the extent only up to whole ball spacings
 (Petersen, Howard & Prime 2014, Section 4). So every extent is simulated, what is only roughly known
-about the scene is varied with it, and each candidate Δφ + k·360°/N_b is asked how well it explains
+about the scene is varied with it, and each candidate Δφ + k·360°/N_b judged by how well it explains
 the signal: the mean ball pass in both directions and the spectrum. The answer is a probability for
 each candidate, and a word where there is no clear result.
 
@@ -188,7 +188,7 @@ class Sizing:
     status
         a sentence: how sure the answer is, or why there is none.
     conclusive
-        whether one candidate stands out from all the others, and its extent is not a bound.
+        whether one candidate is clearly ahead of all the others, and its extent is not a bound.
     bound
         "at most" or "at least" where the best extent is at an end of the search; else "".
     diagnosis
@@ -323,18 +323,18 @@ def size_defect(
     Parameters
     ----------
     recording
-        acceleration of the housing along y, or x and y: two directions tell more.
+        acceleration of the housing along y, or x and y: two directions say more.
     scene
         bearing, load, support and shaft speed of the machine, and a defect whose centre and
         nominal depth are taken as known; its extent is not looked at. Balls are taken to be
-        massless: what is compared lies far below their resonances.
+        massless: what is compared is far below their resonances.
     fault
-        "outer race" where that is known from elsewhere: then the diagnosis is not asked. None: it
+        "outer race" where that is known from elsewhere: then there is no diagnosis. None: there
         is.
     tolerances
         how well the scene is known; None for the usual.
     path
-        what may lie between the bearing's motion and its measurement; None for all that is known.
+        effects between the bearing's motion and its measurement; None for all that is known.
     support_known
         False where the scene's support is a guess: then others are tried, five times the work, and
         the answer holds what they differ by.
@@ -513,7 +513,7 @@ def _over_supports(
 
 
 def _go_on(share: float) -> None:
-    """Progress that nobody wants to know."""
+    """Progress that is not shown."""
 
 
 def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[int, ...]]:
@@ -665,7 +665,7 @@ def judged(sized: Sizing) -> tuple[bool, str, str]:
 def _like_a_pit(sized: Sizing) -> float:
     """Length [rad] of a pit that knocks as the best extent does; 0 where there is none.
 
-    Whole ball spacings long, a defect is entered by one ball as another leaves it. What tells it
+    Whole ball spacings long, a defect is entered by one ball as another leaves it. The difference
     from a pit is how the rings swing between, and that rests on the support alone, which is never
     known so well; and pits are common.
     """

@@ -23,7 +23,7 @@ SETTLED = 0.3
 class ExtentError:
     """The most probable extent less the true one [rad], and the sizing that says so.
 
-    `error` is NaN where the signal cannot tell; `sizing.status` says why.
+    `error` is NaN where there is no clear result; `sizing.status` says why.
     """
 
     error: float
@@ -48,7 +48,7 @@ def extent_error(
     duration, sample_rate
         [s], [Hz] of the recording, along x and y.
     noise
-        how far below the signal's mean power that of white noise lies [dB].
+        level of white noise below the signal's mean power [dB].
     seed
         of the noise.
     progress
@@ -72,7 +72,7 @@ def extent_error(
     signal = signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
     directions = tuple(motion.dofs[i] for i in columns)
     recording = Recording(signal, sample_rate, directions)
-    # which race is damaged is known here: only its size is asked for
+    # which race is damaged is known here: only its size is estimated
     found = size_defect(recording, scene, fault="outer race", progress=progress)
     error = found.best.extent - scene.defect.extent if found.conclusive else math.nan
     return ExtentError(error, found)

@@ -29,7 +29,7 @@ AVERAGED = 0.12
 FEWEST_SIMULATED = 4
 
 SETTLED_FIRST = 0.03
-"""[s] of motion after which it is asked for the first time whether one pass is like the next."""
+"""[s] of motion after which one pass is first compared with the next."""
 
 STEPS_A_CYCLE = 9.0
 """Steps in a cycle of the highest natural frequency: an error near 0.2 dB, far below what a wrong
@@ -71,7 +71,7 @@ def comparison_band(scene: Scene, sample_rate: float) -> Band:
         raise checks.refuse(
             "sample_rate",
             sample_rate,
-            f"at least {20.0 * lowest:.0f} Hz, to hear the modes of this scene",
+            f"at least {20.0 * lowest:.0f} Hz, to hold the modes of this scene",
         )
     return Band(lowest, min(highest, 0.4 * sample_rate))
 
@@ -94,7 +94,7 @@ def steps_of(scene: Scene, frequency: float, count: int) -> int:
 
 @dataclass(frozen=True)
 class Begin:
-    """Where a motion stands as a ball pass begins.
+    """State of a motion as a ball pass begins.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class Begin:
 class Simulator:
     """Simulates ball passes of a scene whose defect and numbers are varied.
 
-    What all of them share is made ready once: a simulation takes a third of a millisecond beside
+    What all of them share is made ready once: a simulation takes a third of a millisecond plus
     its steps else. A motion may begin where a neighbour's is, as far from its static state, and it
     ends as soon as one pass is like the next.
 

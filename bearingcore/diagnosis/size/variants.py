@@ -16,7 +16,7 @@ from bearingcore.dynamics.modes import contact_damping
 from bearingcore.scene.scene import Scene
 
 PATHS = (PathModel(0.6, 1.5e-3, 0.3, 9.0),)
-"""Paths that are tried beside none. They cost so much as a path explains other extents as well: an
+"""Paths that are tried after none. They cost so much as a path explains other extents as well: an
 extent that needs none to be explained fairly is the likelier one."""
 
 
@@ -57,7 +57,7 @@ class PathTolerances:
     coloured_noise
         noise is louder at some frequencies: harmonics count by the noise that they carry.
     shaft_tones
-        tones of the shaft that stand out are taken out.
+        clear tones of the shaft are taken out.
     strikes
         balls strike the far edge and make more ring than the rings: what happens there counts less.
     """
@@ -91,7 +91,7 @@ STEADY = PathTolerances(False, False, False, False, False)
 def variant(scene: Scene, extent: float, edge: str, exponents: NDArray[np.float64]) -> Scene:
     """`scene` with a defect of `extent` [rad] and `edge`, and its numbers times exp(exponents).
 
-    `exponents` stand in the order of the fields of `Tolerances`.
+    `exponents` are in the order of the fields of `Tolerances`.
     """
     stiffness, factor, load, damping, depth = (math.exp(x) for x in exponents)
     (defect,) = scene.defects

@@ -192,7 +192,7 @@ def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     signal = signal / signal.std() + 0.5 * rng.standard_normal(len(signal))
     found = answer(signal, speed=(0.5 * MOTOR.shaft_speed, 2.0 * MOTOR.shaft_speed))
     assert found.fault == CANNOT_TELL
-    assert "Tell the shaft speed" in found.status
+    assert "Enter the shaft speed" in found.status
     found = answer(signal)
     assert found.fault == "outer race"
 

@@ -94,10 +94,18 @@ class Picture:
     seconds: float
 
 
-def picture_of(results: Results, views: Sequence[View], limits: bool = False) -> Picture:
-    """Compute what the views need and have them say it, and what `limits` of the model say."""
+def picture_of(
+    results: Results,
+    views: Sequence[View],
+    limits: bool = False,
+    on_screen: Sequence[View] = (),
+) -> Picture:
+    """Draw `views`, and check the `limits` of the model.
+
+    `on_screen`: the views that the status is of, where these are more than those drawn.
+    """
     started, worked = time.perf_counter(), time.thread_time()  # of this thread: waiting is no cost
-    shown = frozenset[str]().union(*(view.needs for view in views))
+    shown = frozenset[str]().union(*(view.needs for view in on_screen or views))
     results.prefetch(shown)
     drawings = [drawing_of(results, view) for view in views]
     checked = results.limits if limits else None
@@ -106,6 +114,7 @@ def picture_of(results: Results, views: Sequence[View], limits: bool = False) ->
 
 
 def drawing_of(results: Results, view: View) -> Drawing:
+    """What a view draws, or a sentence that says why there is nothing to draw."""
     try:
         return Drawing(view, view.data(results), view.sentence(results))
     except Overtaken:

@@ -335,11 +335,14 @@ class Explorer:
         return inputs, picture_of(inputs.results(), views, self._limits_due(inputs))
 
     def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
-        """What is on screen as finely as can be; None where it is drawn so already."""
+        """What is finer at rest, with the limits; None where all is drawn finely already."""
         if inputs.rested:
             return None
-        results = dataclasses.replace(inputs, rested=True).results(give_up)
-        return picture_of(results, self._views[self._on_screen], limits=True)
+        results, drawn = dataclasses.replace(inputs, rested=True).results(give_up), inputs.results()
+        on_screen = self._views[self._on_screen]
+        # views without needs may have waited for the slider to rest
+        finer = [v for v in on_screen if not v.needs or drawn.is_finer_at_rest(v.needs)]
+        return picture_of(results, finer, limits=True, on_screen=on_screen)
 
     async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
         await self._assign(picture, inputs.mark)

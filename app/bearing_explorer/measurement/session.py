@@ -36,7 +36,7 @@ from bearing_explorer.measurement.form import (
 )
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
-from bearing_explorer.results.executors import in_thread
+from bearing_explorer.results.executors import FILES, in_thread
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -343,7 +343,7 @@ class Measurement:
 
         async def run() -> None:
             try:
-                found = await in_thread(compute)
+                found = await in_thread(compute, pool=FILES)
             except ValueError as error:
                 sentence = str(error)
                 change = lambda: self._refuse(sentence)  # noqa: E731

@@ -1,6 +1,6 @@
 """The threads that compute, shared by all sessions of a process.
 
-Kernels release the interpreter lock, so threads do run at the same time. Two pools, so that what
+Kernels release the interpreter lock, so threads do run at the same time. Three pools, so that what
 takes long never delays what follows a slider.
 """
 
@@ -20,9 +20,14 @@ PICTURES = Pool(2 * _CORES, "compute")
 """Pictures, and what a message of the browser needs. More threads than processors, so that a quick
 picture need not wait for a motion."""
 JOBS = Pool(max(2, _CORES // 2), "job")
-"""Long computations that a person has started: maps, sweeps, diagnoses and files."""
+"""Long computations that a person has started: maps, sweeps and diagnoses."""
+FILES = Pool(2, "file")
+"""Measured signals, read from a file or simulated. Each file is read by a process of its own, with
+half a gigabyte at most: two at a time are what a small server can bear."""
 
 
-async def in_thread(function: Callable[..., Result], *args: object) -> Result:
+async def in_thread(
+    function: Callable[..., Result], *args: object, pool: Pool = PICTURES
+) -> Result:
     """Run `function` off the event loop."""
-    return await asyncio.get_running_loop().run_in_executor(PICTURES, function, *args)
+    return await asyncio.get_running_loop().run_in_executor(pool, function, *args)

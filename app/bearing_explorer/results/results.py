@@ -53,6 +53,21 @@ Answer = TypeVar("Answer")
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
 
+OVER_STRETCH = frozenset(
+    {
+        "equilibrium",
+        "healthy_equilibrium",
+        "modes",
+        "healthy_modes",
+        "bands",
+        "healthy_bands",
+        "chain",
+        "chain_before",
+        "dof_comparison",
+    }
+)
+"""Attributes of `Results` over the cage angles of its curves, fewer while a slider moves."""
+
 LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
 
@@ -198,6 +213,8 @@ class Results:
         """
         settings = self.settings
         n = settings.n_cage_angles
+        if self.moving:
+            n = min(n, settings.n_while_moving)
         if has_long_period(self.scene):
             n = min(n, settings.n_long_period)
         angles = default_cage_angles(self.scene, n)
@@ -232,7 +249,7 @@ class Results:
         """The same over whatever stretch holds all that happens in a pinned scene."""
         if self.pinned is None:
             return self.healthy_equilibrium
-        own = Results(self.pinned.scene, self.cage_angle, self.settings)
+        own = Results(self.pinned.scene, self.cage_angle, self.settings, moving=self.moving)
         return statics.curves(self.pinned.scene, *own.stretch)
 
     @cached_property
@@ -281,7 +298,7 @@ class Results:
 
     @cached_property
     def modes(self) -> Modes:
-        """Natural frequencies over the stretch; at every third cage angle while a slider moves."""
+        """Natural frequencies over the stretch."""
         return self._modes(self.scene)
 
     @cached_property
@@ -291,7 +308,7 @@ class Results:
 
     def _modes(self, scene: Scene) -> Modes:
         first, last, n = self.stretch
-        return statics.modes(scene, first, last, (n - 1) // 3 + 1 if self.moving else n)
+        return statics.modes(scene, first, last, n)
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
@@ -370,6 +387,17 @@ class Results:
         if "ball_mass" in shown and self._ball_marching.coarse:
             return True
         return bool(shown & self.moving_ones) and self.coarse
+
+    def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
+        """Whether any of these attributes is computed more finely once the slider rests."""
+        if shown & OVER_STRETCH or self.is_coarse(shown):
+            return True
+        if not shown & {"orbit", "orbit_spectra"}:
+            return False
+        try:
+            return self.orbit is not None and self.orbit.status is OrbitStatus.NOT_CONVERGED
+        except ValueError:
+            return False  # there is no motion, and none at rest
 
     def coarse_words(self, shown: frozenset[str]) -> str:
         """How what is shown is coarse, where it is."""
@@ -538,7 +566,9 @@ class Results:
         chosen, other = self.scene.active_dofs, other_dofs(self.scene)
         if chosen == other:
             return DofComparison(chosen, other, {}, {})
-        against = Results(self.scene.replace(dofs=other), self.cage_angle, self.settings)
+        against = Results(
+            self.scene.replace(dofs=other), self.cage_angle, self.settings, moving=self.moving
+        )
         static = static_differences(self.equilibrium, against.equilibrium)
         how = self.settings.marching
         if self.coarse_comparison:  # two motions, one of them in five directions

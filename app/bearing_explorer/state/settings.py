@@ -43,6 +43,8 @@ class Settings:
     n_cage_angles
         equally spaced over a ball spacing, ends included, for ball loads, stiffness and natural
         frequencies.
+    n_while_moving
+        the same while a slider moves: the figures take a third of the numbers a frame.
     n_long_period
         the same to an eighth of a turn of the shaft or the cage, where curves repeat only then.
     n_map_angles, n_extents
@@ -56,6 +58,7 @@ class Settings:
     """
 
     n_cage_angles: int = 361
+    n_while_moving: int = 121
     n_long_period: int = 121
     n_map_angles: int = 121
     n_extents: int = 91

@@ -79,7 +79,7 @@ class OtherModels(JobView[Alternatives]):
     def sentence(self, results: Results) -> str:
         if self.found is None:
             return (
-                f"Drawn are {results.equilibrium.cage_angles.size} cage angles and "
+                f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
                 f"{results.settings.duration:g} s of motion, whatever the scene."
             )
         enough = [

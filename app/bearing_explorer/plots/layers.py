@@ -120,10 +120,10 @@ def filled(source: str, color: str, alpha: float = 1.0, **line: Any) -> Glyph:
     return Glyph("patch", source, ("x", "y"), look)
 
 
-def segments(source: str, color: Any, width: float, **look: Any) -> Glyph:
-    """Straight lines from ``x0, y0`` to ``x1, y1``."""
-    line = {"line_color": color, "line_width": width, **look}
-    return Glyph("segment", source, ("x0", "y0", "x1", "y1"), line)
+def segments(source: str, color: Any, width: float, reads: tuple[str, ...] = ()) -> Glyph:
+    """Straight lines from ``x0, y0`` to ``x1, y1``; `reads`: columns that the colour reads."""
+    line = {"line_color": color, "line_width": width}
+    return Glyph("segment", source, ("x0", "y0", "x1", "y1"), line, reads)
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import element_name, elements
 from bearing_explorer.plots.heat_map import color_bar
+from bearing_explorer.plots.layers import Glyph, Layer, Words, draw, filled, segments
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.serve.packed_source import PackedSource
@@ -34,6 +35,7 @@ TOP_LINE, LINE_HEIGHT = 1.47, 0.1
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
+PLACE_AND_SIZE = ("x", "y", "radius")
 POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
 
 # pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
@@ -72,6 +74,54 @@ _NO_HIGHER = """
 const high = Math.round(Math.min(most, Math.max(least, cb_obj.inner_width + scale)))
 if (cb_obj.height !== high) cb_obj.setv({height: high}, {sync: false})
 """
+
+
+_EDGE = "#6B7480"
+_MIDDLE = {"text_align": "center"}
+_NUMBER = {**_MIDDLE, "text_font_size": "10px"}
+_LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
+# hung up by their tops: larger type on a projector is not cut by the frame
+_HUNG = {**_LINE, "text_baseline": "top", "y_offset": -12}
+
+
+def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> list[Layer]:
+    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
+    load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
+    end = Glyph(
+        "circle",
+        f"{prefix}_roller_ends",
+        PLACE_AND_SIZE,
+        {"fill_color": None, "line_color": _EDGE, "line_width": 1.0},
+    )
+    ball = Glyph(
+        "circle",
+        f"{prefix}_balls",
+        PLACE_AND_SIZE,
+        {"fill_color": load, "line_color": _EDGE, "line_width": 1.2},
+    )
+
+    def words(name: str, code: str, reads: tuple[str, ...], look: dict[str, Any]) -> Words:
+        return Words(f"{prefix}_{name}", "x", "y", code, reads, look=look)
+
+    return [
+        filled(f"{prefix}_healthy_loads", style.HEALTHY, 0.25),
+        filled(f"{prefix}_rings", style.STEEL, line_color=style.STEEL_EDGE, line_width=1.2),
+        filled(f"{prefix}_defect", style.DEFECT, 0.55, line_color="#B87A00", line_width=1.2),
+        words(
+            "marks",
+            "return row.angle + '°'",
+            ("angle", "turn"),
+            {**_NUMBER, "text_color": style.FAINT_INK, "angle": "turn"},
+        ),
+        segments(f"{prefix}_bars", load, 8, reads=("load",)),
+        ball,
+        end,
+        words("balls", "return row.number", ("load", "number"), {**_NUMBER, "text_color": number}),
+        filled(f"{prefix}_arrow", style.INK),
+        words("load_words", _LOAD_WORDS, ("kind", "value", "angle"), _HUNG),
+        words("row_words", _ROW_WORDS, ("row", "place"), {**_LINE, **_MIDDLE}),
+        words("scale_words", _SCALE_WORDS, ("scale",), {**_HUNG, "text_align": "right"}),
+    ]
 
 
 class BearingDrawing(View):
@@ -125,9 +175,7 @@ class BearingDrawing(View):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        self._draw_rings(plot, packed)
-        self._draw_loads(plot, packed, colors, inks)
-        self._write_words(plot, packed)
+        draw(plot, packed, layers(self.prefix, colors, inks))
         self._add_scale(plot, colors, load)
         return plot
 
@@ -151,126 +199,6 @@ class BearingDrawing(View):
         )
         style.write_units(bar, style.BALL_LOAD, load)
         plot.add_layout(bar, "below")
-
-    def _draw_rings(self, plot: figure, packed: PackedSource) -> None:
-        plot.patch(
-            "x",
-            "y",
-            source=packed.source(f"{self.prefix}_healthy_loads", "x", "y"),
-            fill_color=style.HEALTHY,
-            fill_alpha=0.25,
-            line_color=None,
-        )
-        plot.patch(
-            "x",
-            "y",
-            source=packed.source(f"{self.prefix}_rings", "x", "y"),
-            fill_color=style.STEEL,
-            line_color=style.STEEL_EDGE,
-            line_width=1.2,
-        )
-        plot.patch(
-            "x",
-            "y",
-            source=packed.source(f"{self.prefix}_defect", "x", "y"),
-            fill_color=style.DEFECT,
-            fill_alpha=0.55,
-            line_color="#B87A00",
-            line_width=1.2,
-        )
-        marks = packed.source(f"{self.prefix}_marks", "x", "y", "angle", "turn")
-        plot.text(
-            "x",
-            "y",
-            text=style.words_of(marks, "return row.angle + '°'"),
-            source=marks,
-            text_font={"value": style.FONT},
-            text_font_size="10px",
-            text_color=style.FAINT_INK,
-            angle="turn",
-            text_align="center",
-            text_baseline="middle",
-        )
-
-    def _draw_loads(
-        self, plot: figure, packed: PackedSource, colors: LinearColorMapper, inks: LinearColorMapper
-    ) -> None:
-        balls = packed.source(f"{self.prefix}_balls", "x", "y", "radius", "load", "number")
-        plot.segment(
-            "x0",
-            "y0",
-            "x1",
-            "y1",
-            source=packed.source(f"{self.prefix}_bars", "x0", "y0", "x1", "y1", "load"),
-            line_color={"field": "load", "transform": colors},
-            line_width=8,
-        )
-        plot.circle(
-            "x",
-            "y",
-            radius="radius",
-            source=balls,
-            fill_color={"field": "load", "transform": colors},
-            line_color="#6B7480",
-            line_width=1.2,
-        )
-        plot.circle(
-            "x",
-            "y",
-            radius="radius",
-            source=packed.source(f"{self.prefix}_roller_ends", "x", "y", "radius"),
-            fill_color=None,
-            line_color="#6B7480",
-            line_width=1.0,
-        )
-        plot.text(
-            "x",
-            "y",
-            text=style.words_of(balls, "return row.number"),
-            source=balls,
-            text_font={"value": style.FONT},
-            text_font_size="10px",
-            text_color={"field": "load", "transform": inks},
-            text_align="center",
-            text_baseline="middle",
-        )
-        plot.patch(
-            "x",
-            "y",
-            source=packed.source(f"{self.prefix}_arrow", "x", "y"),
-            fill_color=style.INK,
-            line_color=None,
-        )
-
-    def _write_words(self, plot: figure, packed: PackedSource) -> None:
-        look = {
-            "text_font": {"value": style.FONT},
-            "text_font_size": style.TEXT_SIZE,
-            "text_color": style.FAINT_INK,
-        }
-        loads = packed.source(f"{self.prefix}_load_words", "x", "y", "kind", "value", "angle")
-        # hung up by their tops: larger type on a projector is not cut by the frame
-        hung = {"text_baseline": "top", "y_offset": -12}
-        plot.text("x", "y", text=style.words_of(loads, _LOAD_WORDS), source=loads, **look, **hung)
-        rows = packed.source(f"{self.prefix}_row_words", "x", "y", "row", "place")
-        plot.text(
-            "x",
-            "y",
-            text=style.words_of(rows, _ROW_WORDS),
-            source=rows,
-            text_align="center",
-            **look,
-        )
-        scale = packed.source(f"{self.prefix}_scale_words", "x", "y", "scale")
-        plot.text(
-            "x",
-            "y",
-            text=style.words_of(scale, _SCALE_WORDS),
-            source=scale,
-            text_align="right",
-            **look,
-            **hung,
-        )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, now = results.scene, results.now

@@ -7,7 +7,7 @@
     drawn.table()     # the numbers, as in the view's CSV file
 
 They draw what the page draws, by the same code. `names` lists them; `views.still_figure.figure_of`
-says what they take and `views.still_figure.Figure` what they return.
+lists their parameters, and `views.still_figure.Figure` is their result.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ from bokeh.embed import json_item
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.plots.defect_words import extent_words
-from bearing_explorer.plots.element_words import row_words
+from bearing_explorer.plots.element_words import row_words, with_elements_of
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
@@ -48,9 +48,9 @@ _DEFECT_GROUP = "Defect"
 
 @dataclass(frozen=True)
 class About:
-    """What a report says about itself: bearing, where its numbers come from, link, day.
+    """Head of a report: bearing, source of its numbers, link, day.
 
-    `title`, `machine` and `remarks` are somebody's own words; they may be empty.
+    `title`, `machine` and `remarks` are free text; they may be empty.
     """
 
     bearing: str
@@ -65,9 +65,9 @@ class About:
 def report(
     results: Results, views: Sequence[type[View]], found: Mapping[str, Any], about: About
 ) -> dict[str, Any]:
-    """The report for the browser to finish. For any thread: it touches nobody's models.
+    """The report for the browser to finish. For any thread: it touches no models of the page.
 
-    `found` is what jobs have found, by view; views of jobs without are left out.
+    `found`: results of jobs, by view; views of jobs without are left out.
     """
     parts: list[str] = []
     drawn: list[Figure] = []
@@ -96,7 +96,7 @@ def report(
 
 
 def mark_of(figure_id: str) -> str:
-    """What stands in the page where a figure goes."""
+    """Placeholder of a figure in the page."""
     return f"<!--figure {figure_id}-->"
 
 
@@ -171,10 +171,12 @@ def _link(address: str) -> str:
 
 
 def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
-    caption = _text(view.caption(results.reference_caption))
+    bearing = results.scene.bearing
+    caption = _text(with_elements_of(bearing, view.caption(results.reference_caption)))
+    title = _text(with_elements_of(bearing, view.title))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
-        f"<section><h2>{_text(view.title)}</h2><p class='about'>{caption}</p>"
+        f"<section><h2>{title}</h2><p class='about'>{caption}</p>"
         f"<figure>{drawings}<figcaption>{_sentence(sentence)}</figcaption></figure></section>"
     )
 
@@ -203,7 +205,7 @@ def _changes(scene: Scene, about: About) -> str:
 def _numbers(scene: Scene) -> Iterable[str]:
     """Tables of all numbers, a group each; those of defects once a defect."""
     facts = [[_text(f["label"]), f["symbol"], _text(f["value"])] for f in facts_of(scene)]
-    yield "<h3>What follows from them</h3>" + _table(["Name", "Symbol", "Value"], facts)
+    yield "<h3>Derived quantities</h3>" + _table(["Name", "Symbol", "Value"], facts)
     groups = dict.fromkeys(q.group for q in SHOWN_FIELDS if q.part not in ("", "floor"))
     for group in groups:
         count = len(defects_of(scene)) if group == _DEFECT_GROUP else 1

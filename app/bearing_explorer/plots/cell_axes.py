@@ -1,6 +1,6 @@
 """Axes of a drawing of many cells, each of which has axes of its own.
 
-The numbers of a cell stand beside it. Whoever zooms into the cell has them out of sight: then the
+The numbers of a cell are next to it, out of sight while the cell fills the frame: then the
 drawing's own axes show, with the numbers of the cells in view, see cell_axes.js.
 """
 
@@ -34,13 +34,13 @@ def axes_when_zoomed(
     names
         of the cells.
     scale_of
-        JavaScript: body of a function of `k`, a cell, which returns what its sides stand for:
+        JavaScript: body of a function of `k`, a cell, which returns the quantities of its sides:
         ``{x: side, y: side}``, each ``{first, last, factor, unit, words}``. What is written is a
         place over `factor`; empty `words` stand for the name of the cell.
     sources
         sources whose news change that; the function knows them as `sources`.
     known
-        what else it knows.
+        further models that it knows.
     """
     axes = []
     for axis in (plot.xaxis[0], plot.yaxis[0]):

@@ -14,6 +14,6 @@ def length_on_race(defect: Defect, bearing: Bearing) -> float:
 
 
 def extent_words(defect: Defect, bearing: Bearing) -> str:
-    """How far a defect reaches: "12.9° (5.97 mm)"."""
+    """Extent of a defect in degrees and along its race: "12.9° (5.97 mm)"."""
     length = style.with_prefix(length_on_race(defect, bearing), "m")
     return f"{style.number(math.degrees(defect.extent))}° ({length})"

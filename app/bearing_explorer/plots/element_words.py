@@ -1,12 +1,16 @@
-"""What the rolling elements of a bearing are called: balls or rollers, one by one, row by row."""
+"""Names of the rolling elements of a bearing: balls or rollers, one by one, row by row."""
 
 from __future__ import annotations
 
+import re
+
 from bearingcore import Bearing
+
+_BALL = re.compile(r"\b([Bb])all(?=s?\b)(?![- ]pass)")
 
 
 def elements(bearing: Bearing, count: int = 2) -> str:
-    """What so many of them are called."""
+    """The word for so many of them."""
     return bearing.kind.element if count == 1 else bearing.kind.elements
 
 
@@ -18,7 +22,18 @@ def element_name(bearing: Bearing, index: int) -> str:
 
 
 def row_words(bearing: Bearing, row: int | None) -> str:
-    """Where a defect lies, of a bearing of several rows: ", row 1"; nothing of one row."""
+    """The row of a defect, of a bearing of several rows: ", row 1"; nothing of one row."""
     if len(bearing.all_rows) == 1:
         return ""
     return ", all rows" if row is None else f", row {row + 1}"
+
+
+def with_elements_of(bearing: Bearing, text: str) -> str:
+    """A text about balls for a bearing, whose elements may be rollers.
+
+    A ball pass is called so for rollers too.
+    """
+    element = bearing.kind.element
+    if element == "ball":
+        return text
+    return _BALL.sub(lambda found: element.title() if found[1] == "B" else element, text)

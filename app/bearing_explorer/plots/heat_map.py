@@ -37,10 +37,10 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearingcore.fields import Field
 
 _NO_SIDES: dict[str, list[float]] = {"across": [], "up": []}
-"""What the sides of a grid are before the first numbers."""
+"""Sides of a grid before the first numbers."""
 
 CLEAR = "#00000000"
-"""No colour at all: what lies below is seen."""
+"""Transparent."""
 
 _HEAD = 9
 _PLACE = asset_text("heat_map_place.js")
@@ -48,14 +48,14 @@ TOOLTIP = (
     f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; line-height: 1.45">'
     "$x{custom}<br>$y{custom}<br><b>@image{custom}</b></div>"
 )
-"""What stands under the pointer: both places and the value."""
+"""Text under the pointer: both places and the value."""
 VALUE_FIELDS = {"$x": "x", "$y": "y", "@image": "value"}
-"""Which field of TOOLTIP says what."""
+"""Meaning of the fields of TOOLTIP."""
 
 
 @dataclass(frozen=True)
 class Side:
-    """What a side of a grid stands for.
+    """Quantity along a side of a grid.
 
     `name`: of the quantity that a click sets; empty where it sets none.
     """
@@ -82,25 +82,25 @@ class Side:
         return f"{words} ({self.unit})" if self.unit else words
 
     def for_browser(self) -> dict[str, str]:
-        """What the scripts need to know."""
+        """The side for the scripts."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
         return {"name": self.name, "words": self.words, "unit": unit}
 
 
 @dataclass(frozen=True)
 class Places:
-    """Where the maps of a figure lie, and what their sides stand for.
+    """Places of the maps of a figure, and the quantities of their sides.
 
     Attributes
     ----------
     image
         Bokeh's source of the pictures: image, x, y, dw, dh.
     sides
-        everything that a side may stand for; the first to the right and the second upwards where
+        all quantities that a side may have; the first to the right and the second upwards where
         no source says which (``across``, ``up``).
     stands
-        the source that says so, and what the ends stand for (``x_first``, ``x_last``, ``y_first``,
-        ``y_last``) where that is not what the map is drawn over.
+        the source that says so, and the values at the ends (``x_first``, ``x_last``, ``y_first``,
+        ``y_last``) where these are not the ends of the picture.
     count
         how many pictures of the source are maps.
     digits
@@ -116,7 +116,7 @@ class Places:
 
     @property
     def args(self) -> dict[str, Any]:
-        """What both scripts need to know."""
+        """Arguments of both scripts."""
         return {
             "image": self.image,
             "stands": self.stands,
@@ -150,15 +150,15 @@ def reading(
     fields: Mapping[str, str] = VALUE_FIELDS,
     **args: Any,
 ) -> HoverTool:
-    """Shows what stands under the pointer, without a word to the server.
+    """Shows the value under the pointer, without the server.
 
     Parameters
     ----------
     say
         JavaScript: body of a function of `cell`, the numbers of all `layers` there, and `at`, the
-        place; it returns what they mean.
+        place; it returns their meaning as text.
     fields
-        what the fields of the tooltip show: "x", "y" or "value".
+        content of the fields of the tooltip: "x", "y" or "value".
     args
         models and numbers that `say` knows besides.
     """
@@ -194,7 +194,7 @@ BAR_LOOK: dict[str, Any] = {
 
 
 def color_bar(mapper: ColorMapper, title: str = "", **options: Any) -> ColorBar:
-    """The scale beside a map."""
+    """The colour scale of a map."""
     return ColorBar(color_mapper=mapper, title=title, **{**BAR_LOOK, **options})
 
 
@@ -219,10 +219,10 @@ class GridImage:
     mappers
         colour of each layer's numbers; NaN should be transparent.
     sides
-        everything that a side of the grid may stand for.
+        all quantities that a side of the grid may have.
     say
         JavaScript: body of a function of `cell`, the numbers of all layers under the pointer,
-        which returns what they mean.
+        which returns their meaning as text.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
 """A map over two quantities, with the lines across it and a histogram, all linked.
 
 The lines follow the pointer without asking Python, so they do in a saved page too. A part of the
-histogram, selected with the mouse, is what stays bright on the map.
+histogram, selected with the mouse, stays bright on the map.
 """
 
 from __future__ import annotations
@@ -119,8 +119,8 @@ def dimension(name: str, quantity: AxisQuantity, **more: Any) -> hv.Dimension:
 class Axes:
     """A hook that gives a figure the page's look, and axes that write their own units.
 
-    HoloViews calls hooks again whenever a figure is updated; what follows by itself is done once,
-    as is what is to be done to `each` figure.
+    HoloViews calls hooks again whenever a figure is updated; callbacks are attached once,
+    and `each` is called once for each figure.
     """
 
     def __init__(
@@ -359,7 +359,7 @@ def plane(
 
 
 class _Stacked:
-    """A hook: figures stand one below the other where two beside each other would be too narrow."""
+    """A hook: one figure below the other where two in a row would be too narrow."""
 
     STYLE = "@media (max-width: 820px) { :host { grid-area: auto / 1 / auto / -1 !important; } }"
 
@@ -384,7 +384,7 @@ def _spaced(unit: str) -> str:
 
 
 class _Reading:
-    """A hook: what stands under the pointer, with the prefix its number asks for."""
+    """A hook: the value under the pointer, with the prefix of its magnitude."""
 
     def __init__(self, x: AxisQuantity, y: AxisQuantity, value: AxisQuantity) -> None:
         self._sides = [Side("", axis.name, axis.symbol, axis.unit) for axis in (x, y)]
@@ -403,7 +403,7 @@ class _Reading:
 
 
 def first_drawing() -> None:
-    """Draw a map that nobody sees: the first one has HoloViews find out much about itself.
+    """Draw a map off the page: for the first one HoloViews inspects its classes, which takes long.
 
     That takes three times as long as a map does, and the page draws maps on its event loop.
     """
@@ -443,7 +443,7 @@ def _gaps(data: Field) -> hv.Rectangles:
 
 
 def _veil(data: Field, boundsx: tuple[float, float] | None) -> hv.Image:
-    """White over what is not selected."""
+    """White over the cells that are not selected."""
     x, y, _ = data.dimensions
     veil = np.zeros(data.values.shape)
     if boundsx is not None:

@@ -42,7 +42,7 @@ INK = "#20262D"
 """Text, and the mark of the current cage angle."""
 FAINT_INK = "#5B6470"
 PAPER = "#FFFFFF"
-"""What figures stand on; white is paper wherever it is said."""
+"""Background of figures; white is paper."""
 LIGHT, SHADE = "#FEFEFE", "#1B2127"
 """On top of pictures, which are the same on a light and on a dark page."""
 STEEL = "#E7EAEE"
@@ -73,7 +73,7 @@ BUTTONS = f"""
 """Style of Bokeh's own buttons and boxes to tick, light and dark."""
 SMALL_TEXT_SIZE = "11px"
 
-# How numbers are written, as `bearingcore.common.numbers` does in sentences.
+# Numbers as text, as `bearingcore.common.numbers` does in sentences.
 JS_PREFIX = """
 const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
 const power = (top) => !(top > 0) || !isFinite(top) ? 0 :
@@ -111,7 +111,7 @@ if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below
 
 @dataclass(frozen=True)
 class AxisQuantity:
-    """What an axis shows: name, symbol and unit.
+    """Quantity of an axis: name, symbol and unit.
 
     `prefixed` lets the axis choose an SI prefix for `unit`; the data are in `unit` always.
     `around`: an angle, written between 0° and 360° also where the axis runs past.
@@ -135,7 +135,7 @@ class AxisQuantity:
         return f"{self.words} ({unit})" if unit else self.words
 
 
-BALL_LOAD = AxisQuantity("Ball load", "Q", "N", prefixed=True)
+BALL_LOAD = AxisQuantity("Contact load", "Q", "N", prefixed=True)
 BALL_ANGLE = AxisQuantity("Angular position", "φ", "°", around=True)
 CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
 SHAFT_ANGLE = AxisQuantity("Shaft angle", "φs", "°")
@@ -155,7 +155,7 @@ def make_figure(
 ) -> figure:
     """A figure in the house style on two fixed ranges, both axes labelled and prefixed.
 
-    `right` is the room [px] right of the frame, for labels that stand beside their lines; with
+    `right` is the room [px] right of the frame, for labels next to their lines; with
     "stretch_both" as `sizing_mode` it is as high as its place, and `height` the least.
     """
     plot = figure(
@@ -338,7 +338,7 @@ def fitting_words(
 
     `below`: of which width [px] it is, with type of the usual size. `keep` knows the `plot`.
     """
-    # how wide it is is known later than its numbers, and changes
+    # its width is known later than its numbers, and changes
     write = CustomJS(args={"source": source}, code="source.change.emit()")
     plot.js_on_change("inner_width", write)
     return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below, **known)

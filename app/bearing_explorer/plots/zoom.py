@@ -1,7 +1,7 @@
 """Every figure zooms and pans: with Ctrl and the wheel, two fingers, a box, and back at two clicks.
 
-One finger goes on scrolling the page, and so does the wheel alone. What the server sends moves the
-axes of a figure only while nobody has zoomed into it; back is always where they would be then (see
+One finger goes on scrolling the page, and so does the wheel alone. Ranges from the server move the
+axes of a figure only while it is not zoomed; back is always where they would be then (see
 `server.packed_source`).
 """
 

@@ -1,4 +1,4 @@
-"""Other models of the scene: what each would change, and what it would cost."""
+"""Simpler models of the scene: their errors and run times."""
 
 from __future__ import annotations
 
@@ -34,16 +34,16 @@ GOOD_ENOUGH = {True: 0.5, False: 0.01}
 
 
 class OtherModels(JobView[Alternatives]):
-    """What fewer directions, other balls, orbits, steps and cage angles would change."""
+    """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
 
     name = "alternatives"
-    title = "What would less do here?"
+    title = "Would a simpler model do?"
     about = (
         "Other models against the scene's own, each computed. Errors of stiffness hold at 99 % "
         "of the cage angles; those of spectra up to 1.25 times the highest natural frequency."
     )
     needs = frozenset[str]()
-    start = "What would less do here?"
+    start = "Compare simpler models"
     bounds = "A quarter of a second of motion in several models; it takes about a second."
 
     def build(self, packed: PackedSource) -> Any:

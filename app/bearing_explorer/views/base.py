@@ -1,20 +1,20 @@
-"""What a view is: figures made once, numbers pushed through the packed source, one live sentence.
+"""A view: figures made once, numbers pushed through the packed source, one live sentence.
 
 A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
-stands on one line above the figure, and the rest is shown when asked for), and give it
+stands on one line above the figure, and the rest opens on a click), and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
-- `data(results)`: what to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
-- `sentence(results)`: one sentence that says what is to be seen, for everyone;
+- `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
+- `sentence(results)`: one sentence on the figure in plain words;
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
 
-A view that asks for something, a scene, a job, a measured signal, takes what it needs of the
+A view that needs the scene of the controls, a job or a measured signal takes it from the
 session in `attach(parts)`.
 
-What is drawn in grey is ``{grey}`` in `about`: the healthy bearing, or a scene that is pinned.
+The grey reference is ``{grey}`` in `about`: the healthy bearing, or a scene that is pinned.
 
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
@@ -33,6 +33,7 @@ import param
 from bokeh.models import LayoutDOM, Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
+from bearing_explorer.plots.element_words import with_elements_of
 from bearing_explorer.plots.zoom import zoomable
 from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.serve.packed_source import PackedSource
@@ -55,28 +56,28 @@ Sources = dict[str, dict[str, np.ndarray]]
 Ranges = dict[str, tuple[float, float]]
 
 
-#: puts what is made into a layout and then acts, turn after turn of the event loop
+#: puts a new viewable into a layout and then acts, turn after turn of the event loop
 Fill = Callable[
     [pn.Column, Callable[[], pn.viewable.Viewable], Callable[[], None]], asyncio.Task[None]
 ]
 
 
 class Caption(LiveComponent):
-    """Head of a view: its title, what it shows in a line, and a menu to take it along."""
+    """Head of a view: its title, its content in a line, and a menu for exports."""
 
     title = param.String()
-    #: what it shows, and the rest of that, which is shown when asked for
+    #: its content, and the rest of that, which opens on a click
     line = param.String()
     rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
-    #: what is drawn in grey, where that is a pinned scene
+    #: name of the grey reference, where that is a pinned scene
     pinned = param.String()
     #: whether the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
-    #: a small one: a title that leads to the tab of this name, and what there is to say
+    #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
     leads_to = param.String()
 
@@ -100,7 +101,7 @@ class Sentence(LiveComponent):
 
 @dataclass(frozen=True)
 class SessionParts:
-    """What a view may take of the session that it is attached to.
+    """Parts of the session for the views that are attached to it.
 
     Parameters
     ----------
@@ -109,20 +110,20 @@ class SessionParts:
     jobs
         the background of the session.
     measurement
-        the signal that somebody measured.
+        the measured signal.
     draw
-        asks for a drawing.
+        requests a drawing.
     ask
-        takes a message of the browser about the scene, from strangers too.
+        takes a message of the browser about the scene, which may be invalid.
     add_controls
         has a panel of controls follow the scene.
     take_steps
-        has motions marched with a step rate [Hz], or with None by the program's own.
+        sets the step rate [Hz] of time integration; None: the program's own.
     fill
-        has what is made come into a layout as its only child, and then something done, in several
+        puts a new viewable into a layout as its only child and then acts, in several
         turns of the event loop: for figures that are large and not made before they are needed.
     set_life_inputs
-        takes what somebody says of steel, oil and surfaces.
+        sets the data of steel, oil and surfaces.
     """
 
     editor: SceneEditor
@@ -137,7 +138,7 @@ class SessionParts:
 
 
 class View:
-    """One picture of the scene. See the head of this module for what a subclass provides."""
+    """One picture of the scene. The head of this module lists the parts of a subclass."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -147,16 +148,16 @@ class View:
     picture: ClassVar[bool] = False
     #: whether its figures are drawings, in which circles are round
     equal_aspect: ClassVar[bool] = False
-    #: whether it stands in a report; one without `needs` only with what its job has found
+    #: whether it is in a report; one without `needs` only with the result of its job
     in_report: ClassVar[bool] = True
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False
     #: "unseen": for screen readers alone; "large"
     sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
-    #: what a job of the view has found
+    #: result of a job of the view
     found: Any = None
-    #: whether `choose` computes what the view shows
+    #: whether `choose` computes the content of the view
     computes: ClassVar[bool] = False
 
     def __init__(self, packed: PackedSource) -> None:
@@ -173,7 +174,7 @@ class View:
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
-        #: what there is to see, where that is figures alone
+        #: the content, where that is figures alone
         self._picture = body if self.figures and not self.compact and _only_figures(body) else None
         line, rest = first_sentence(self.caption())
         self._caption = Caption(
@@ -205,18 +206,18 @@ class View:
         )
 
     def attach(self, parts: SessionParts) -> None:
-        """Take what the view needs of the session, once, before it is first on screen."""
+        """Take parts of the session, once, before the view is first on screen."""
 
     def build(self, packed: PackedSource) -> Any:
         """Make the figures, once; return a Panel object or a Bokeh layout."""
         raise NotImplementedError
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        """What to send for these results."""
+        """Sources and ranges for these results."""
         raise NotImplementedError
 
     def sentence(self, results: Results) -> str:
-        """One sentence that says what the figure shows now, numbers with units."""
+        """One sentence on the figure as it is now, numbers with units."""
         raise NotImplementedError
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
@@ -233,21 +234,24 @@ class View:
         self._has_drawn = self._has_drawn or results is not None
         if self._picture is not None:
             self._picture.visible = self._has_drawn
-            # what nobody sees is not to be saved
+            # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
         self._sentence.put(text=sentence)
         self._caption.put(
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
-        if results is not None and self.compares:
-            line, rest = first_sentence(self.caption(results.reference_caption))
-            pinned = results.pinned.name if results.pinned else ""
-            self._caption.put(line=line, rest=rest, pinned=pinned)
+        if results is not None:
+            bearing = results.scene.bearing
+            text = with_elements_of(bearing, self.caption(results.reference_caption))
+            line, rest = first_sentence(text)
+            pinned = results.pinned.name if self.compares and results.pinned else ""
+            title = with_elements_of(bearing, self.title)
+            self._caption.put(title=title, line=line, rest=rest, pinned=pinned)
 
     @classmethod
     def caption(cls, grey: str = WITHOUT_DEFECT) -> str:
-        """The text above the figure; `grey` is what is drawn in grey."""
+        """The text above the figure; `grey` names the grey reference."""
         return cls.about.replace("{grey}", grey)
 
     def put_away(self) -> None:
@@ -255,11 +259,11 @@ class View:
         self._results = None
 
     def end(self) -> None:
-        """The session is over: give up what waits for a time to come."""
+        """The session is over: cancel timers."""
 
     @property
     def compares(self) -> bool:
-        """Whether it draws something in grey beside the scene."""
+        """Whether it draws a grey reference."""
         return any(name.startswith("healthy_") for name in self.needs)
 
     @property
@@ -268,25 +272,25 @@ class View:
         return False
 
     def csv(self) -> str:
-        """The table of what is drawn now as comma-separated values; empty before the first."""
+        """The table of the current figure as comma-separated values; empty before the first."""
         return "" if self._results is None else as_csv(self.table(self._results))
 
     def python(self) -> str:
-        """Lines of Python that make what is drawn now; empty before the first."""
+        """Lines of Python that make the current figure; empty before the first."""
         return "" if self._results is None else lines_of(self, self._results)
 
     # Outside of the page: see `views.still_figure`
 
     def scene_drawn(self, results: Results) -> Scene:
-        """The scene that is drawn: what a job has found may be of an earlier one."""
+        """The scene that is drawn: the result of a job may be of an earlier one."""
         return results.scene
 
     def choices(self) -> dict[str, Any]:
-        """What is chosen in the view itself, as plain values, for `choose`."""
+        """Choices made in the view itself, as plain values, for `choose`."""
         return {}
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        """Take what `choices` says, and compute what the page computes when it is chosen."""
+        """Take `choices`, and compute as the page does when they are made."""
 
     def take_measurement(self, measurement: Measurement) -> None:
         """Take a measured signal, where the view shows one."""
@@ -296,7 +300,7 @@ class View:
         return []
 
     def more_arguments(self) -> dict[str, str]:
-        """What these lines have made for the figure: parameters and expressions."""
+        """Arguments of the figure that these lines have made: parameters and expressions."""
         return {}
 
     def still_figures(self) -> Sequence[LayoutDOM]:
@@ -317,7 +321,7 @@ def _only_figures(body: pn.viewable.Viewable) -> bool:
 
 
 def first_sentence(text: str) -> tuple[str, str]:
-    """The first sentence of a text, and what follows it."""
+    """The first sentence of a text, and the rest."""
     found = re.match(r"(.+?[.!?])\s+(?=[A-Z“])(.+)", text, re.DOTALL)
     return (found[1], found[2]) if found else (text, "")
 

@@ -1,4 +1,4 @@
-"""Drawing of the bearing: rings, balls coloured by what they carry, defect, load."""
+"""Drawing of the bearing: rings, balls coloured by their loads, defect, load."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "What each ball carries now, seen along the shaft. Several rows stand side by side. Bars "
+        "Ball loads at the current cage angle, seen along the shaft. Rows are side by side. Bars "
         "and colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The "
         "keyway turns with the shaft; z points towards you."
     )
@@ -138,7 +138,7 @@ class BearingDrawing(View):
     equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
-    #: where it says how deep the defect is drawn
+    #: height of the line about the depth scale of the defect
     scale_line: ClassVar[float] = TOP_LINE
 
     def build(self, packed: PackedSource) -> Any:
@@ -421,7 +421,7 @@ class Shapes:
         return angle, radius
 
     def defects(self) -> dict[str, np.ndarray]:
-        """What is missing from the races."""
+        """Material missing from the races."""
         parts = []
         for span in self.spans:
             angle = np.linspace(span.start, span.start + span.extent, 121)

@@ -20,7 +20,7 @@ _CONTROL = {field.full_name: field.key for field in SHOWN_FIELDS if field.group 
 AXIS, MIDDLE = 372.0, 155.0
 """Where the middle of the shaft is in the section, and the middle of the bearing along it."""
 SHOULDER = 0.42
-"""How far rings are drawn beyond the bottom of their grooves, in ball diameters."""
+"""Length of rings drawn beyond the bottom of their grooves, in ball diameters."""
 CONTACT: Point = (440.0, 142.0)
 """The centre of the element that is drawn large."""
 
@@ -64,7 +64,7 @@ def _line(cls: str, x1: float, y1: float, x2: float, y2: float) -> str:
 def _label(
     x: float, y: float, text: str, below: str = "", after: str = "", anchor: str = "middle"
 ) -> str:
-    """A symbol with an index `below`, and what stands `after` it on the line."""
+    """A symbol with an index `below`, and text `after` it on the line."""
     parts = [_shape("tspan", text)]
     if below:
         parts.append(_shape("tspan", below, cls="below", dy=4))
@@ -272,7 +272,7 @@ def _second(row: _RowAt) -> Iterable[str]:
     )
 
 
-# An element between its races; what is small in a bearing is drawn large
+# An element between its races; small features are drawn large
 
 
 def _gap(bearing: Bearing) -> float:
@@ -384,7 +384,7 @@ def _angle(angle: float, ball: float) -> str:
     return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))
 
 
-# All elements, seen along the shaft; what one carries when it is pressed
+# All elements, seen along the shaft; load of one against its compression
 
 
 def _front(bearing: Bearing) -> Iterable[str]:

@@ -1,8 +1,8 @@
 """Any output over the plane of any two quantities: coarse at once, refined while one waits.
 
-The first, coarse level follows the sliders like any other view. When the hand rests, a job refines
-it level by level. The figures are HoloViews, and made when there is something to draw in them: the
-library is imported then, too, off the event loop.
+The first, coarse level follows the sliders like any other view. When the sliders rest, a job
+refines it level by level. The figures are HoloViews, and made when there is something to draw in
+them: the library is imported then, too, off the event loop.
 """
 
 from __future__ import annotations
@@ -116,8 +116,8 @@ class ExplorePlane(JobView[Plane]):
     _next_show = 0.0
     _fill: Fill
     _filling: asyncio.Task[None] | None = None
-    _drawn: Plane | None = None  # what the figures on the page show
-    _making: Plane | None = None  # what those on their way are made for
+    _drawn: Plane | None = None  # in the figures on the page
+    _making: Plane | None = None  # in figures that are being made
 
     def build(self, packed: PackedSource) -> Any:
         self._mark = packed.source("explore_mark", "x", "y")
@@ -155,7 +155,7 @@ class ExplorePlane(JobView[Plane]):
         return values, fills
 
     def request_of(self, given: Mapping[str, str], editor: SceneEditor) -> MapRequest:
-        """What the form asks for; ValueError with a sentence where it cannot be."""
+        """The map of the form; ValueError with a sentence where there can be none."""
         if given["output"] not in MAP_OUTPUTS:
             raise ValueError("There is no such output.")
         if given["grid"] not in [value for value, _ in _GRIDS]:
@@ -244,7 +244,7 @@ class ExplorePlane(JobView[Plane]):
         question = self._request.of(results)
         plane, why = self._plane(question)
         if plane is None:
-            faint = "What is drawn, faint, is another map. " if self.found is not None else ""
+            faint = "Faint: an earlier map. " if self.found is not None else ""
             return faint + (why or "This output takes a while: the map is being computed.")
         return summary(plane)
 
@@ -283,7 +283,7 @@ class ExplorePlane(JobView[Plane]):
         }
 
     def _plane(self, question: Question) -> tuple[Plane | None, str]:
-        """What is known of the map by now, or why there can be none."""
+        """The map as far as it is computed, or the reason why there can be none."""
         if self.found is not None and self.found.question == question:
             return self.found, ""
         if not question.at_once:
@@ -312,7 +312,7 @@ class ExplorePlane(JobView[Plane]):
     def _linked_figures(self) -> pn.viewable.Viewable:
         """Figures of the newest map; Bokeh's come with their models.
 
-        They change nothing that is on the page yet: what they hear of the place is kept for later.
+        They change nothing that is on the page yet: callbacks of the place are attached later.
         """
         import holoviews as hv
         from holoviews.plotting.util import initialize_dynamic
@@ -351,7 +351,7 @@ class ExplorePlane(JobView[Plane]):
     # Refining
 
     def _refine(self, question: Question, start: Plane | None) -> None:
-        """Start the job, if this is still what is asked for."""
+        """Start the job, if this is still the map of the form."""
         self._timer = None
         if self._jobs is None or self._request is None or question != self._question:
             return
@@ -422,9 +422,9 @@ def field_of(plane: Plane, at: tuple[float, float]) -> Field:
 
 
 def summary(plane: Plane) -> str:
-    """What a map shows, in a sentence: least and greatest, where, and how much is not known."""
+    """A sentence on a map: least and greatest value, their places, and missing points."""
     question, values = plane.question, plane.values
-    what = question.output.label
+    words = question.output.label
     missing = ""
     if plane.missing:
         reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
@@ -433,13 +433,14 @@ def summary(plane: Plane) -> str:
         missing = f" {points} no answer, most often: {common.rstrip('.')}."
     if plane.missing == values.size:
         return (
-            f"{what[0].upper()}{what[1:]}: no point of {plane.shape_words} has an answer." + missing
+            f"{words[0].upper()}{words[1:]}: no point of {plane.shape_words} has an answer."
+            + missing
         )
     least, most = (
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
-    return f"{plane.shape_words}. {what}: {ends}.{missing}"
+    return f"{plane.shape_words}. {words}: {ends}.{missing}"
 
 
 def _place(plane: Plane, at: tuple[Any, ...]) -> str:

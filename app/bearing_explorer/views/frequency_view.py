@@ -1,4 +1,4 @@
-"""A measured signal over frequency beside the simulated one: figures, lines, and their choices."""
+"""A measured and a simulated signal over frequency: figures, lines, and their choices."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ LINES: LookField = {
 
 @dataclass(frozen=True)
 class Look:
-    """How a spectrum is to be seen."""
+    """Choices above a spectrum."""
 
     direction: str = "y"
     scale: str = "dB"
@@ -89,7 +89,7 @@ def look_values(look: Look) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Shown:
-    """What a figure is to show: spectra up to `top` [Hz], and what to say beside them."""
+    """Content of a figure: spectra up to `top` [Hz], and remarks on them."""
 
     direction: str
     top: float
@@ -101,7 +101,7 @@ class Shown:
 
 
 class FrequencyView(MeasuredView):
-    """What spectra share: figures in decibels and linear, lines, and the choices above them."""
+    """Common parts of spectra: figures in decibels and linear, lines, and choices."""
 
     prefix: ClassVar[str]
     fields: ClassVar[list[LookField]]
@@ -160,7 +160,7 @@ class FrequencyView(MeasuredView):
         return self.hidden
 
     def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
-        """Draw what lies beneath the spectra."""
+        """Draw layers beneath the spectra."""
 
     def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
         """The numbers of that."""
@@ -240,7 +240,7 @@ class FrequencyView(MeasuredView):
             own = shown.simulated if dof == shown.direction else None
             sources[f"{p}_simulated_{dof}"] = curves(own, top)
         both = [sources[f"{p}_measured"], sources[f"{p}_simulated_{shown.direction}"]]
-        # a slow drift is not what the scale is for
+        # the scale leaves a slow drift out
         seen = [part["frequency"] > 1.5 * resolution for part in both]
         level, height = (
             np.concatenate([part[scale][own] for part, own in zip(both, seen, strict=True)])
@@ -266,11 +266,11 @@ class FrequencyView(MeasuredView):
         shown = self.shown(results, measured)
         table: dict[str, np.ndarray] = {}
         unit = f"{shown.direction}_m2_per_s4_per_hz"
-        for who, spectrum in (("measured", shown.measured), ("simulated", shown.simulated)):
+        for name, spectrum in (("measured", shown.measured), ("simulated", shown.simulated)):
             if spectrum is not None:
                 kept = spectrum.frequency <= shown.top
-                table[f"{who}_frequency_hz"] = spectrum.frequency[kept]
-                table[f"{who}_density_{unit}"] = spectrum.density[kept]
+                table[f"{name}_frequency_hz"] = spectrum.frequency[kept]
+                table[f"{name}_density_{unit}"] = spectrum.density[kept]
         return table
 
     def simulated_at(self, results: Results, measured: Measured) -> str:

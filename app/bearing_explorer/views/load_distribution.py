@@ -1,4 +1,4 @@
-"""Load distribution: what a ball carries at each angular position (Fig. 3)."""
+"""Load distribution: load of a ball against angular position (Fig. 3)."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class LoadDistribution(View):
                 visible=False,  # no button: it is always on
                 mode="vline",
                 line_policy="nearest",
-                tooltips=[("Ball at", "@angle{0.0}°"), ("carries", "@load{0,0.0} N")],
+                tooltips=[("Position", "@angle{0.0}°"), ("Load", "@load{0,0.0} N")],
             )
         )
         return plot
@@ -152,7 +152,7 @@ class LoadDistribution(View):
 
 
 def _both_races(now: EquilibriumWithMass) -> str:
-    """What the heaviest ball of one cage angle carries at each race, and at which angles."""
+    """Load of the most loaded ball at each race over the cage angles, and its positions."""
     most = int(np.argmax(now.ball_load[0]))
     inner, outer = now.inner_load[0, most], now.ball_load[0, most]
     angles = [now.inner_contact_angle[0, most], now.contact_angle[0, most]]

@@ -58,7 +58,7 @@ from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.statics.equilibrium import TERM_UNITS
 
-#: how a map is coloured: kinds of scales, as the browser knows them
+#: kinds of colour scales, as the browser knows them
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
 
 _TOOLTIP = (
@@ -113,7 +113,7 @@ class StiffnessMaps(View):
     title = "Maps over extent and cage angle"
     about = (
         "Every stiffness term, over extent and cage angle. Up: the extent of the defect; right: "
-        "the cage angle. The map of loaded balls says how many carry load. Lines that slope are "
+        "the cage angle. The large map counts the balls that carry load. Lines that slope are "
         "balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
@@ -135,7 +135,7 @@ class StiffnessMaps(View):
         ]
         cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
         grid = packed.source("maps_grid", *_GRID)
-        ticks = packed.source("maps_ticks", "x", "y", "value", "beside")
+        ticks = packed.source("maps_ticks", "x", "y", "value", "at")
         now = packed.source("maps_now", "x", "y", *_SIDES)
         points = packed.source("maps_points", "bits")
         frames = _frames(plot)
@@ -204,7 +204,7 @@ class StiffnessMaps(View):
         return low, high, False
 
     def sentence(self, results: Results) -> str:
-        """Where fewest balls carry load, and how it is at the sliders' place."""
+        """The extent at which fewest balls carry load, and the state at the sliders' place."""
         maps = results.maps
         if not maps.converged.any():
             first = np.unravel_index(0, maps.status.shape)
@@ -284,9 +284,9 @@ _SIDE_COLUMNS = {side: np.array([getattr(cell, side) for cell in _CELLS]) for si
 
 
 def _grid(results: Results) -> dict[str, float]:
-    """What the sides of a map stand for [deg]: half a point past the first and the last.
+    """Ends of the sides of a map [deg]: half a point past the first and the last.
 
-    `turn` says how far the angle that the map shows turns for a degree of cage angle: it is the
+    `turn`: degrees of the angle that the map shows for a degree of cage angle; it is the
     shaft's where a defect turns with the shaft. `start` is the cage angle where it is zero.
     """
     maps = results.maps
@@ -323,7 +323,7 @@ def _marks(results: Results, grid: dict[str, float]) -> dict[str, np.ndarray]:
     }
 
 
-#: what a number stands beside: the left of a map, its foot, a colour scale
+#: places of numbers: at the left of a map, at its foot, at a colour scale
 _LEFT, _FOOT, _SCALE = 0, 1, 2
 
 
@@ -334,21 +334,21 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
         large = cell is _BALLS
         if not large and len(set(PLACES[at])) > 1:
             continue
-        for beside, first, last in (
+        for at_side, first, last in (
             (_LEFT, grid["y_first"], grid["y_last"]),
             (_FOOT, grid["x_first"], grid["x_last"]),
         ):
             for value in _round_numbers(first, last, 6 if large else 2):
                 share = np.array((value - first) / (last - first))
-                x = cell.left if beside == _LEFT else float(cell.x(share))
-                y = cell.bottom if beside == _FOOT else float(cell.y(share, (0.0, 1.0)))
-                rows.append((x, y, value, beside))
+                x = cell.left if at_side == _LEFT else float(cell.x(share))
+                y = cell.bottom if at_side == _FOOT else float(cell.y(share, (0.0, 1.0)))
+                rows.append((x, y, value, at_side))
     every = -(-(most - least + 1) // MOST_LEVELS_NAMED)
     for count in range(least, most + 1, every):
         share = np.array((count - least + 0.5) / (most - least + 1))
         y = float(_BARS[-1].y(share, (0.0, 1.0)))
         rows.append((_BARS[-1].right, y, count, _SCALE))
-    return dict(zip(("x", "y", "value", "beside"), np.array(rows).T, strict=True))
+    return dict(zip(("x", "y", "value", "at"), np.array(rows).T, strict=True))
 
 
 def _round_numbers(first: float, last: float, parts: int) -> list[float]:
@@ -368,7 +368,7 @@ def _text(plot: figure, source: ColumnDataSource, **options: Any) -> Any:
 
 
 def _frames(plot: figure) -> Any:
-    """What shows where a map has no point: hatched."""
+    """Hatching, seen where a map has no answer."""
     names = [*SYMBOLS, "Loaded balls"]
     return plot.quad(
         **{side: side for side in _SIDES},
@@ -409,7 +409,7 @@ def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
 
 
 def _names(plot: figure, grid: ColumnDataSource) -> None:
-    """Symbols over the maps, words on the axes, and how to read it all."""
+    """Symbols over the maps, words on the axes, and the legend."""
     serif = {"text_font": {"value": "Georgia, 'Times New Roman', serif"}, "text_color": INK}
     cells = _CELLS[:-1]
     source = ColumnDataSource(
@@ -424,15 +424,15 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     _text(plot, source, text="below", x_offset=9, y_offset=-3, **serif)
     large = ColumnDataSource({"x": [_BALLS.left], "y": [_BALLS.top], "text": ["Loaded balls"]})
     _text(plot, large, text="text", y_offset=-6, text_font_size="13px", text_color=INK)
-    beside = {"text_align": "center", "text_color": INK, "text_font_size": "12px"}
+    centered = {"text_align": "center", "text_color": INK, "text_font_size": "12px"}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
     extent = {"value": "Extent Δφf (°)"}
-    small = {**beside, "text_font_size": "11px"}  # whole also where the canvas is narrowest
+    small = {**centered, "text_font_size": "11px"}  # whole also where the canvas is narrowest
     _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-31, **small)
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     _text(
         plot, grid, x=0.5 * (_BALLS.left + _BALLS.right), y=_BALLS.bottom, y_offset=36,
-        text=words_of(grid, words), **beside,
+        text=words_of(grid, words), **centered,
     )  # fmt: skip
     lines = [
         "Stiffness k of each displacement (column)",
@@ -461,13 +461,13 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         + top
         + "return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit"
     )
-    beside = {"x": "right", "x_offset": 14}
+    at_scale = {"x": "right", "x_offset": 14}
     low, high = (words_of(cells, units + end % name) for name in ("low", "high"))
     zero = words_of(cells, units + "return unit && row.kind == 1 ? '0' : ''")
     middle = {"expr": _between(cells)}
-    _text(plot, cells, **beside, y="bottom", text=low, text_baseline="bottom")
-    _text(plot, cells, **beside, y="top", text=high, text_baseline="top")
-    _text(plot, cells, **beside, y=middle, text=zero, text_baseline="middle")
+    _text(plot, cells, **at_scale, y="bottom", text=low, text_baseline="bottom")
+    _text(plot, cells, **at_scale, y="top", text=high, text_baseline="top")
+    _text(plot, cells, **at_scale, y=middle, text=zero, text_baseline="middle")
     _text(
         plot, cells, x="right", y="top", x_offset=30, y_offset=-6, text_align="right",
         text=words_of(cells, units + now),
@@ -489,14 +489,14 @@ def _between(cells: ColumnDataSource) -> Any:
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
     """Numbers of the axes and of the scale of loaded balls."""
-    only = "return row.beside == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
+    only = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
     kinds = (
         (_LEFT, "°", {"x_offset": -5, "text_align": "right", "text_baseline": "middle"}),
         (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
         (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
     )
-    for beside, unit, options in kinds:
-        _text(plot, ticks, text=words_of(ticks, only % (beside, unit)), **options)
+    for side, unit, options in kinds:
+        _text(plot, ticks, text=words_of(ticks, only % (side, unit)), **options)
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:

@@ -48,7 +48,7 @@ class MassInSpectrum(View):
         low, high = found.resonances
         resonance = "No ball carries load, so none resonates between its contacts. "
         if high > 0.0:
-            above = "" if low < 0.5 * found.sample_rate else ", above what is drawn"
+            above = "" if low < 0.5 * found.sample_rate else ", above this range"
             resonance = (
                 f"Loaded balls resonate between their contacts at {style.with_prefix(low, 'Hz')} "
                 f"to {style.with_prefix(high, 'Hz')}{above}. "

@@ -50,7 +50,7 @@ return narrow ? does : `ball ${{row.ball}} ${{does}}, ${{si(row.time, 's')}}`
 """
 
 MASSLESS: dict[str, Any] = {"color": style.INK, "alpha": 0.35, "width": 3.0}
-"""Look of what moves without the mass of the balls."""
+"""Look of curves of massless balls."""
 
 
 EVENTS = uprights("mass_events", "time", style.FAINT_INK, 1.0, 0.55)
@@ -209,7 +209,7 @@ class MassInTime(View):
 
 
 def way_of_the_ball(shown: BallMass) -> str:
-    """What becomes of the ball that enters at 0, in words."""
+    """The path of the ball that enters at 0, in words."""
     entry = shown.entry
     if entry is None:
         return "No ball enters a defect here"

@@ -21,7 +21,7 @@ SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
 """Between bars, as a ratio of frequencies."""
 LEAST = -1.0
-"""Share below which a bar is cut: next to nothing is left of what massless balls would give."""
+"""Share below which a bar is cut: next to nothing is left of the power with massless balls."""
 HALF = 0.5
 """Share from which on most of the power comes from the balls' mass."""
 

@@ -24,7 +24,7 @@ FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
 LABEL_WIDTH = 0.17  # that a name needs of the width of a spectrum
 LABEL_PIXELS = 16.0  # height that a label needs
-BESIDE = 148
+NAMES_WIDTH = 148
 """[px] right of the frame, for the names of bands."""
 _ROOM = """
 const room = cb_obj.outer_width < below ? 34 : usual  // names alone are shorter
@@ -44,7 +44,7 @@ SHORT_BAND_WORDS = f"{_BAND_NAME}\nif (narrow) return name\n{_BAND_SPAN}"
 
 
 def layers(colors: Any) -> Sequence[Layer]:
-    """From the lowest to the highest; `colors` of what has a direction."""
+    """From the lowest to the highest; `colors` of bands and their names, by direction."""
     return (
         strips("modes_bands", colors, 0.10, level=True),
         curve("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
@@ -92,9 +92,9 @@ class NaturalFrequencies(View):
             self._angle_range,
             packed.range("modes_frequency", 0.0, 2000.0),
             height=HEIGHT,
-            right=BESIDE,
+            right=NAMES_WIDTH,
         )
-        room = CustomJS(args={"usual": BESIDE, "below": style.NARROW}, code=_ROOM)
+        room = CustomJS(args={"usual": NAMES_WIDTH, "below": style.NARROW}, code=_ROOM)
         plot.js_on_change("outer_width", room)
         colors = by_number("direction", style.DIRECTION_COLORS)
         draw(plot, packed, layers(colors))

@@ -1,4 +1,4 @@
-"""The steady orbit of the scene: whether there is one, whether it holds, what it looks like."""
+"""The steady orbit of the scene: its existence, its stability and its path."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ HEIGHT = 280
 ORBIT_POINTS = 600
 MARCHED_POINTS = 3000
 MARCHED_PASSES = 8
-"""Ball passes of the marched motion that are drawn beside the orbit."""
+"""Ball passes that are drawn of the motion integrated in time."""
 
 FAR_APART = 3.0
 """[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
@@ -61,16 +61,17 @@ SPECTRA = [
 
 _LOST_LONG = {
     "-1": (
-        "Every ball pass alike is possible but does not last: the machine settles to a motion that "
-        "repeats after two passes or more, with lines at half the ball-pass frequency"
+        "The motion that repeats with each ball pass is unstable (period doubling): the machine "
+        "settles to one that repeats after two passes or more, with lines at half the ball-pass "
+        "frequency"
     ),
     "pair": (
-        "Every ball pass alike is possible but does not last: a slow beat is added, and every line "
-        "of the spectrum gets neighbours"
+        "The motion that repeats with each ball pass is unstable (Neimark–Sacker): a second "
+        "frequency appears, and every line of the spectrum gets sidebands"
     ),
     "+1": (
-        "Every ball pass alike is possible but does not last: the machine goes to another orbit, "
-        "and which one depends on where it comes from"
+        "The motion that repeats with each ball pass is unstable (fold): the machine jumps to "
+        "another orbit, which depends on the state it comes from"
     ),
 }
 
@@ -82,10 +83,10 @@ class SteadyOrbit(View):
     title = "Steady orbit"
     about = (
         "The motion that repeats itself with every ball pass. It is found by Newton's method "
-        "rather than by waiting. Its multipliers say what a pass does to a small disturbance: "
-        "inside the unit circle it dies out. Then the path of the inner ring, and the spectrum of "
-        "the housing, blue along x, orange along y. Grey, beneath: the motion marched from rest, "
-        "step by step."
+        "rather than by waiting. Its Floquet multipliers: factors by which a pass changes a small "
+        "disturbance; inside the unit circle it dies out. Then the path of the inner ring, and the "
+        "spectrum of the housing, blue along x, orange along y. Grey: the motion integrated in "
+        "time from rest."
     )
     needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
 
@@ -137,7 +138,7 @@ class SteadyOrbit(View):
             packed.range("orbit_level", -80.0, -20.0),
             height=HEIGHT + 40,
         )
-        # beside the squares where there is room, else as wide as the card
+        # right of the squares where there is room, else as wide as the card
         plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
         draw(plot, packed, SPECTRA)
         return plot
@@ -179,68 +180,73 @@ class SteadyOrbit(View):
         words = self._orbit_words(results)
         if results.scene.balls == MASSLESS:
             return words
-        return f"{words} Orbits are looked for with massless balls; grey moves with their mass."
+        return f"{words} Orbits are computed with massless balls; grey includes their mass."
 
     def _orbit_words(self, results: Results) -> str:
         orbit = results.orbit
         if orbit is None:
             return (
-                f"With {_turning_part(results)} all repeats only after {results.ball_passes} ball "
-                "passes, too many to look for while sliders move; grey is the marched motion."
+                f"With {_turning_part(results)} the motion repeats only after "
+                f"{results.ball_passes} ball passes, too many to search. Grey: the motion "
+                "integrated in time."
             )
         if orbit.status is OrbitStatus.NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
             return (
-                "The cages of the rows turn at speeds of their own and never come round together: "
-                "no motion repeats itself, so grey shows the marched one."
+                "The cages of the rows turn at speeds of their own and have no common period: no "
+                "motion repeats itself. Grey: the motion integrated in time."
             )
         if orbit.status is OrbitStatus.NO_PERIOD:
             return (
-                f"With {_turning_part(results)} nothing repeats itself: shaft and cage never come "
-                "round together, so grey shows the simulated motion."
+                f"With {_turning_part(results)} no motion repeats itself: shaft and cage have no "
+                "common period. Grey: the motion integrated in time."
             )
         if orbit.status is OrbitStatus.NO_START:
-            return "There is no static state to begin from, so no orbit was looked for."
+            return "There is no static state to start from, so no orbit was searched."
         if orbit.status is OrbitStatus.TOO_MANY_STEPS:
             return f"The search would take too long: {orbit.cost}."
         if orbit.status is OrbitStatus.NOT_CONVERGED and results.moving:
             return (
-                "A short search found no motion that repeats with every ball pass; it goes on when "
-                "the slider rests. Grey is the marched one."
+                "A short search found no motion that repeats with every ball pass; it continues "
+                "when the slider rests. Grey: the motion integrated in time."
             )
         if orbit.status is OrbitStatus.NOT_CONVERGED:
             return (
-                "Newton's method found no motion that repeats with every ball pass; grey is the "
-                "marched one."
+                "Newton's method found no motion that repeats with every ball pass. Grey: the "
+                "motion integrated in time."
             )
         size = style.number(orbit.largest_multiplier, 3)
         if orbit.status is OrbitStatus.UNSTABLE:
-            return f"{_LOST_LONG[orbit.through]}; a pass makes disturbances {size} times as large."
-        text = f"Every ball pass is alike; a pass leaves {size} of a small disturbance"
+            return f"{_LOST_LONG[orbit.through]}; disturbances grow {size} times per pass."
+        percent = style.number(100.0 * orbit.largest_multiplier, 3)
+        text = f"Periodic with each ball pass; disturbances shrink to {percent} % per pass"
         gap = level_gap(results)
         if gap > FAR_APART:
             text += (
-                ". The marched motion, in grey, has not come to it: the spectra are up to "
-                f"{style.number(gap, 2)} dB apart"
+                ". The motion integrated in time, in grey, has not reached it: the spectra are up "
+                f"to {style.number(gap, 2)} dB apart"
             )
         elif math.isfinite(gap):
-            text += f". Its spectrum is within {style.number(gap, 2)} dB of the marched one"
+            text += (
+                f". Its spectrum is within {style.number(gap, 2)} dB of that of the motion "
+                "integrated in time"
+            )
         return text + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         orbit, path = results.orbit, orbit_path(results)
         table = {} if orbit is None else orbit.table().named()
         table |= table_of(*((f"inner_{dof}", "µm", path[dof]) for dof in SHOWN)).named()
-        for who, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
+        for name, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
             for dof in SHOWN:
                 if dof in spectra:
                     frequency, density = spectra[dof].table([dof]).named().items()
                     table.setdefault(*frequency)
-                    table[f"{who}_{density[0]}"] = density[1]
+                    table[f"{name}_{density[0]}"] = density[1]
         return table
 
 
 def orbit_status(results: Results) -> dict[str, Any]:
-    """The orbit's status in words and colour, with what it took to find it."""
+    """The orbit's status in words and colour, with the effort of the search."""
     orbit, (mood, words) = results.orbit, of_orbit(results)
     if orbit is None or not orbit.multipliers.size:
         return {"mood": mood, "words": words, "details": []}
@@ -284,9 +290,9 @@ def _along(dofs: tuple[str, ...], path: NDArray[np.float64]) -> dict[str, NDArra
 
 
 def level_gap(results: Results) -> float:
-    """Greatest difference [dB] of the two spectra where they are heard; NaN without both.
+    """Greatest difference [dB] of the two spectra where they are loud; NaN without both.
 
-    Heard is what lies less than 40 dB below the loudest line.
+    Loud: less than 40 dB below the loudest line.
     """
     gaps = []
     for dof in SHOWN:

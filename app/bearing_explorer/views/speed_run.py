@@ -1,4 +1,4 @@
-"""Spectra of the housing over shaft speed, with what should be seen in them (Campbell diagram)."""
+"""Spectra of the housing over shaft speed, with the expected lines (Campbell diagram)."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 
 SPEED = "shaft_speed_hz"
 COUNTS = (25, 49, 97, 193)
-"""Speeds that can be asked for."""
+"""Numbers of speeds to choose from."""
 FIRST_COUNT = 25
 """Speeds of the first picture."""
 RESOLUTION = 16.0  # [Hz] half a ball pass at 7 Hz on the fan rig is 20 Hz
@@ -140,7 +140,7 @@ class SpeedRunSpectra(JobView[Found]):
     about = (
         "Spectrum of the vibration at each shaft speed. It is that of the steady vibration. "
         "Upright: the bands of the natural frequencies, which speed does not move. Slanted: the "
-        "ball-pass frequency and its harmonics; where they cross a band the housing is loud. "
+        "ball-pass frequency and its harmonics; where they cross a band vibration is strong. "
         "Horizontal line: current speed. Click to go to a speed."
     )
     needs = frozenset()
@@ -314,7 +314,7 @@ class SpeedRunSpectra(JobView[Found]):
 
 
 def compute(job: Work, scene: Any, speeds: Sweep) -> str:
-    """A coarse run and then the one that was asked for. Runs in a job's thread."""
+    """A coarse run and then the full one. Runs in a job's thread."""
     started = time.perf_counter()
     n = speeds.values.size
     levels = [speeds.every((n - 1) // (FIRST_COUNT - 1)), speeds] if n > FIRST_COUNT else [speeds]
@@ -359,7 +359,7 @@ def levels_of(run: SpeedRun, dof: str) -> NDArray[np.float64]:
 
 
 def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> tuple[float, float]:
-    """Ends of the colour scale [dB], after what is heard above 100 Hz."""
+    """Ends of the colour scale [dB], after the levels above 100 Hz."""
     heard = level[:, frequency >= 100.0]
     if not np.isfinite(heard).any():
         return -80.0, -20.0

@@ -1,4 +1,4 @@
-"""Where the steady orbit holds over two quantities of the scene, and how it is lost elsewhere."""
+"""Stability of the steady orbit over two quantities of the scene, and its kinds of loss."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 
 GRIDS = (13, 25, 49, 97)
-"""Points along each side that can be asked for; each holds the points of those before."""
+"""Points along each side that can be chosen; each holds the points of those before."""
 
 HEIGHT = 460
 
 PERIOD_DOUBLING = (
-    "<b>Period-doubling</b>: every second ball pass is alike, not every one, so the spectrum shows "
+    "<b>Period doubling</b>: the motion repeats after two ball passes, so the spectrum shows "
     "lines at half the ball-pass frequency and its odd multiples, between the usual ones. They "
     "look like a second fault or like looseness, but one defect at one shaft speed makes them, and "
     "they vanish when the speed changes."
@@ -53,7 +53,7 @@ PERIOD_DOUBLING = (
 
 @dataclass(frozen=True)
 class Kind:
-    """What a point of the map can be; `through` is how an unstable orbit leaves."""
+    """Outcome of a point of the map; `through`: the way a multiplier leaves the unit circle."""
 
     outcome: str
     through: str
@@ -100,8 +100,8 @@ class OrbitStability(JobView[Found]):
     name = "stability-map"
     title = "Where the orbit is stable"
     about = (
-        "Blue: the largest multiplier |μ| of a stable orbit. Other colours: how it is lost; the "
-        "dark line is |μ| = 1. Ring: this scene. Click to go there."
+        "Blue: the largest multiplier |μ| of a stable orbit. Other colours: kinds of instability; "
+        "the dark line is |μ| = 1. Ring: this scene. Click to go there."
     )
     needs = frozenset()
     start = "Compute the map"
@@ -267,7 +267,7 @@ def codes_of(found: StabilityMap) -> NDArray[np.float64]:
 def border(
     x: NDArray[np.float64], y: NDArray[np.float64], codes: NDArray[np.float64]
 ) -> dict[str, np.ndarray]:
-    """Sides of cells between what is stable and what is not, as columns x0, y0, x1, y1."""
+    """Sides of cells between stable and other points, as columns x0, y0, x1, y1."""
     known, stable = np.isfinite(codes), codes == 0
     left, bottom = ends(x)[0], ends(y)[0]
     dx, dy = x[1] - x[0], y[1] - y[0]
@@ -282,7 +282,7 @@ def border(
 
 
 def legend() -> str:
-    """What the colours of unstable regions mean, and what period-doubling is."""
+    """Meaning of the colours of unstable regions, and of period doubling."""
     swatch = "display:inline-block;width:11px;height:11px;border-radius:2px;margin-right:6px"
     items = "".join(
         f'<span style="white-space:nowrap"><i style="{swatch};background:{kind.color}"></i>'

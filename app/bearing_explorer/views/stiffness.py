@@ -91,7 +91,7 @@ class Stiffness(View):
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         plot = bare_figure(Range1d(-0.05, 5.03), Range1d(-5.08, 0.0), height=524)
         # Fifteen cells need some width; on a phone they scroll inside their card. (As a
-        # property of the figure, Panel would hand the width on to the whole card.)
+        # property of the figure, Panel would give the width to the whole card.)
         plot.min_width = None
         plot.stylesheets = [":host { min-width: 760px; }"]
         self._legend = _static_parts(plot)
@@ -164,13 +164,13 @@ class Stiffness(View):
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
         heads.append((limits[0], limits[1], balls, _BALLS.bottom))
 
-        drawn, beside = (
+        drawn, reference = (
             {axis: np.concatenate(parts) for axis, parts in line.items()} for line in lines
         )
         mark, head = np.array(marks).T, np.array(heads).T
         return {
             "stiffness_defective": drawn,
-            "stiffness_healthy": beside,
+            "stiffness_healthy": reference,
             "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
@@ -181,9 +181,9 @@ class Stiffness(View):
         }, {}
 
     def sentence(self, results: Results) -> str:
-        """How far the radial stiffness and the number of loaded balls vary."""
+        """The range of the radial stiffness and of the number of loaded balls."""
         found, healthy = results.equilibrium, results.healthy_equilibrium
-        beside = "healthy" if results.pinned is None else results.pinned.words
+        reference = "healthy" if results.pinned is None else results.pinned.words
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
@@ -194,7 +194,7 @@ class Stiffness(View):
             line += f" to {with_prefix(most, 'N/m')}"
             if results.reference_label and healthy.converged.any():
                 mean = over_turn(healthy.cage_angles, healthy_values)
-                line += f" ({beside}: {with_prefix(mean, 'N/m')} on average)"
+                line += f" ({reference}: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
@@ -206,7 +206,7 @@ class Stiffness(View):
         )
 
     def say(self, results: Results | None, sentence: str) -> None:
-        """Also in the legend what is drawn in grey."""
+        """Name the grey curve in the legend too."""
         super().say(results, sentence)
         if results is not None:
             words = _legend_words(results)
@@ -286,8 +286,8 @@ def _static_parts(plot: figure) -> ColumnDataSource:
 def _legend_words(results: Results) -> list[str]:
     """Words of the legend: blue, grey, and the upright line."""
     own = "with the defect" if results.scene.defects else "this bearing, without a defect"
-    beside = results.pinned.words if results.pinned else "healthy bearing"
-    return [own, beside if len(beside) <= 40 else beside[:39] + "…", "now"]
+    reference = results.pinned.words if results.pinned else "healthy bearing"
+    return [own, reference if len(reference) <= 40 else reference[:39] + "…", "now"]
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:
@@ -307,9 +307,9 @@ const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 """
     words = {end: words_of(cells, names + limit % end) for end in ("low", "high")}
-    beside = {"x": "left", "x_offset": -5, "text_align": "right"}
-    _text(plot, cells, **beside, y="bottom", text=words["low"], text_baseline="bottom")
-    _text(plot, cells, **beside, y="top", text=words["high"], text_baseline="top")
+    at_left = {"x": "left", "x_offset": -5, "text_align": "right"}
+    _text(plot, cells, **at_left, y="bottom", text=words["low"], text_baseline="bottom")
+    _text(plot, cells, **at_left, y="top", text=words["high"], text_baseline="top")
     _text(
         plot,
         cells,

@@ -38,14 +38,14 @@ for (const source of sources) source.properties.data.change.emit()
 class FilledSources(PackedSource):
     """Sources and ranges that hold their numbers, where those of the page are sent them.
 
-    What figures derive from them in the browser (labels with prefixes, pictures, words) follows
-    changes; `announce` is the callback that has it follow what is there from the beginning.
+    Labels with prefixes, pictures and words are derived from them in the browser, after changes;
+    the callback that `fill` returns derives them from the first numbers.
     """
 
     def fill(
         self, data: Mapping[str, Columns], ranges: Mapping[str, tuple[float, float]]
     ) -> CustomJS:
-        """Put numbers into sources and ranges; returns what the browser is to run when ready."""
+        """Put numbers into sources and ranges; returns a callback for the ready browser."""
         for name, columns in data.items():
             self._block(name, columns)  # refuses what does not fit
             rows = {column: np.asarray(v, np.float32).ravel() for column, v in columns.items()}
@@ -64,7 +64,7 @@ class Figure:
     results
         everything that is known about the scene; its attributes are results of `bearingcore`.
     sentence
-        what there is to see, in a sentence.
+        the sentence on the figure.
     layout
         the Bokeh layout of its figures.
     document
@@ -73,12 +73,12 @@ class Figure:
     Parameters
     ----------
     choices
-        what is chosen in the view itself, by its fields: computations are made anew with them.
+        choices in the view itself, by its fields: computations are made anew with them.
     recording
         the signal that was measured, for views of a measurement; `in_si`: whether its numbers are
         in m/s².
     found
-        what a computation of the view has found, where that is known already.
+        the result of the computation of the view, where that is known already.
     computed
         whether a view of a computation without `found` makes it.
 
@@ -182,7 +182,7 @@ def figure_of(
     pinned, pinned_name
         a scene drawn in grey, and its name; None: the bearing without its defect.
     before
-        the scene before the last change, for the view that says what it did.
+        the scene before the last change, for the view of the last change.
     settings, endurance
         fields of `Settings` (how finely it is computed) and of steel, oil and surfaces.
     more
@@ -229,5 +229,5 @@ def _bokeh_once() -> str:
 
 
 def bokeh_scripts() -> str:
-    """Bokeh itself, without what extensions would load."""
+    """Bokeh itself, without the scripts of extensions."""
     return "".join(f"<script>{code}</script>" for code in _BOKEH.js_raw)

@@ -222,23 +222,23 @@ class VibrationSpectra(View):
         if results.moving:
             return f"{text}."
         start = style.with_prefix(results.settled_since, "s")
-        return f"{text}. The spectrum is that of a marched motion without its first {start}."
+        return f"{text}. It is of a motion integrated in time, without its first {start}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        beside = f"{results.reference_name}_"
-        spectra_of = {"": results.late_spectra, beside: results.healthy_late_spectra}
-        for who, spectra in spectra_of.items():
-            for dof, one in spectra.items():
+        reference = f"{results.reference_name}_"
+        spectra_of = {"": results.late_spectra, reference: results.healthy_late_spectra}
+        for prefix, drawn in spectra_of.items():
+            for dof, one in drawn.items():
                 unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"
                 # samples of an orbit fit its period: a little off those of a march
                 columns = one.table([dof], unit).named()
-                table |= {f"{who}{name}": values for name, values in columns.items()}
+                table |= {f"{prefix}{name}": values for name, values in columns.items()}
         return table
 
 
 def density_axis(symbol: str) -> style.AxisQuantity:
-    """What the axis of a power spectral density shows."""
+    """Axis of a power spectral density."""
     return style.AxisQuantity("Density", symbol, "dB re 1 (m/s²)²/Hz")
 
 
@@ -279,7 +279,7 @@ def drawn_levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.fl
 
 
 def passed(scene: Scene) -> list[tuple[str, int, float]]:
-    """Races with a defect, and how often a point of them is passed [Hz]; outer without defects.
+    """Races with a defect, and their ball-pass frequencies [Hz]; the outer race without defects.
 
     Of rows that are not alike each whose balls meet one, with its number; else that is 0.
     """

@@ -94,13 +94,13 @@ def layers_below() -> list[Layer]:
 
 
 class VibrationInTime(View):
-    """What an accelerometer on the housing sees, and what the balls carry meanwhile."""
+    """Acceleration of the housing, and the loads of the balls meanwhile."""
 
     name = "vibration-time"
     title = "Vibration as balls pass the defect"
     about = (
         "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
-        "or leave the defect; thin: what they would carry at rest."
+        "or leave the defect; thin: their static loads."
     )
     needs = frozenset({"excerpt"})
 
@@ -206,7 +206,7 @@ def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
 
 
 def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
-    """What the browser names balls by, counted from 0 row after row; row 0 is the only one."""
+    """Columns that name balls, counted from 0 row after row; row 0 is the only one."""
     row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
     return {
         "ball": number + 1.0,
@@ -216,7 +216,7 @@ def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
 
 
 def ball_names(shown: Excerpt, bearing: Bearing) -> dict[str, np.ndarray]:
-    """The names of the balls beside each other, shares of the figure's width and height."""
+    """The names of the balls in a row, shares of the figure's width and height."""
     balls = shown.balls[:SLOTS]
     slots = np.arange(float(balls.size))
     return {

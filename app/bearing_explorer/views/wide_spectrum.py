@@ -33,7 +33,7 @@ LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 HEIGHT = 286  # [px]: the label of the axis is whole in large type too
 
 _BAND_WORDS = (
-    "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above what is drawn' : ''}`"
+    "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above this range' : ''}`"
 )
 
 
@@ -94,7 +94,7 @@ class WideSpectra:
         ]
 
     def nothing(self) -> Sources:
-        """Columns while nobody sees the figures."""
+        """Columns while the figures are hidden."""
         empty = np.zeros(0)
         lines = dict.fromkeys(("frequency", *SHOWN), empty)
         band = dict.fromkeys(("low", "high", "above", "label_at"), empty)
@@ -108,7 +108,7 @@ class WideSpectra:
         resonances: tuple[float, float],
         sample_rate: float,
     ) -> tuple[Sources, Ranges]:
-        """What to send: spectra by direction, and the band of the contact resonances [Hz]."""
+        """Sources and ranges: spectra by direction, and the band of the contact resonances [Hz]."""
         top = 0.5 * sample_rate
         sources = self.nothing()
         name = self._name

@@ -39,8 +39,8 @@ def test_words_in_a_row() -> None:
 
 
 def test_the_label_of_an_axis_has_name_symbol_and_prefixed_unit() -> None:
-    assert style.BALL_LOAD.label(50.0) == "Ball load Q (N)"
-    assert style.BALL_LOAD.label(1400.0) == "Ball load Q (kN)"
+    assert style.BALL_LOAD.label(50.0) == "Contact load Q (N)"
+    assert style.BALL_LOAD.label(1400.0) == "Contact load Q (kN)"
     assert style.CAGE_ANGLE.label(4000.0) == "Cage angle φc (°)"
 
 
@@ -50,5 +50,5 @@ def test_a_figure_has_fixed_ranges_and_labelled_axes() -> None:
     assert plot.x_range is x
     assert plot.y_range is y
     assert plot.xaxis[0].axis_label == "Angular position φ (°)"
-    assert plot.yaxis[0].axis_label == "Ball load Q (kN)"
+    assert plot.yaxis[0].axis_label == "Contact load Q (kN)"
     assert plot.output_backend == "canvas"

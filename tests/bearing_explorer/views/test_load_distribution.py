@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.plots.element_words import with_elements_of
 from bearing_explorer.results.load_curve import load_curve
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -156,3 +157,15 @@ def test_balls_with_mass_show_both_races() -> None:
     assert not view.data(massless)[0]["load_distribution_inner"]["angle"].size
     assert "inner race" not in view.sentence(massless)
     assert np.array_equal(massless.now.ball_load, results.massless_now.ball_load)
+
+
+def test_captions_of_a_roller_bearing_say_rollers() -> None:
+    view = LoadDistribution(PackedSource())
+    for name, element in (("nu208", "Roller"), ("fan-rig", "Ball")):
+        results = Results(presets[name])
+        view.say(results, view.sentence(results))
+        assert view._caption.line == f"{element} load against angular position."
+    rollers = with_elements_of(
+        presets["nu208"].bearing, "Balls at the ball-pass frequency of a ball"
+    )
+    assert rollers == "Rollers and the ball-pass frequency"

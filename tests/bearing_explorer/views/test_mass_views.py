@@ -122,7 +122,7 @@ def test_resonances_above_what_is_drawn_are_said_to_be() -> None:
     results = Results(MOTOR, moving=True)
     view = MassInSpectrum(PackedSource())
     assert view.data(results)[0]["mass_spectrum_resonance"]["above"][0] == 1.0
-    assert "50.6 kHz, above what is drawn" in view.sentence(results)
+    assert "50.6 kHz, above this range" in view.sentence(results)
 
 
 def test_a_moving_hand_gets_less_time_not_longer_steps() -> None:

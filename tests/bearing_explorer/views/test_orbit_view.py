@@ -46,7 +46,9 @@ def test_a_stable_orbit_is_what_the_marched_motion_settles_to() -> None:
         assert path[dof][0] == pytest.approx(path[dof][-1], abs=1e-9)
         assert np.ptp(path[dof]) == pytest.approx(np.ptp(marched[dof]), rel=0.01)
     assert level_gap(results) < 0.1
-    assert "dB of the marched one" in SteadyOrbit(PackedSource()).sentence(results)
+    assert "dB of that of the motion integrated in time" in SteadyOrbit(PackedSource()).sentence(
+        results
+    )
 
 
 def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
@@ -54,7 +56,7 @@ def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
     (scene,) = itertools.islice(random_scenes(102), 101, None)
     results = Results(scene, moving=True)
     assert level_gap(results) > 5.0
-    assert "has not come to it" in SteadyOrbit(PackedSource()).sentence(results)
+    assert "has not reached it" in SteadyOrbit(PackedSource()).sentence(results)
 
 
 def test_the_status_says_what_kind_it_is() -> None:
@@ -82,7 +84,7 @@ def test_a_race_that_never_comes_round_has_no_orbit() -> None:
     results = Results(presets["liew-lim"].replace(race="inner"))
     assert results.ball_passes is None
     assert orbit_status(results)["words"] == "No common period"
-    assert "never come round together" in SteadyOrbit(PackedSource()).sentence(results)
+    assert "have no common period" in SteadyOrbit(PackedSource()).sentence(results)
 
 
 def test_an_unbalance_turns_with_the_shaft_and_is_named() -> None:

@@ -38,7 +38,7 @@ const to_right = !row.to_left && fits
 """
 """A name that the server puts right of its band has no room there on a narrow screen."""
 _MOST_ROWS = 5
-"""Modes that have a row each; of more those of a direction share one, or nobody could read them."""
+"""Modes that have a row each; of more those of a direction share one, to be legible."""
 
 
 class OverviewBands(View):
@@ -128,7 +128,7 @@ class OverviewBands(View):
                 **bands,
                 "row": own_row,
                 "now": _now(results)[order],
-                # beside the band where there is room: right of it, else left
+                # right of the band where there is room, else left
                 "to_left": _left_of(bands, own_row, top),
                 "shared": np.full(own_row.size, len(keys) > _MOST_ROWS),
             },

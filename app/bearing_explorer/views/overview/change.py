@@ -1,4 +1,4 @@
-"""What the last change did along the chain, in one sentence."""
+"""Effect of the last change along the chain, in one sentence."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from bearingcore import Scene
 
 _NOTHING = (
-    "There is no defect, and nothing has been changed yet: move a slider, and what it does from "
-    "the loads to the vibration is said here."
+    "There is no defect, and nothing has been changed yet: move a slider to see its effect here, "
+    "from the loads to the vibration."
 )
 
 
@@ -29,10 +29,10 @@ class LastChange(View):
     title = "Effect of your last change"
     about = (
         "Computed for each change, against the scene before it. Means are over all cage angles. "
-        "Outwards: to balls further from the line of the radial load. Not named is what changes "
-        "little: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
+        "Outwards: to balls further from the line of the radial load. Small changes are not "
+        "named: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
         "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
-        "is compared with what is drawn in grey."
+        "is compared with the grey reference."
     )
     needs = frozenset({"chain", "chain_before", "late_spectra", "healthy_late_spectra"})
     compact = True
@@ -68,7 +68,7 @@ class LastChange(View):
 
 
 def why_not(now: Scene, before: Scene | None) -> str:
-    """Why a change may leave all loads exactly as they are; empty where nobody knows."""
+    """Reason why a change may leave all loads as they are; empty where it is not known."""
     if before is None or len(now.defects) != 1 or len(before.defects) != 1:
         return ""
     if now.defects[0].floor is None and now == before.replace(depth=now.defects[0].depth):

@@ -1,4 +1,4 @@
-"""The sentence that says what the last change did along the chain: only what the numbers say."""
+"""The sentence on the effect of the last change along the chain, from the numbers alone."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BESIDE = 1.5  # times the change of a stiffness that another one has to have to
 
 
 def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
-    """One sentence: the `cause`, then link after link what it did.
+    """One sentence: the `cause`, then its effects link after link.
 
     `why_not` is why the loads stay exactly as they are, should they.
     """
@@ -86,7 +86,7 @@ def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
 
 
 def load_words(now: Chain, before: Chain) -> str:
-    """Where the load goes, or how much the most loaded ball carries."""
+    """Shift of the load, or change of the load of the most loaded ball."""
     around = math.degrees(now.direction - before.direction)
     around = abs((around + 180.0) % 360.0 - 180.0)
     if around >= math.degrees(LEAST_TURN):
@@ -103,7 +103,7 @@ def load_words(now: Chain, before: Chain) -> str:
 
 
 def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
-    """How the mean stiffness changes along a direction, and in another where it does so more."""
+    """Change of the mean stiffness along a direction, and in another where it is larger."""
     main = f"k_{along}{along}"
     own = abs(_change(now, before, main))
     others = [term for term in now.stiffness if term != main]
@@ -139,7 +139,7 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
 
 
 def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:
-    """How a band moves."""
+    """Move of a band, in words."""
     low, high = (_ratio(new, old) for new, old in zip(now, before, strict=True))
     name = f"the {mode_symbol(label)} band"
     still = 0.5 * LEAST
@@ -153,7 +153,7 @@ def band_words(label: str, now: tuple[float, float], before: tuple[float, float]
 
 
 def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
-    """What becomes of the loudest line, and whether it goes `with` the band of a mode."""
+    """Change of the loudest line, and whether it moves with the band of a mode."""
     if along not in now.peaks or along not in before.peaks:
         return ""
     new, old = now.peaks[along], before.peaks[along]
@@ -190,7 +190,7 @@ def _change(now: Chain, before: Chain, term: str) -> float:
 
 
 def _ratio(now: float, before: float) -> float:
-    """How much a number has grown, as part of what it was; 0 where that cannot be said."""
+    """Relative growth of a number; 0 where it has none."""
     grown = now / before - 1.0 if before else 0.0
     return grown if math.isfinite(grown) else 0.0
 

@@ -35,6 +35,14 @@ class Limit:
     sentence: str
 
 
+def upper_limit(
+    name: str, value: float, limit: float, unit: str, fact: str, beyond: str, within: str
+) -> Limit:
+    """A limit from above, whose sentence is `fact` and then `beyond` the limit or `within` it."""
+    crossed = value > limit
+    return Limit(name, value, limit, unit, crossed, f"{fact}{beyond if crossed else within}")
+
+
 def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
     """A limit whose value is not known; `why` goes on after "as"."""
     return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")

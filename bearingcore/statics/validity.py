@@ -50,7 +50,7 @@ from bearingcore.statics.equilibrium import (
     has_long_period,
 )
 from bearingcore.statics.film import TOUCHING, Film
-from bearingcore.statics.limit import Limit, unknown
+from bearingcore.statics.limit import Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
 
@@ -198,19 +198,18 @@ def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -
         (float(bearing.of_row(ball.row).race_contact(race).greatest_pressure(ball.load)), ball.load)
         for ball in heaviest
     )
-    crossed = p > allowed
-    sentence = (
+    fact = (
         f"The most loaded {bearing.kind.element} presses on the {race} race with "
-        f"{number(p / 1e9)} GPa (load {with_prefix(load, 'N')}), {_dents(crossed, allowed)}"
+        f"{number(p / 1e9)} GPa (load {with_prefix(load, 'N')})"
     )
-    return Limit(name, p, allowed, "Pa", crossed, sentence)
+    return _pressure_limit(name, p, allowed, fact)
 
 
-def _dents(crossed: bool, allowed: float) -> str:
-    limit = f"the {allowed / 1e9:.1f} GPa that ISO 76 allows"
-    if not crossed:
-        return f"below {limit}."
-    return f"above {limit}: it dents the race, and elastic contact no longer holds."
+def _pressure_limit(name: str, p: float, allowed: float, fact: str) -> Limit:
+    """A pressure [Pa] against that of ISO 76."""
+    most = f"the {allowed / 1e9:.1f} GPa that ISO 76 allows"
+    beyond = f", above {most}: it dents the race, and elastic contact no longer holds."
+    return upper_limit(name, p, allowed, "Pa", fact, beyond, f", below {most}.")
 
 
 def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
@@ -228,13 +227,11 @@ def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
         for own, _ in scene.bearing.unlike_rows
         for race in ("inner", "outer")
     )
-    crossed = p > allowed
-    sentence = (
+    fact = (
         f"In the simulated motion a {scene.bearing.kind.element} carries up to "
-        f"{with_prefix(load, 'N')} and presses on the {race} race with {number(p / 1e9)} GPa, "
-        f"{_dents(crossed, allowed)}"
+        f"{with_prefix(load, 'N')} and presses on the {race} race with {number(p / 1e9)} GPa"
     )
-    return Limit(name, p, allowed, "Pa", crossed, sentence)
+    return _pressure_limit(name, p, allowed, fact)
 
 
 def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
@@ -282,19 +279,18 @@ def _shoulder_of(
         reach = angles + spread
     worst = int(np.argmax(reach))
     value = float(reach[worst])
-    crossed = value > limit
     at = math.degrees(angles[worst])
     made_of = f"a contact angle of {at:.1f}°"
     if known:
         made_of += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
     else:
         made_of += " (half the contact ellipse comes on top, not known without groove radii)"
-    sentence = (
+    fact = (
         f"The contact reaches {math.degrees(value):.1f}° from the bottom of the groove, "
         f"{made_of}; a shoulder {number(height, 2)} ball diameters high is at "
-        f"{math.degrees(limit):.1f}°" + (": the ball rides over its edge." if crossed else ".")
+        f"{math.degrees(limit):.1f}°"
     )
-    return Limit(name, value, limit, "rad", crossed, sentence)
+    return upper_limit(name, value, limit, "rad", fact, ": the ball rides over its edge.", ".")
 
 
 def centrifugal_force(scene: Scene) -> float:
@@ -342,19 +338,15 @@ def _centrifugal_change(scene: Scene) -> Limit:
     if not effect.converged:
         return unknown(name, limit, "", "a cage angle has no static state with it, or without")
     value = max(effect.load, effect.stiffness)
-    crossed = value > limit
-    sentence = (
+    fact = (
         f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
         f"changes loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
         f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
         f"{number(math.degrees(effect.contact_angle), 2)}°"
-        + (
-            f": {LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT}, and here it counts."
-            if crossed
-            else f"; up to {percent(limit)} it may be left out."
-        )
     )
-    return Limit(name, value, limit, "", crossed, sentence)
+    left_out = LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT
+    within = f"; up to {percent(limit)} it may be left out."
+    return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
 
 
 def _share(which: str, force: float, load: float, limit: float, so_what: str) -> Limit:
@@ -362,14 +354,12 @@ def _share(which: str, force: float, load: float, limit: float, so_what: str) ->
     if not load > 0.0:
         return unknown(name, limit, "", "no ball is known to carry load")
     share = force / load
-    crossed = share > limit
-    sentence = (
+    fact = (
         f"The centrifugal force of a {which.split()[-1]}, {with_prefix(force, 'N')}, is "
-        f"{percent(share)} of the "
-        f"{with_prefix(load, 'N')} on the {which}"
-        + (f": {so_what}." if crossed else f", less than the {percent(limit)} that matter.")
+        f"{percent(share)} of the {with_prefix(load, 'N')} on the {which}"
     )
-    return Limit(name, share, limit, "", crossed, sentence)
+    within = f", less than the {percent(limit)} that matter."
+    return upper_limit(name, share, limit, "", fact, f": {so_what}.", within)
 
 
 def _compression(bearing: Bearing, heaviest: tuple[HeaviestBall, ...]) -> Limit:
@@ -399,19 +389,17 @@ def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
     compression = typical_compression(bearing, load)
     share = compression / bearing.groove_center_distance
-    crossed = share > GREATEST_COMPRESSION
-    sentence = (
+    most = percent(GREATEST_COMPRESSION)
+    fact = (
         f"{who} compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
         f"{with_prefix(bearing.groove_center_distance, 'm')} between the groove centres"
-        + (
-            f": above {percent(GREATEST_COMPRESSION)} grooves so close around the ball touch it "
-            "far up their sides, and Hertz's small contact no longer holds."
-            if crossed
-            else f"; up to {percent(GREATEST_COMPRESSION)} the contact is small against the ball, "
-            "as Hertz assumes."
-        )
     )
-    return Limit(name, share, GREATEST_COMPRESSION, "", crossed, sentence)
+    beyond = (
+        f": above {most} grooves so close around the ball touch it far up their sides, and "
+        "Hertz's small contact no longer holds."
+    )
+    within = f"; up to {most} the contact is small against the ball, as Hertz assumes."
+    return upper_limit(name, share, GREATEST_COMPRESSION, "", fact, beyond, within)
 
 
 def _stiffness(scene: Scene) -> Limit | None:
@@ -423,18 +411,13 @@ def _stiffness(scene: Scene) -> Limit | None:
         *(bearing.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
     )
     off = abs(bearing.load_deflection_factor / drawn - 1.0)
-    crossed = off > STIFFNESS_MISMATCH
-    sentence = (
+    fact = (
         f"The load-deflection factor of {number(bearing.load_deflection_factor / 1e6)} MN/m^1.5 "
         f"is {percent(off)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
-        + (
-            ": pressures and contact ellipses belong to the drawing, displacements to the factor."
-            if crossed
-            else "."
-        )
     )
+    beyond = ": pressures and contact ellipses belong to the drawing, displacements to the factor."
     name = "load-deflection factor against the drawing"
-    return Limit(name, off, STIFFNESS_MISMATCH, "", crossed, sentence)
+    return upper_limit(name, off, STIFFNESS_MISMATCH, "", fact, beyond, ".")
 
 
 def _film(scene: Scene, film: Film | None) -> Limit | None:

@@ -243,7 +243,7 @@ def test_a_pair_knows_how_it_stands_and_can_be_moved(arrangement: str) -> None:
     if preload:
         assert pair.respaced(preload=2e-6) == LIEW_LIM.bearing.paired(16e-3, arrangement, 2e-6)
     assert LIEW_LIM.bearing.arrangement == ""
-    with pytest.raises(ValueError, match="two rows that stand as a pair"):
+    with pytest.raises(ValueError, match="two rows that form a pair"):
         LIEW_LIM.bearing.respaced(20e-3)
 
 

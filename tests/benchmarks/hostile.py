@@ -26,8 +26,8 @@ from tornado.httpclient import AsyncHTTPClient
 
 from tests.benchmarks.machine import pace
 from tests.browser.helpers import Server, free_port, serving
+from tests.fuzz.attacker import PATIENCE, Tally, attack
 from tests.fuzz.hostile_messages import SHAPES
-from tests.fuzz.stranger import PATIENCE, Tally, attack
 from tests.fuzz.watched_server import LONGEST_HOLD
 from tests.helpers.page_client import PageClient
 

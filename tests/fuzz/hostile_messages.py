@@ -79,7 +79,7 @@ def patch(*events: Any) -> Frames:
     return [header(), "{}", text.encode("utf-8", "replace").decode()]
 
 
-def told(model: Any, data: Any, name: Any = "data_event") -> dict[str, Any]:
+def component_event(model: Any, data: Any, name: Any = "data_event") -> dict[str, Any]:
     """A message of a component's script."""
     values = {"type": "map", "entries": [["model", {"id": model}], ["data", notation(data)]]}
     event = {"type": "event", "name": name, "values": values}
@@ -121,7 +121,7 @@ def fields(random_: random.Random, ids: Ids) -> Frames:
         component, data = "Controls", {"mark": 1, "set": quantities(random_)}
     for _ in range(random_.choice((0, 1, 1, 3))):
         data = broken(random_, data)
-    return patch(told(ids.get(component, "p1"), data))
+    return patch(component_event(ids.get(component, "p1"), data))
 
 
 def wrong_events(random_: random.Random, ids: Ids) -> Frames:
@@ -147,7 +147,9 @@ def wrong_events(random_: random.Random, ids: Ids) -> Frames:
         (
             {"kind": random_.choice(kinds), "model": random_.choice((made, {"id": name}))},
             {"kind": "ModelChanged", "model": {"id": name}, "attr": random_.choice(attributes)},
-            told(name, new, random_.choice(("tap", "document_ready", "data_event", "x", None))),
+            component_event(
+                name, new, random_.choice(("tap", "document_ready", "data_event", "x", None))
+            ),
         )
     )
     return patch({"attr": "data", "data": new, "new": new, "title": "x", **event})
@@ -169,7 +171,11 @@ def large(random_: random.Random, ids: Ids) -> Frames:
     )
     if way < len(bodies):
         return [header(), "{}", f'{{"events": [{bodies[way]}]}}']
-    return patch(told(ids.get("Controls", "p1"), {"mark": 1, "floor": {"name": "a", "text": text}}))
+    return patch(
+        component_event(
+            ids.get("Controls", "p1"), {"mark": 1, "floor": {"name": "a", "text": text}}
+        )
+    )
 
 
 def framing(random_: random.Random, ids: Ids) -> Frames:
@@ -199,7 +205,7 @@ def upload(random_: random.Random, ids: Ids) -> Frames:
     """A piece of a file with blocks of bytes that are there, or are not."""
     block = random_.randbytes(random_.choice((0, 1, 5_000, 2**20)))
     data = random_.choice(({"id": "b1"}, {"id": "other"}, "!", None))
-    event = told(ids.get("FileUpload", "p1"), {"type": "piece", "of": 1})
+    event = component_event(ids.get("FileUpload", "p1"), {"type": "piece", "of": 1})
     event["msg_data"]["values"]["entries"][1][1]["entries"].append(
         ["content", {"type": "bytes", "data": data}]
     )

@@ -1,4 +1,4 @@
-"""What strangers' inputs meet, and what may come out: a result, or a sentence as a ValueError."""
+"""The parsers of inputs from outside; each returns a result or raises a ValueError."""
 
 from __future__ import annotations
 

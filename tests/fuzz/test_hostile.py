@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from bearing_explorer.serve.serving import Limits
 
-from tests.fuzz.hostile_messages import GOOD, SHAPES, patch, told
-from tests.fuzz.stranger import Tally, attack
+from tests.fuzz.attacker import Tally, attack
+from tests.fuzz.hostile_messages import GOOD, SHAPES, component_event, patch
 from tests.helpers.page_client import PageClient
 from tests.helpers.served import served
 
@@ -51,7 +51,7 @@ def test_good_messages_of_the_page_are_taken(caplog: pytest.LogCaptureFixture) -
         await client.connect()
         for component, data in GOOD:
             if component in client.ids and "report" not in data:
-                await client.send_frames(*patch(told(client.ids[component], data)))
+                await client.send_frames(*patch(component_event(client.ids[component], data)))
         await client.ask(set={"extent_deg": 31.0})
         assert await client.until_drawn()
         assert not client.closed

@@ -27,7 +27,7 @@ LARGEST = 200 * 2**20  # bytes of a message that a client takes
 
 
 class PageClient:
-    """One person at the page. `on_packet(mark, seconds)` hears of each packet."""
+    """One person at the page. `on_packet(mark, seconds)` is called for each packet."""
 
     def __init__(self, url: str, on_packet: Callable[[int, float], None] | None = None) -> None:
         self.url = url if url.endswith("/") else url + "/"
@@ -66,8 +66,8 @@ class PageClient:
         found = _TOKEN.search(response.body or b"")
         self.token = found.group(1).decode() if found else ""
         self.body = response.body or b""
-        told = response.headers.get_list("Set-Cookie")
-        self._cookies = [cookie.split(";", 1)[0] for cookie in told]
+        given = response.headers.get_list("Set-Cookie")
+        self._cookies = [cookie.split(";", 1)[0] for cookie in given]
         return int(response.code)
 
     async def connect(self) -> None:

@@ -12,8 +12,6 @@ import threading
 import time
 from collections.abc import Callable
 
-from numba.core.compiler_lock import global_compiler_lock
-
 from bearingcore import kernels, orbit, presets, warm
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.warm_up import motions_with_mass
@@ -103,15 +101,6 @@ begin, ready, startup_message = _current.begin, _current.ready, _current.startup
 def failed() -> Exception | None:
     """The error that ended the first part; None where all is well."""
     return _current.failed
-
-
-def here() -> bool:
-    """Whether a thread of this process compiles: what needs that too waits for seconds."""
-    lock = getattr(global_compiler_lock, "_lock", None)
-    if lock is None or not lock.acquire(blocking=False):
-        return lock is not None
-    lock.release()
-    return False
 
 
 def all_on_disk() -> bool:

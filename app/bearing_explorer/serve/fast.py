@@ -5,10 +5,9 @@ instead of 1,231 (`find_models_quickly`); a drag of the Load tab is drawn in 52 
 (`PackedSource`) or 132 (`assets/scripts/fast_figures.js`); a class of 20 is drawn 74 pictures a
 second instead of 50 (`send_changes`, `dispatch_event`).
 
-All private names of Bokeh and Panel stand in this file. They may go with any release: `missing`
-says which are gone and of which version, and each use has a public way that it falls back to,
-slower and as right. With the environment variable ``BEARING_EXPLORER_PLAIN=1`` the public ways are
-taken everywhere.
+Private names of Bokeh and Panel stand in this file, in `live_component` and in `template`. They may
+go with any release: each use has a public way that it falls back to, slower and as right. With the
+environment variable ``BEARING_EXPLORER_PLAIN=1`` the public ways are taken everywhere.
 """
 
 from __future__ import annotations
@@ -25,17 +24,12 @@ from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
 from bokeh.document.events import DocumentPatchedEvent
-from bokeh.document.models import DocumentModelManager
 from bokeh.model import Model
 from bokeh.model import util as model_util
 from bokeh.protocol.message import Message
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server import session as bokeh_session
-from bokeh.server.connection import ServerConnection
-from bokeh.util.callback_manager import EventCallbackManager
-from panel.custom import JSComponent
 from panel.models.esm import DataEvent
-from panel.template.base import BaseTemplate
 from panel.viewable import Viewable
 
 PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
@@ -43,49 +37,21 @@ PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
 
 log = logging.getLogger(__name__)
 
-_OF_MODULES: tuple[tuple[Any, str], ...] = (
-    (bokeh_session, "_needs_document_lock"),
+_OF_THE_WALK: tuple[tuple[Any, str], ...] = (
     (model_util, "visit_immediate_value_references"),
     (HasProps, "_overridden_defaults"),
     (HasProps, "__overridden_defaults__"),
     (PropertyDescriptor, "is_unstable"),
     (PropertyDescriptor, "has_unstable_default"),
-    (JSComponent, "_process_bokeh_event"),
-    (Viewable, "_preprocessing_hooks"),
-)
-_OF_OBJECTS: tuple[tuple[type, str], ...] = (
-    (bokeh_session.ServerSession, "_subscribed_connections"),
-    (ServerConnection, "_socket"),
-    (DocumentModelManager, "_new_models"),
-    (Serializer, "_references"),
-    (EventCallbackManager, "_event_callbacks"),
-    (HasProps, "_property_values"),
-    (HasProps, "_unstable_default_values"),
-    (JSComponent, "_msg__callbacks"),
-    (JSComponent, "_models"),
-    (BaseTemplate, "_render_items"),
 )
 
 
 def missing() -> list[str]:
-    """Names that this version of a library does not have, each in a sentence."""
-    gone = [(owner, name) for owner, name in _OF_MODULES if not hasattr(owner, name)]
-    gone += [(kind, name) for kind, name in _OF_OBJECTS if not _set_in(kind, name)]
-    if not hasattr(Document().callbacks, "_held_events"):
-        gone.append((type(Document().callbacks), "_held_events"))
-    return [_gone(owner, name) for owner, name in gone]
-
-
-def _set_in(kind: type, name: str) -> bool:
-    """Whether a constructor mentions an attribute: it is no attribute of the class."""
-    codes = [getattr(base.__dict__.get("__init__"), "__code__", None) for base in kind.__mro__]
-    return any(name in code.co_names for code in codes if code is not None)
-
-
-def _gone(owner: Any, name: str) -> str:
-    module = getattr(owner, "__module__", owner.__name__)
-    library = module.partition(".")[0]
-    return f"{owner.__name__}.{name} is gone from {library} {version(library)}"
+    """Names for `find_models_quickly` that this version of Bokeh does not have, in sentences."""
+    gone = [(owner, name) for owner, name in _OF_THE_WALK if not hasattr(owner, name)]
+    return [
+        f"{owner.__name__}.{name} is gone from bokeh {version('bokeh')}" for owner, name in gone
+    ]
 
 
 # The document of a session: changed on the event loop, sent as one message
@@ -268,34 +234,6 @@ def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
             _walk(made[name], visitor)
         elif unstable:
             _walk(getattr(value, name), visitor)
-
-
-# A component that sends and takes many messages
-
-
-class DirectComponent(JSComponent):
-    """Panel's component with short ways to the models in the browser, see `LiveComponent`."""
-
-    def models_shown(self) -> list[Any]:
-        """Bokeh's models of this component, in all documents; none before it is shown."""
-        shown = {} if PLAIN else getattr(self, "_models", {})
-        return list({id(model): model for model, _ in shown.values()}.values())
-
-    def take(self, doc: Document, event: DataEvent, callbacks: list[Callable[[Any], None]]) -> None:
-        """Take a message of the browser; `callbacks` were given to `on_msg`."""
-        raise NotImplementedError
-
-    def _process_bokeh_event(self, doc: Document, event: Any) -> None:
-        callbacks = None if PLAIN else getattr(self, "_msg__callbacks", None)
-        if isinstance(event, DataEvent) and callbacks is not None:
-            self.take(doc, event, list(callbacks))
-        else:
-            super()._process_bokeh_event(doc, event)
-
-
-def parts_of(template: BaseTemplate) -> list[str]:
-    """Names of the parts of a template."""
-    return list(getattr(template, "_render_items", ()))
 
 
 # What is made outside of a server

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from bokeh.document import Document
+from panel.custom import JSComponent
+from panel.models.esm import DataEvent
 
-from bearing_explorer.serve.fast import DirectComponent
+from bearing_explorer.serve.fast import PLAIN
 from bearing_explorer.serve.live import on_loop
 
 
-class LiveComponent(DirectComponent):
+class LiveComponent(JSComponent):
     """A component that takes and sends many messages.
 
     Panel counts a session as busy while it handles a message, and sets a property of all of its
@@ -24,10 +25,10 @@ class LiveComponent(DirectComponent):
 
         Call it on the event loop of the session, inside `one_message`.
         """
-        models = self.models_shown()
-        if not models:
+        shown = {} if PLAIN else getattr(self, "_models", {})
+        if not shown:
             self.param.update(**values)
-        for model in models:
+        for model in {id(model): model for model, _ in shown.values()}.values():
             changed = {name: v for name, v in values.items() if getattr(model.data, name) != v}
             if changed:
                 model.data.update(**changed)
@@ -36,11 +37,15 @@ class LiveComponent(DirectComponent):
         """Send something to the component's script."""
         self._send_msg(message)
 
-    def take(self, doc: Document, event: Any, callbacks: list[Callable[[Any], None]]) -> None:
-        """Hand a message of the browser on to what `on_msg` was given."""
+    def _process_bokeh_event(self, doc: Document, event: Any) -> None:
+        """Hand a message of the browser on to the callbacks of `on_msg`."""
+        callbacks = None if PLAIN else getattr(self, "_msg__callbacks", None)
+        if not isinstance(event, DataEvent) or callbacks is None:
+            super()._process_bokeh_event(doc, event)
+            return
 
         def hand_on() -> None:
-            for callback in callbacks:
+            for callback in list(callbacks):
                 callback(event)
 
         on_loop(doc, hand_on)

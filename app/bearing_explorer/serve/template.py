@@ -7,8 +7,6 @@ from typing import Any
 import panel as pn
 from bokeh.document import Document
 
-from bearing_explorer.serve.fast import parts_of
-
 
 class PageTemplate(pn.Template):
     """Panel's template with its models counted once a page instead of once a part.
@@ -25,4 +23,4 @@ class PageTemplate(pn.Template):
             return super().server_doc(doc, *arguments, **named)
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(parts_of(self))})"
+        return f"{type(self).__name__}({', '.join(getattr(self, '_render_items', ()))})"

@@ -25,7 +25,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     connected: ClassVar[set[LiveSocket]] = set()
     largest: ClassVar[int] = 4 * 2**20
     """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
-    heard_at = 0.0
+    last_message_at = 0.0
     """When the browser sent something last [s of `time.monotonic`]."""
     _size = 0
     connection: Any
@@ -46,7 +46,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             self._refuse(error)
 
     async def _async_open(self, token: str) -> None:
-        self.heard_at = time.monotonic()
+        self.last_message_at = time.monotonic()
         try:
             await super()._async_open(token)
         except Exception as error:
@@ -56,7 +56,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Take a frame; whoever sends what the page does not send is disconnected."""
-        self.heard_at = time.monotonic()
+        self.last_message_at = time.monotonic()
         self._size += len(fragment)
         if self._size > self.largest:
             self.close(1009, "A message is larger than is allowed.")
@@ -118,5 +118,5 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 def close_idle(seconds: float) -> None:
     """Disconnect browsers that have sent nothing for so long; their pages show the reason."""
     now = time.monotonic()
-    for socket in [one for one in LiveSocket.connected if now - one.heard_at > seconds]:
+    for socket in [one for one in LiveSocket.connected if now - one.last_message_at > seconds]:
         socket.close(1001, f"Nothing was moved for {seconds / 60.0:.0f} minutes.")

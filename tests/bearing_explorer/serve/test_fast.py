@@ -10,27 +10,45 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import panel as pn
 import pytest
-from bearing_explorer.serve import fast, live, packed_source
+from bearing_explorer.serve import fast, live, live_component, packed_source
 from bearing_explorer.serve.live_component import LiveComponent
+from bokeh.core.property.descriptors import PropertyDescriptor
+from bokeh.core.serialization import Serializer
 from bokeh.document import Document
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource, Range1d, Spacer
 from bokeh.server import session as bokeh_session
 from bokeh.server.session import ServerSession
 from panel.models.esm import DataEvent
+from panel.viewable import Viewable
 
 from tests.helpers.loops import run
 
 
 def test_this_version_has_all_of_them() -> None:
-    """Which of them is gone, and of which version, is what this says when it fails."""
+    """The names that are gone, and of which version, are in the message when this fails."""
     assert fast.missing() == []
+    assert hasattr(bokeh_session, "_needs_document_lock")
+    assert fast.sockets_of(session_of(Document(), Socket()))
+    assert hasattr(Document().callbacks, "_held_events")
+    assert hasattr(Document().models, "_new_models")
+    assert hasattr(Serializer(), "_references")
+    assert hasattr(ColumnDataSource(), "_event_callbacks")
+    assert hasattr(Viewable, "_preprocessing_hooks")
+    assert pn.Template("")._render_items == {}
+    component = Component()
+    component.get_root(Document())
+    assert component._models
+    assert component._msg__callbacks == []
+    assert hasattr(Spacer(), "_property_values")
+    assert hasattr(Spacer(), "_unstable_default_values")
 
 
-def test_a_name_that_is_gone_is_said_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delattr(bokeh_session, "_needs_document_lock")
-    (said,) = fast.missing()
-    assert said.startswith("bokeh.server.session._needs_document_lock is gone from bokeh 3.")
+def test_a_name_that_is_gone_is_named_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(PropertyDescriptor, "has_unstable_default")
+    (sentence,) = fast.missing()
+    assert sentence.startswith("PropertyDescriptor.has_unstable_default is gone from bokeh 3.")
 
 
 class Component(LiveComponent):
@@ -96,12 +114,12 @@ def test_without_a_lock_decorator_bokehs_own_way_is_taken(monkeypatch: pytest.Mo
 
 def test_where_sockets_cannot_be_found_bokeh_sends(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fast, "sockets_of", lambda session: [])
-    heard: list[Any] = []
+    received: list[Any] = []
     document, moved = Document(), Range1d(0, 1)
     document.add_root(moved)
-    document.on_change(heard.append)
+    document.on_change(received.append)
     run(fast.send_changes(None, document, lambda: moved.update(start=3)))
-    assert [event.attr for event in heard] == ["start"]
+    assert [event.attr for event in received] == ["start"]
 
 
 def test_without_known_new_models_bokeh_writes_the_message(
@@ -119,11 +137,11 @@ def test_without_known_new_models_bokeh_writes_the_message(
     assert len(message.content["events"]) == 1
 
 
-def test_without_its_callbacks_a_model_hears_by_the_document() -> None:
+def test_without_its_callbacks_a_model_gets_events_from_the_document() -> None:
     document, source = Document(), ColumnDataSource()
     document.add_root(source)
-    heard: list[Any] = []
-    source.on_event(DataEvent, heard.append)
+    received: list[Any] = []
+    source.on_event(DataEvent, received.append)
     event = DataEvent(source, {"a": 1})
     fast.dispatch_event(source, event)
     callbacks = source._event_callbacks
@@ -131,7 +149,7 @@ def test_without_its_callbacks_a_model_hears_by_the_document() -> None:
     source._trigger_event = lambda event: [act(event) for act in callbacks[event.event_name]]  # type: ignore[method-assign]
     document.callbacks.subscribe(DataEvent.event_name, source)
     fast.dispatch_event(source, event)
-    assert heard == [event, event]
+    assert received == [event, event]
 
 
 def test_models_are_looked_for_bokehs_way_where_a_name_is_gone(
@@ -157,15 +175,13 @@ def test_without_a_session_there_is_nothing_to_send_to() -> None:
 
 
 @pytest.mark.parametrize("plain", [False, True])
-def test_a_component_hears_its_browser_either_way(
-    monkeypatch: pytest.MonkeyPatch, plain: bool
-) -> None:
-    monkeypatch.setattr(fast, "PLAIN", plain)
-    heard: list[Any] = []
+def test_a_component_gets_messages_either_way(monkeypatch: pytest.MonkeyPatch, plain: bool) -> None:
+    monkeypatch.setattr(live_component, "PLAIN", plain)
+    received: list[Any] = []
 
     async def send() -> None:
         component = Component()
-        component.on_msg(lambda event: heard.append(event.data))
+        component.on_msg(lambda event: received.append(event.data))
         document = Document()
         model = component.get_root(document)
         document.add_root(model)
@@ -173,7 +189,7 @@ def test_a_component_hears_its_browser_either_way(
         await asyncio.sleep(0.1)
 
     run(send())
-    assert heard == [{"a": 1}]
+    assert received == [{"a": 1}]
 
 
 def test_a_plain_packed_source_changes_its_sources(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -192,7 +208,7 @@ def test_private_names_of_others_stand_here_alone() -> None:
     """But for those that a class in `serve` overrides or finds in its base."""
     package = Path(fast.__file__).parents[1]
     own = {"_exit", "_take", "_asdict", "_replace"}  # public, of `os` and named tuples, but one
-    of_server = {"_async_open", "_current_patch_connection", "_tornado"}
+    of_server = {"_async_open", "_current_patch_connection", "_tornado", "_process_bokeh_event"}
     found = []
     for path in package.rglob("*.py"):
         allowed = own | of_server if path.parent.name == "serve" else own

@@ -1,4 +1,4 @@
-"""Who may come in, what a browser may say, and what it is told."""
+"""Access, the messages a browser may send, and the answers it gets."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_names_of_sessions_cannot_be_made_up() -> None:
 NEW_MODEL = {"type": "object", "name": "CustomJS", "id": "x1", "attributes": {"code": "alert(1)"}}
 
 
-def told(model: Any, data: Any) -> dict[str, Any]:
+def component_event(model: Any, data: Any) -> dict[str, Any]:
     """A message to a component, as BokehJS writes it."""
     values = {"type": "map", "entries": [["model", model], ["data", data]]}
     event = {"type": "event", "name": "data_event", "values": values}
@@ -175,14 +175,14 @@ def test_a_button_that_is_written_out_is_taken_by_its_id() -> None:
 def test_a_message_reaches_a_component_by_its_id_alone(model: dict[str, Any]) -> None:
     """BokehJS writes a component out in full that came with a second tab."""
     data = {"type": "map", "entries": [["a", [1, {"type": "number", "value": "nan"}]]]}
-    name, read = component_message(told(model, data), {})
+    name, read = component_message(component_event(model, data), {})
     assert name == model["id"]
     assert str(read) == "{'a': [1, nan]}"
     piece = {"type": "bytes", "data": {"id": "b1"}}
-    assert component_message(told(model, piece), {"b1": b"abc"}) == (name, b"abc")
+    assert component_message(component_event(model, piece), {"b1": b"abc"}) == (name, b"abc")
     for wrong in (NEW_MODEL, {"type": "ndarray"}, [0] * 6000, piece):
         with pytest.raises(ValueError, match=r"plain|too much|form"):
-            component_message(told(model, wrong), {})
+            component_message(component_event(model, wrong), {})
 
 
 def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptureFixture) -> None:
@@ -211,7 +211,7 @@ def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptu
                     "new": False,
                 },
             )
-        # one's own controls hear one, another session's do not
+        # a message reaches one's own controls, and not another session's
         await mine.ask(set={"extent_deg": 33.0})
         assert await mine.until_drawn()
         mine.ids["Controls"] = other.ids["Controls"]
@@ -375,7 +375,7 @@ def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
         await client.connect()
         assert await client.until_drawn()
         for socket in LiveSocket.connected:  # a minute passes
-            socket.heard_at -= 61.0
+            socket.last_message_at -= 61.0
         await closed(client)
         assert client._socket is not None
         assert "Nothing was moved for 1 minutes" in str(client._socket.close_reason)

@@ -90,7 +90,7 @@ def _framed(frame: str | bytes) -> Raw:
 
 async def attack(url: str, number: int, messages: int, tally: Tally) -> None:
     """Send until `tally` has so many messages; several may share it."""
-    random_ = random.Random(f"stranger {number}")
+    random_ = random.Random(f"attacker {number}")
     client: _Client | None = None
     first, since_page = list(SHAPES), math.inf  # each shape once, then at random
     while tally.sent.total() < messages:

@@ -27,7 +27,7 @@ _DRAWN_LATER = "This is drawn by itself as soon as that is done."
 
 @dataclass(frozen=True)
 class Inputs:
-    """What is to be drawn.
+    """Inputs of a picture.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Inputs:
     life_inputs: LifeInputs = field(default_factory=LifeInputs)
 
     def results(self, give_up: Callable[[], bool] | None = None) -> Results:
-        """What is known about them; `give_up` may end long searches."""
+        """The results of these inputs; `give_up` may end long searches."""
         return Results(
             self.scene,
             self.cage_angle,
@@ -76,7 +76,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Drawing:
-    """What a view has to say about some results; without `data` it could not say anything."""
+    """Data and sentence of a view; `data` is None where it cannot be drawn."""
 
     view: View
     data: tuple[Sources, Ranges] | None
@@ -85,7 +85,7 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Picture:
-    """What some views have to say, how the computation went, and how long it took [s]."""
+    """Drawings of some views, status of the computation, and its duration [s]."""
 
     results: Results
     drawings: list[Drawing]
@@ -114,7 +114,7 @@ def picture_of(
 
 
 def drawing_of(results: Results, view: View) -> Drawing:
-    """What a view draws, or a sentence that says why there is nothing to draw."""
+    """The drawing of a view, or a sentence with the reason why there is none."""
     try:
         return Drawing(view, view.data(results), view.sentence(results))
     except Overtaken:

@@ -41,7 +41,7 @@ class ForReport(NamedTuple):
 
 
 class Page(Protocol):
-    """What requests need of the session that they change."""
+    """The part of a session that requests need."""
 
     measurement: Measurement
 
@@ -55,7 +55,7 @@ class Page(Protocol):
         """Compute something off the event loop, then take it."""
 
     def for_report(self) -> ForReport:
-        """What a report is made of."""
+        """Results, views and findings for a report."""
 
 
 class Requests:

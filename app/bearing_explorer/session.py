@@ -42,14 +42,14 @@ log = logging.getLogger(__name__)
 
 Found = TypeVar("Found")
 
-#: slow views are drawn together with the others while a hand moves, or all would be painted twice.
-#: Where they cost more than this [s] they come after them, and may be skipped while newer inputs
-#: wait ...
+#: slow views are drawn together with the others while a slider moves, or all would be painted
+#: twice. Where they cost more than this [s] they come after them, and may be skipped while newer
+#: inputs wait ...
 _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
 
-#: the limits of the model are looked at when the hand rests; while it moves after so long [s], and
+#: the limits of the model are checked when the slider rests; while it moves after so long [s], and
 #: where many share the machine, after so many pictures: they cost as much as two
 _LIMITS_EVERY = 1.0
 _LIMITS_PICTURES = 10
@@ -57,7 +57,7 @@ _LIMITS_PICTURES = 10
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page that is on screen as a whole: a tab; those of a group stand together."""
+    """A part of the page that is on screen as a whole: a tab; a group is listed together."""
 
     name: str
     title: str
@@ -75,7 +75,7 @@ class Explorer:
         address: str = "",
         lessons: Sequence[Lesson | Fault] = (),
     ) -> None:
-        """`address`: what stands behind the question mark, from strangers too."""
+        """`address`: the query of the page's address; it is not trusted."""
         self.packed = PackedSource()
         self._sections = {section.name: section for section in sections}
         self._views: dict[str, list[View]] = {}
@@ -133,7 +133,7 @@ class Explorer:
 
     @property
     def inputs(self) -> Inputs:
-        """What is to be drawn now."""
+        """The inputs of the next picture."""
         angle = math.radians(self.values[CAGE_ANGLE])
         return Inputs(
             self.scene,
@@ -182,7 +182,7 @@ class Explorer:
         self._loop.submit(dataclasses.replace(inputs, rested=fine))
 
     def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
-        """What a fine picture is of; another needs a fine one of its own."""
+        """The key of a fine picture; another key needs one of its own."""
         return self._shown, inputs.scene, inputs.settings, inputs.pinned
 
     async def _draw_when_compiled(self) -> None:
@@ -202,14 +202,14 @@ class Explorer:
         self._keep(work())
 
     def _keep(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
-        """Have something done that nobody waits for; asyncio forgets tasks that nobody holds."""
+        """Run a task in the background, with a reference: asyncio keeps none."""
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return task
 
     def for_report(self) -> ForReport:
-        """What a report is made of."""
+        """Results, views and findings for a report."""
         results = dataclasses.replace(self.inputs, rested=True).results()
         kinds = [view for section in self._sections.values() for view in section.views]
         made = [view for views in self._views.values() for view in views]
@@ -240,10 +240,10 @@ class Explorer:
         return [view(self.packed) for view in self._sections[name].views]
 
     async def _open_tab(self, name: str) -> None:
-        """Put a section on screen; its figures are made when it is first asked for.
+        """Put a section on screen; its figures are made when it is first opened.
 
         Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before it hears of its numbers. On the event loop the section only comes
+        must know a figure before its numbers arrive. On the event loop the section only comes
         into the document: figures, models and the message are made in threads.
         """
         if name not in self._views:
@@ -254,7 +254,7 @@ class Explorer:
         await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
 
     def _container(self, views: Sequence[View]) -> pn.Column:
-        """What holds the views of a section."""
+        """The layout with the views of a section."""
         for view in views:
             view.attach(self._parts)
         return pn.Column(
@@ -325,7 +325,7 @@ class Explorer:
             await self._assign(picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
         if self._on_screen != self._shown:
-            # asked for meanwhile, and these inputs may have been the newest
+            # opened meanwhile, and these inputs may have been the newest
             self.draw()
         return inputs
 
@@ -335,7 +335,7 @@ class Explorer:
         return inputs, picture_of(inputs.results(), views, self._limits_due(inputs))
 
     def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
-        """What is finer at rest, with the limits; None where all is drawn finely already."""
+        """Views that are finer at rest, with the limits; None where all is drawn finely already."""
         if inputs.rested:
             return None
         results, drawn = dataclasses.replace(inputs, rested=True).results(give_up), inputs.results()
@@ -378,7 +378,7 @@ class Explorer:
         await one_message(self._doc, change)
 
     async def _failed(self, error: Exception) -> None:
-        """Something no view expected: say so, answer the mark, keep the last good picture."""
+        """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
         write.log_warning("failed", self._doc, scene=write.scene_name(self.scene), view=self._shown)
         self._drawn_mark = self.requests.mark
 

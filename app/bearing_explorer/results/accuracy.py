@@ -28,7 +28,7 @@ STIFF = ("scipy DOP853", "scipy Radau", "scipy BDF")
 
 @dataclass(frozen=True)
 class Trial:
-    """What can be asked for: `label` for the form, `run` with a scene and a job."""
+    """An experiment on offer: `label` for the form, `run` with a scene and a job."""
 
     label: str
     run: Callable[[Scene, Work], Experiment | StabilityChart]
@@ -74,7 +74,7 @@ TRIALS = {
 
 @dataclass(frozen=True)
 class Found:
-    """What an experiment found, and on which scene."""
+    """Result of an experiment, and its scene."""
 
     scene: Scene
     result: Experiment | StabilityChart

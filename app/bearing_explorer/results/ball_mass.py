@@ -241,7 +241,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
 
 
 def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
-    """Up to which frequency massless balls will do, where motions are long enough to tell."""
+    """Up to which frequency massless balls will do; None where motions are too short."""
     enough = len(heavy.time) > 2.0 * SETTLING * heavy.sample_rate
     if not (enough and massless.completed and heavy.completed):
         return None
@@ -293,7 +293,7 @@ def _strikes(
 
 
 def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
-    """When [s] the ball that enters at 0 meets the far edge; NaN where no corner says it.
+    """Time [s] at which the ball that enters at 0 meets the far edge; NaN if no edge gives it.
 
     `zero`: [s] of the motion at which it enters.
     """

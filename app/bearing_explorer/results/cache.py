@@ -1,4 +1,4 @@
-"""Results that all sessions share: each is computed once, whoever needs it first.
+"""Results that all sessions share: each is computed once.
 
 Thirty people who look at one scene cost as much as one. A thread that needs what another one is
 computing waits for that instead of computing it again.
@@ -50,19 +50,19 @@ class Cached(Generic[Result]):
         `give_up` is passed on to a function that takes it; it is no part of the key. Such a
         function raises `Overtaken` where it has been given up.
         """
-        asked = (self, *key)
+        full_key = (self, *key)
         while True:
             with _lock:
-                if asked in _results:
-                    found: Result = _results[asked][0]
+                if full_key in _results:
+                    found: Result = _results[full_key][0]
                     return found
-                future = _under_way.get(asked)
+                future = _under_way.get(full_key)
                 mine = future is None
                 if future is None:
-                    future = _under_way[asked] = Future()
+                    future = _under_way[full_key] = Future()
             if mine:
                 more = {} if give_up is None else {"give_up": give_up}
-                return self._find(asked, future, more)
+                return self._find(full_key, future, more)
             with suppress(Overtaken):  # by the other thread: this one begins anew
                 return future.result()  # type: ignore[no-any-return]
 
@@ -72,20 +72,20 @@ class Cached(Generic[Result]):
             return (self, *key) in _results
 
     def _find(
-        self, asked: tuple[Hashable, ...], future: Future[Result], more: Mapping[str, Any]
+        self, full_key: tuple[Hashable, ...], future: Future[Result], more: Mapping[str, Any]
     ) -> Result:
         try:
-            found = self._compute(*asked[1:], **more)
+            found = self._compute(*full_key[1:], **more)
         except BaseException as error:
             with _lock:
-                del _under_way[asked]
+                del _under_way[full_key]
             future.set_exception(error)
             raise
-        size = nbytes((asked[1:], found)) + _OVERHEAD
+        size = nbytes((full_key[1:], found)) + _OVERHEAD
         with _lock:
             with suppress(ValueError):  # too large to be kept
-                _results[asked] = found, size
-            del _under_way[asked]
+                _results[full_key] = found, size
+            del _under_way[full_key]
         future.set_result(found)
         return found
 

@@ -25,7 +25,7 @@ LEVEL_FLOOR = 1e-20
 
 @dataclass(frozen=True)
 class Peak:
-    """The loudest line that is heard.
+    """The highest line within `PEAK_BAND`.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Peak:
 
 @dataclass(frozen=True)
 class Chain:
-    """What a scene gives at each link of the chain, over all cage angles.
+    """Results of a scene at each link of the chain, over all cage angles.
 
     Attributes
     ----------
@@ -48,8 +48,8 @@ class Chain:
         part of the cage angles that have an equilibrium; `reason` is why the first of the others
         has none.
     off_line : [rad]
-        how far from the line of the radial load its loads stand: mean angle between them, each
-        ball counting by what it carries. NaN without a radial load.
+        mean angle between the balls and the direction of the radial load, each ball weighted by
+        its load. NaN without a radial load.
     direction : [rad]
         of the radial load; NaN without one.
     greatest_load : [N]
@@ -141,7 +141,7 @@ def chain(results: Results) -> Chain:
 
 
 def over_turn(angles: NDArray[np.float64], values: NDArray[np.float64]) -> float:
-    """Mean over cage angles, which may stand close in one place and far apart in another.
+    """Mean over cage angles, equally spaced or not.
 
     Angles without a value do not count; NaN where none has one.
     """
@@ -166,16 +166,16 @@ def off_line(found: Equilibrium, scene: Scene) -> float:
 
 
 def direction(scene: Scene) -> float:
-    """Where the radial load points [rad]; NaN without one."""
+    """Direction of the radial load [rad]; NaN without one."""
     load = scene.load
     return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
 
 
 def loudest(spectrum: Spectrum) -> Peak:
-    """The loudest line of one direction that is heard."""
+    """The highest line of one direction within `PEAK_BAND`."""
     frequency, density = spectrum
-    heard = np.flatnonzero((frequency >= PEAK_BAND[0]) & (frequency <= PEAK_BAND[1]))
-    most = heard[np.argmax(density[heard])]
+    inside = np.flatnonzero((frequency >= PEAK_BAND[0]) & (frequency <= PEAK_BAND[1]))
+    most = inside[np.argmax(density[inside])]
     level = 10.0 * math.log10(max(float(density[most]), LEVEL_FLOOR))
     return Peak(float(frequency[most]), level, float(frequency[1] - frequency[0]))
 

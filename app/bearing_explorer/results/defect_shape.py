@@ -1,4 +1,4 @@
-"""Where the defects of a scene lie at a cage angle, for shading and drawing."""
+"""Angular positions of the defects of a scene at a cage angle, for shading and drawing."""
 
 from __future__ import annotations
 

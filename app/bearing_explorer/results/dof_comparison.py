@@ -1,4 +1,4 @@
-"""What it changes that some directions are free and others held."""
+"""Differences between a scene and the same with other free directions."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class DofComparison:
 
 
 def other_dofs(scene: Scene) -> tuple[str, ...]:
-    """What the free directions of `scene` are to be compared with.
+    """The free directions that those of `scene` are compared with.
 
     What the scene needs, where others are forced on it; else all five, which shows that leaving
     some out changes nothing. Where the kind of bearing has fewer directions there is nothing to
@@ -79,7 +79,7 @@ def _relative(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
 def spectrum_differences(
     chosen: dict[str, Spectrum], other: dict[str, Spectrum]
 ) -> dict[str, float]:
-    """Greatest difference [dB] along x and y, where the motion can be heard."""
+    """Greatest difference [dB] along x and y, down to `DYNAMIC_RANGE` below the highest line."""
     return {
         dof: _level_difference(chosen[dof].density, other[dof].density)
         for dof in ("x", "y")
@@ -90,6 +90,6 @@ def spectrum_differences(
 def _level_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     if not (np.isfinite(a).all() and np.isfinite(b).all() and b.max() > 0.0):
         return math.nan
-    heard = b > b.max() * 10.0 ** (-DYNAMIC_RANGE / 10.0)
-    least = b.max() * 1e-20  # silence is as far off as can be said
-    return float(np.abs(10.0 * np.log10(np.maximum(a[heard], least) / b[heard])).max())
+    strong = b > b.max() * 10.0 ** (-DYNAMIC_RANGE / 10.0)
+    least = b.max() * 1e-20  # for a motion that vanishes
+    return float(np.abs(10.0 * np.log10(np.maximum(a[strong], least) / b[strong])).max())

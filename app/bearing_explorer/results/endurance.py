@@ -1,4 +1,4 @@
-"""How long a bearing lasts, how hard its races are pressed, and how thick the film on them is."""
+"""Life of a bearing, pressure on its races, and thickness of the oil film."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 ASSUMED_VISCOSITY = 0.02
-"""[Pa·s] of an oil of which nothing is said: a usual one, warm."""
+"""[Pa·s] assumed where no viscosity is given: a usual oil, warm."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class LifeInputs:
 
 @dataclass(frozen=True)
 class Endurance:
-    """What there is to say of a scene; what is None comes with words that say why.
+    """Life, pressures and film of a scene; each that is None comes with a reason.
 
     life, pressures, film
         the core's answers.
@@ -113,7 +113,7 @@ def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium) -> Film:
 def limits(
     scene: Scene, step_rate: float | None, dynamic_load: float | None, inputs: LifeInputs
 ) -> tuple[Limit, ...]:
-    """What the model leaves out of a scene, each with its number and its limit.
+    """Effects that the model leaves out of a scene, each with its number and its limit.
 
     `step_rate` [Hz] and `dynamic_load` [N], the greatest of a ball, are those of a simulated
     motion; None: there is none.

@@ -91,7 +91,7 @@ def acceleration_columns(
 
 
 def why_ended(motion: Motion) -> str:
-    """Why a motion that is not complete is not, as a clause with the numbers of its status."""
+    """Reason why a motion is not complete, as a clause with the numbers of its status."""
     return motion.status.sentence + motion.detail
 
 
@@ -174,7 +174,7 @@ def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
 
 
 def _time_at(scene: Scene, motion: Motion, cage_angle: float) -> float:
-    """When the cage passes `cage_angle` [rad], in seconds of the motion: it turns steadily."""
+    """Time [s] of the motion at which the cage passes `cage_angle` [rad]: it turns steadily."""
     end_angle, end = float(motion.cage_angle[-1]), float(motion.time[-1])
     if scene.cage_speed == 0.0:
         return math.nan

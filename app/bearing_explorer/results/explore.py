@@ -1,8 +1,8 @@
-"""Maps of one output over the plane of two quantities: what can be asked, how fine, how far it is.
+"""Maps of one output over the plane of two quantities: outputs, levels of refinement, progress.
 
 A map is refined by halving the distance of its points: each level holds the points of the level
 before, which are not computed again. How fine it gets is a matter of cost: the price of a scene is
-guessed first and measured then, and what would take too long is said in a sentence and not begun.
+guessed first and measured then, and what would take too long is refused with a sentence.
 
 What is not known has a reason instead of a number. Holds no Panel and draws nothing.
 """
@@ -101,7 +101,7 @@ class MapOutput:
 
     @property
     def settings(self) -> Settings:
-        """How it is computed."""
+        """Settings of the sweep that computes it."""
         if self.band is None:
             return _SETTINGS
         return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
@@ -164,7 +164,7 @@ MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
 
 @dataclass(frozen=True)
 class Question:
-    """What a map shows: `output` over the values of `x` and `y`, all else as in `scene`.
+    """A map to be computed: `output` over the values of `x` and `y`, all else as in `scene`.
 
     `x` and `y` hold the values of the finest level. Two questions are equal where the answers are.
     """
@@ -188,7 +188,7 @@ class Question:
 
     @property
     def figure(self) -> tuple[object, ...]:
-        """What its figure has to be made for, whatever the scene."""
+        """All that its figure depends on besides the scene."""
         return self.places, self.output
 
     @cached_property
@@ -224,7 +224,7 @@ class Question:
         return self.count(self.first_stride) * self.seconds <= AT_ONCE
 
     def level(self, stride: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Which of the finest columns and rows belong to a level."""
+        """Indices of the finest columns and rows that belong to a level."""
         columns = self.x.every(stride).values.size
         rows = self.y.every(stride).values.size
         return (
@@ -247,7 +247,7 @@ class Plane:
     Attributes
     ----------
     question
-        what was asked.
+        output, axes and scene.
     stride
         of the level.
     x, y
@@ -272,7 +272,7 @@ class Plane:
 
     @property
     def shape_words(self) -> str:
-        """How many points it has, in words."""
+        """Its number of points, in words."""
         return f"{self.x.values.size} × {self.y.values.size} points"
 
     @property
@@ -282,7 +282,7 @@ class Plane:
 
 
 class Job(Protocol):
-    """What a computation reports and asks, as `bearing_explorer.results.jobs.Work` does."""
+    """Progress and cancellation of a computation, as `bearing_explorer.results.jobs.Work` does."""
 
     def progress(self, part: float, _: str = "") -> None:
         """Report how much is done, 0 to 1."""
@@ -332,7 +332,7 @@ class Survey:
         return self.spent + self.missing(stride) * self.seconds <= BUDGET
 
     def missing(self, stride: int) -> int:
-        """How many points of a level are not known yet."""
+        """Number of points of a level that are not known yet."""
         columns, rows = self.question.level(stride)
         return int((~self._known[np.ix_(rows, columns)]).sum())
 
@@ -378,7 +378,7 @@ class Survey:
 
     def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
         """Rows and columns of what is missing, in blocks: lines of extents whole, as they are
-        solved together, others short enough to be asked soon whether to go on.
+        solved together, others short enough for a job to be cancelled soon.
         """
         columns, rows = self.question.level(stride)
         upright = self.question.y.field.name == "extent"
@@ -455,7 +455,7 @@ class Survey:
         return rows[left.any(axis=1)], columns[left.any(axis=0)]
 
     def _too_long(self, row: int, column: int) -> str:
-        """Why a motion or an orbit is not even begun; empty where it is."""
+        """Reason why a motion or an orbit is not begun; empty where it is."""
         try:
             scene = self._scene(row, column)
             if self.question.output.needs == ORBIT:
@@ -464,7 +464,7 @@ class Survey:
                 scene = scene.replace(balls=WITH_MASS)
             rate = step_rate_of(scene, _SETTINGS.sample_rate)
         except ValueError:
-            return ""  # whoever computes it says why not
+            return ""  # its computation gives the reason
         with_mass = scene.balls == WITH_MASS
         most = CORE_MOST_STEPS if with_mass else MOST_STEPS
         if rate is None or rate * _SETTINGS.duration <= most:

@@ -29,7 +29,7 @@ def load_curve(
 
     `loads` (n, N_b) [N]: others than `ball_load`, such as those at the inner race.
 
-    With a defect that stands still the load depends on the ball's angle alone and this is one
+    With a defect at rest the load depends on the ball's angle alone and this is one
     curve. A defect of the inner race comes by everywhere, and where rows are of unlike balls those
     of the other row do: then the greatest load at each half degree is given.
     """
@@ -52,7 +52,7 @@ def load_curve(
 
 
 def row_name(row: int) -> str:
-    """How names of a row's columns begin: those of the first have no number."""
+    """Prefix of the names of a row's columns: empty for the first."""
     return f"row_{row + 1}_" if row else ""
 
 

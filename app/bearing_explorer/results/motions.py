@@ -35,7 +35,7 @@ shorter, or one person's drag would fill the memory of the server."""
 MOST_STEPS_WITH_MASS = 1_600_000
 """The same of balls with mass, of which samples are kept and not steps: about a second."""
 SHORTEST = 0.1
-"""[s] Shorter motions say nothing at the resolution of the spectra."""
+"""[s] Shorter motions show nothing at the resolution of the spectra."""
 
 COARSE_STEPS = 0.55
 """Part of the usual steps that is taken while a slider moves, where all of them take too long.
@@ -54,9 +54,9 @@ FEW_PERIODS = 30
 """Periods that are integrated at most to find an orbit while a slider moves; most take 5 to 12."""
 
 GENERAL_COST = 4.0
-"""What a contact costs where it is not that of a flat bearing, over what it costs there."""
+"""Cost of a contact that is not that of a flat bearing, over the cost of one that is."""
 MASS_COST = 2.5
-"""What a ball costs that has mass, and so two contacts and a motion of its own."""
+"""Cost of a ball with mass over one without: it has two contacts and a motion of its own."""
 MOST_IN_FULL = 2.0e5
 """Contacts, a step each, of a flat bearing that are marched in full while a slider moves: about
 3 ms. A frame of a drag has 30 ms, in which the browser has its work too."""
@@ -98,7 +98,7 @@ def is_costly(scene: Scene, sample_rate: float, duration: float) -> bool:
 
 
 def _step_cost(scene: Scene) -> float:
-    """What a step costs in steps of a contact of a flat bearing whose balls have no mass."""
+    """Cost of a step, in contacts of a flat bearing with massless balls."""
     cost = scene.bearing.total_balls * (1.0 if is_planar(scene) else GENERAL_COST)
     return cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
 

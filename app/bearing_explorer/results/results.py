@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 Answer = TypeVar("Answer")
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
-"""How far maps go in extent [rad]: the first that holds the extent shown. 90° as in the paper."""
+"""Greatest extents of maps [rad]: the first that holds the extent shown. 90° as in the paper."""
 
 OVER_STRETCH = frozenset(
     {
@@ -97,7 +97,7 @@ class Results:
     maps: over its extent and the same cage angles
     drop: how far each ball has sunk into each race at `cage_angle`
     profile: the race around the defect and a ball's path over it
-    motion, healthy_motion: simulated motion
+    motion: simulated motion
     settled_since: [s] of the motion, when its start is forgotten
     excerpt: some ball passes of the settled motion
     spectra: {dof: Spectrum} of the housing's acceleration from rest on
@@ -118,7 +118,6 @@ class Results:
     slow = frozenset(
         {
             "motion",
-            "healthy_motion",
             "ball_mass",
             "excerpt",
             "spectra",
@@ -178,24 +177,24 @@ class Results:
 
     @property
     def reference(self) -> Scene:
-        """What is drawn in grey beside the scene: a pinned one, or itself without its defect."""
+        """The scene drawn in grey: a pinned one, or the scene itself without its defect."""
         return self.scene.healthy() if self.pinned is None else self.pinned.scene
 
     @property
     def reference_label(self) -> str:
-        """What it is called before its numbers; nothing where it is the scene itself."""
+        """Its name before its numbers; empty where it is the scene itself."""
         if self.pinned is not None:
             return self.pinned.words
         return "without the defect" if self.scene.defects else ""
 
     @property
     def reference_caption(self) -> str:
-        """What it is called in a caption."""
+        """Its name in a caption."""
         return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
 
     @property
     def reference_name(self) -> str:
-        """What it is called in the names of columns."""
+        """Its name in the names of columns."""
         return "healthy" if self.pinned is None else "pinned"
 
     @property
@@ -265,16 +264,6 @@ class Results:
             return []
         rows = range(len(found.scene.bearing.all_rows))
         return [load_curve(found, row, found.inner_load) for row in rows]
-
-    @property
-    def load_curve(self) -> Curve:
-        """That of the first row."""
-        return self.load_curves[0]
-
-    @property
-    def healthy_load_curve(self) -> Curve:
-        """The same without the defect."""
-        return self.healthy_load_curves[0]
 
     @cached_property
     def healthy_load_curves(self) -> list[Curve]:
@@ -400,7 +389,7 @@ class Results:
             return False  # there is no motion, and none at rest
 
     def coarse_words(self, shown: frozenset[str]) -> str:
-        """How what is shown is coarse, where it is."""
+        """In which way motions shown are coarse."""
         scene = self.scene if "ball_mass" not in shown else self.scene.replace(balls=WITH_MASS)
         if scene.balls == MASSLESS:
             part = "a quarter of" if "dof_comparison" in shown else "half"
@@ -427,17 +416,12 @@ class Results:
 
     @property
     def settled_since(self) -> float:
-        """When [s] of the motion its start is forgotten."""
+        """Time [s] of the motion after which it counts as settled."""
         return motions.motion(self.scene, self._marching).since
 
     @cached_property
-    def healthy_motion(self) -> Motion:
-        """The same without the defect."""
-        return self._of_pinned(motions.motion, self.reference, self._marching).motion
-
-    @cached_property
     def excerpt(self) -> Excerpt:
-        """Some ball passes of the settled motion, with static loads beside the moving ones."""
+        """Some ball passes of the settled motion, with static loads for comparison."""
         return motions.excerpt(self.scene, self._marching)
 
     @cached_property
@@ -450,24 +434,19 @@ class Results:
         """The same of the settled motion; empty where it did not stay finite."""
         return motions.late_spectra(self.scene, self._marching)
 
-    @property
-    def healthy_settled_since(self) -> float:
-        """When [s] of that motion its start is forgotten."""
-        return motions.motion(self.reference, self._marching).since
-
     @cached_property
     def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect."""
         return self._of_pinned(motions.late_spectra, self.reference, self._marching)
 
     def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
-        """Compute something of what is drawn in grey; refused, it says that it is not the scene."""
+        """Compute a result of the reference; a refusal names the pinned scene."""
         try:
             return compute(*key)
         except ValueError as error:
             if self.pinned is None:
                 raise
-            words = f"the {self.pinned.words} cannot be shown beside it: {error}"
+            words = f"the {self.pinned.words} cannot be shown: {error}"
             raise ValueError(words) from None
 
     @property
@@ -490,7 +469,7 @@ class Results:
     def orbit(self) -> Orbit | None:
         """The motion that repeats itself; None where it takes too many ball passes to look for.
 
-        The search is short while a hand moves.
+        The search is short while a slider moves.
         """
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
@@ -519,7 +498,7 @@ class Results:
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """What the model leaves out of the scene, with what is known of it in motion.
+        """Effects that the model leaves out of the scene, with their numbers in motion.
 
         The same whatever is on screen: looked at over cage angles of its own, and with the motion
         that any view has had simulated.
@@ -549,7 +528,7 @@ class Results:
 
     @cached_property
     def chain(self) -> Chain:
-        """What the scene gives from the loads of the balls to the vibration."""
+        """Results from the loads of the balls to the vibration."""
         return chain(self)
 
     @cached_property

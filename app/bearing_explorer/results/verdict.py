@@ -1,4 +1,4 @@
-"""How the computation of a scene went, in words and colour: one verdict for what is on screen."""
+"""Status of the computation, in words and colour: one verdict for all that is on screen."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LOST = {
     "pair": "Unstable: a second frequency is added",
     "+1": "Unstable: the motion goes to another orbit",
 }
-"""How an orbit is lost, by the way in which its largest multiplier leaves the unit circle."""
+"""Losses of stability, by the place where the largest multiplier leaves the unit circle."""
 
 _NO_ORBIT = {
     OrbitStatus.NO_PERIOD: "No common period",
@@ -45,7 +45,7 @@ class Verdict(NamedTuple):
 def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     """The verdict on what is on screen: `shown` are the attributes that its views read.
 
-    What fails first is said: without a static state there is no motion, and a motion that broke
+    The first failure counts: without a static state there is no motion, and a motion that broke
     off has no orbit. An orbit that is shown is judged, converged or not: an unstable one is no
     place where a machine stays.
     """
@@ -61,7 +61,7 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
             return of_orbit(results)
     except StillCompiling:
         return Verdict("busy", "Balls with mass are being compiled")
-    except ValueError as error:  # the view says it at length
+    except ValueError as error:  # the view gives the whole sentence
         return Verdict("bad", f"No motion: {words_of(error)}")
     return static
 

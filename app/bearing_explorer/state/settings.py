@@ -1,4 +1,4 @@
-"""How finely a session computes its results."""
+"""Resolution of a session's results."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class Marching:
 
 @dataclass(frozen=True)
 class Settings:
-    """How finely results are computed: fixed, unless a person changes it on the Accuracy tab.
+    """Resolution of results: fixed, unless a person changes it on the Accuracy tab.
 
     Against 28,800 cage angles to a ball spacing, loads over 361 are within 0.7 % of their swing at
-    99 % of the angles for every preset, and stiffness within 5 %: what is left lies beside the
+    99 % of the angles for every preset, and stiffness within 5 %: what is left is next to the
     jumps of its slope where balls touch or let go, and is narrower than a pixel of the figures.
 
     Parameters
@@ -68,16 +68,16 @@ class Settings:
 
     @property
     def marching(self) -> Marching:
-        """How motions are marched."""
+        """Settings of a motion."""
         return Marching(self.duration, self.sample_rate, self.step_rate)
 
     @property
     def coarse_marching(self) -> Marching:
-        """How motions are marched while a slider moves, where the usual takes too long."""
+        """Settings of a motion while a slider moves, where the usual takes too long."""
         return Marching(COARSE * self.duration, self.sample_rate, self.step_rate, coarse=True)
 
     def changed_by_hand(self) -> list[str]:
-        """What a person has changed, in words."""
+        """Changes made on the Accuracy tab, in words."""
         words = []
         if self.n_cage_angles != Settings.n_cage_angles:
             words.append(f"cage angles set by hand: {self.n_cage_angles}")

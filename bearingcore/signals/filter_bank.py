@@ -78,6 +78,7 @@ def squared_envelopes(
     highest: float,
     dropped: NDArray[np.bool_] | None = None,
     whitening: float | None = None,
+    loudest: float = LOUDEST_ENVELOPE,
 ) -> list[Envelope]:
     """Squared envelopes of a signal (n,) in bands, sampled as finely as `highest` [Hz] needs.
 
@@ -87,6 +88,8 @@ def squared_envelopes(
         samples that are none; the envelope is put at its mean there.
     whitening
         width [Hz] over which the signal is whitened first; None leaves it as it is.
+    loudest
+        times its mean that a squared envelope may reach.
     """
     from scipy.fft import ifft, next_fast_len, rfft  # imported late: see `spectrum`
 
@@ -128,7 +131,7 @@ def squared_envelopes(
         squared /= mean
         squared[~good] = 1.0
         kurtosis = float((squared**2).mean())
-        np.minimum(squared, LOUDEST_ENVELOPE, out=squared)
+        np.minimum(squared, loudest, out=squared)
         found.append(Envelope(band, *thinned(squared, rate, highest), kurtosis))
     return found
 

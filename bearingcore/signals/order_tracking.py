@@ -32,6 +32,9 @@ WIDEST = 0.5
 
 GRID = 201
 
+MOST_CUTS = 8
+"""Times that passes are cut anew after they were laid over their mean."""
+
 LEAST_GAIN = 0.01
 """By which the share of power that repeats must rise: noise alone does not do that."""
 
@@ -49,13 +52,28 @@ def followed(
         by how much the ball-pass frequency may be off, as a fraction.
     """
     steady = cut(np.zeros(n_passes))
-    lags = _added_up(steady, slip)
-    for _ in range(2):
-        each = cut(lags)
-        lags = lags + _laid_over_the_mean(each)
-    if _repeating(cut(lags)) < _repeating(steady) + LEAST_GAIN:
-        return None
-    return lags
+    # a cage that hardly wanders is nearest to a steady one, another to its neighbours' delays
+    starts = np.zeros(n_passes), _added_up(steady, slip)
+    share, lags = max((_settled(cut, start) for start in starts), key=lambda found: found[0])
+    return lags if share >= _repeating(steady) + LEAST_GAIN else None
+
+
+def _settled(
+    cut: Callable[[NDArray[np.float64]], NDArray[np.complex128]], lags: NDArray[np.float64]
+) -> tuple[float, NDArray[np.float64]]:
+    """Lags (passes,) laid over their mean until no more repeats, and the share that repeats."""
+    each = cut(lags)
+    share = _repeating(each)
+    for _ in range(MOST_CUTS):
+        closer = lags + _laid_over_the_mean(each)
+        each = cut(closer)
+        reached = _repeating(each)
+        if reached < share:
+            break
+        gained, share, lags = reached - share, reached, closer
+        if gained < 0.2 * LEAST_GAIN:
+            break
+    return share, lags
 
 
 def smooth_lag(lags: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

@@ -1,0 +1,258 @@
+"""The extent of a spall from entry to exit, with its interval."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, find_knocks
+from bearingcore.diagnosis.extent.release import Offsets, plausible_offsets
+from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.parts import INNER, OUTER
+from bearingcore.scene.defect import RACES
+from bearingcore.signals.averaging import FEWEST_PASSES
+from bearingcore.signals.recording import Recording
+
+SLIP = 0.02
+"""By how much balls may pass faster or slower than the shaft speed says."""
+
+SLIP_OF_LINES = 0.004
+"""The same about lines that a diagnosis has found."""
+
+SAMPLES_A_DEGREE = 1.0
+"""Of the recording for a degree of the race, below which knocks cannot be located."""
+
+
+class ExtentStatus(StrEnum):
+    """How a measurement of the extent ended."""
+
+    MEASURED = "measured"
+    BOUNDED = "bounded"
+    NO_RACE = "no race"
+    NOT_VISIBLE = "not visible"
+    TOO_SHORT = "too short"
+    TOO_COARSE = "too coarse"
+
+    @property
+    def sentence(self) -> str:
+        """The status as a sentence."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    ExtentStatus.MEASURED: "Entry and exit are separate in the mean ball pass.",
+    ExtentStatus.BOUNDED: "Entry and exit are not separate in the mean ball pass.",
+    ExtentStatus.NO_RACE: "No damaged race is named, so there is no extent to measure.",
+    ExtentStatus.NOT_VISIBLE: "Nothing repeats clearly with the ball passes of this race.",
+    ExtentStatus.TOO_SHORT: "The recording holds too few ball passes for a mean.",
+    ExtentStatus.TOO_COARSE: "The sample rate is too low to locate knocks on the race.",
+}
+
+
+@dataclass(frozen=True)
+class MeasuredExtent:
+    """The extent of a spall, measured from entry to exit.
+
+    Attributes
+    ----------
+    race
+        "outer" or "inner"; "" where no race is named.
+    extent, low, high
+        [rad] and the interval in which it lies with 95 %. NaN where there is none; of a bound only
+        `high` is a number: the extent is shorter than that.
+    separation, deviation
+        [rad] of the race between the peaks of entry and exit, and its standard deviation.
+    offset
+        [rad] added to it: the median of the angle over which a ball carries nothing yet or no
+        longer, see `release`.
+    ball_spacing
+        [rad]. A longer spall with whole ball spacings more gives the same passes.
+    passes
+        mean ball passes of the bands that decided, the best first; empty where there are none.
+    entry, exit
+        places of the two peaks in the first of `passes`, as shares of a ball pass; NaN without.
+    frequency
+        ball passes a second over the race [Hz].
+    n_passes
+        how many were averaged.
+    length
+        of the extent along the race [m]; NaN where there is none.
+    status
+        how it ended.
+    """
+
+    race: str
+    extent: float
+    low: float
+    high: float
+    separation: float
+    deviation: float
+    offset: float
+    ball_spacing: float
+    passes: tuple[MeanPass, ...] = field(repr=False)
+    entry: float
+    exit: float
+    frequency: float
+    n_passes: int
+    length: float
+    status: ExtentStatus
+
+    @property
+    def measured(self) -> bool:
+        """Whether there is an extent."""
+        return self.status == ExtentStatus.MEASURED
+
+    @property
+    def sentence(self) -> str:
+        """The answer in a sentence."""
+        degrees = np.degrees([self.extent, self.low, self.high, self.ball_spacing])
+        if self.status == ExtentStatus.BOUNDED:
+            return (
+                f"{self.race.capitalize()} race: shorter than about {degrees[2]:.1f}°. "
+                f"{self.status.sentence}"
+            )
+        if not self.measured:
+            return self.status.sentence
+        return (
+            f"{degrees[0]:.1f}° ({degrees[1]:.1f}-{degrees[2]:.1f}°), "
+            f"{1e3 * self.length:.1f} mm, {self.race} race; or that and whole ball spacings of "
+            f"{degrees[3]:.1f}°."
+        )
+
+    def table(self) -> ResultTable:
+        """One row with the answer; below it the mean ball pass of the best band over angle."""
+        rows = table_of(
+            ("race", "", [self.race]),
+            ("status", "", [str(self.status)]),
+            ("extent", "rad", [self.extent]),
+            ("low", "rad", [self.low], "of the interval with 95 %"),
+            ("high", "rad", [self.high], "of the interval with 95 %, or the bound"),
+            ("separation", "rad", [self.separation], "from the entry's peak to the exit's"),
+            ("separation_deviation", "rad", [self.deviation]),
+            ("offset", "rad", [self.offset], "over which a ball is not loaded beside the edges"),
+            ("length", "m", [self.length], "along the race"),
+            ("frequency", "Hz", [self.frequency], "of ball passes"),
+            ("ball_passes", "", [self.n_passes]),
+        )
+        if not self.passes:
+            return rows
+        best = self.passes[0]
+        angle = self.ball_spacing * np.arange(len(best.envelope)) / len(best.envelope)
+        return rows | table_of(
+            ("angle", "rad", angle, "of the race, from an arbitrary begin"),
+            ("envelope", "1", best.envelope, "mean over the ball passes, of its mean"),
+            ("envelope_error", "1", np.full(len(angle), best.error), "standard error"),
+        )
+
+
+def measure_extent(
+    recording: Recording,
+    bearing: Bearing,
+    shaft_speed: float | tuple[float, float] | None,
+    *,
+    race: str | None = None,
+    load: float | None = None,
+    clearance: float | None = None,
+) -> MeasuredExtent:
+    """The extent of a spall from the knocks of balls that enter and leave it.
+
+    The envelope of the signal is averaged over the ball passes, aligned against slip, in the bands
+    that show them best. Two peaks on which the bands agree are entry and exit. Their separation and
+    the angle over which statics say that a ball carries nothing beside the edges are the extent,
+    but for whole ball spacings, of which the pass itself says nothing.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing.
+    bearing
+        its geometry and contacts.
+    shaft_speed
+        [rad/s], a pair (from, to) if it is rough, None if it is unknown: see `diagnose`.
+    race
+        "outer" or "inner" where it is known to be damaged; None: what `diagnose` names. A rough or
+        unknown speed always asks `diagnose`.
+    load, clearance
+        radial load on the bearing [N] and radial clearance [m] where they are known: they narrow
+        the interval.
+
+    Returns
+    -------
+    A `MeasuredExtent`: with `status` "measured" an extent and its interval, with "bounded" one that
+    the extent does not reach, else the reason why there is none.
+
+    Raises
+    ------
+    ValueError
+        for a race, load, clearance or speed that cannot be, and for rows that are not alike.
+    """
+    if race is not None:
+        checks.choice("race", race, RACES)
+    if load is not None:
+        load = checks.number("load", load, above=0.0, unit="N")
+    if clearance is not None:
+        clearance = checks.number("clearance", clearance, at_least=0.0, unit="m")
+    if race is None or not isinstance(shaft_speed, int | float):
+        found = diagnose(recording, bearing, shaft_speed)
+        named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
+        race = race or named
+        if race is None or not found.evidence:
+            return _without(race or "", bearing, ExtentStatus.NO_RACE)
+        nominal = found.of(f"{race} race").frequency
+        slip = SLIP_OF_LINES
+    else:
+        speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
+        nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
+        slip = SLIP
+    if recording.duration * nominal < FEWEST_PASSES + 8:
+        return _without(race, bearing, ExtentStatus.TOO_SHORT)
+    if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(bearing.ball_spacing):
+        return _without(race, bearing, ExtentStatus.TOO_COARSE)
+    knocks = find_knocks(recording, nominal, slip)
+    if not knocks.visible:
+        return _without(race, bearing, ExtentStatus.NOT_VISIBLE)
+    return _answer(knocks, bearing, race, plausible_offsets(bearing, race, load, clearance))
+
+
+def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets) -> MeasuredExtent:
+    spacing = bearing.ball_spacing
+    separation, deviation = spacing * knocks.separation, spacing * knocks.deviation
+    offset = offsets.quantile(0.5)
+    extent = low = length = math.nan
+    if math.isfinite(separation):
+        extent, status = separation + offset, ExtentStatus.MEASURED
+        # both sides separately: offsets lean towards long ones
+        below = math.hypot(offset - offsets.quantile(0.025), 1.96 * deviation)
+        above = math.hypot(offsets.quantile(0.975) - offset, 1.96 * deviation)
+        low, high = max(extent - below, 0.0), extent + above
+        length = extent * _raceway_radius(bearing, race)
+    else:
+        high, status = spacing * knocks.resolution + offsets.quantile(0.975), ExtentStatus.BOUNDED
+    return MeasuredExtent(
+        race, extent, low, high, separation, deviation, offset, spacing, knocks.passes,
+        knocks.entry, knocks.exit, knocks.frequency, knocks.n_passes, length, status,
+    )  # fmt: skip
+
+
+def _without(race: str, bearing: Bearing, status: ExtentStatus) -> MeasuredExtent:
+    none = math.nan
+    return MeasuredExtent(
+        race, none, none, none, none, none, none, bearing.ball_spacing, (), none, none, none, 0,
+        none, status,
+    )  # fmt: skip
+
+
+def _raceway_radius(bearing: Bearing, race: str) -> float:
+    """Radius [m] of the raceway at the bottom of its groove."""
+    given: float | None = getattr(bearing, f"{race}_raceway_radius")
+    if given is not None:
+        return given
+    sign: NDArray[np.float64] | float = 1.0 if race == "outer" else -1.0
+    return float(0.5 * bearing.pitch_diameter + sign * bearing.ball_radius)

@@ -7,6 +7,7 @@ from bearingcore.bearings.catalogue import (
     catalogue_text,
     read_catalogue,
 )
+from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
@@ -52,6 +53,7 @@ __all__ = [
     "Limit",
     "Load",
     "Maps",
+    "MeasuredExtent",
     "MeasuredFloor",
     "Modes",
     "Motion",
@@ -78,6 +80,7 @@ __all__ = [
     "impulsive_band",
     "life",
     "limits",
+    "measure_extent",
     "modes",
     "orbit",
     "preset_notes",

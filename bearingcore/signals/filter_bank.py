@@ -59,11 +59,11 @@ class Envelope(NamedTuple):
     kurtosis: float
 
 
-def split(sample_rate: float, narrowest: float) -> list[Band]:
+def split(sample_rate: float, narrowest: float, into: Sequence[int] = PARTS) -> list[Band]:
     """The bands [Hz] up to half the sample rate, none narrower than `narrowest` but the first."""
     half = 0.5 * sample_rate
     bands = []
-    for parts in PARTS:
+    for parts in into:
         if parts > 1 and half / parts < narrowest:
             break
         edges = np.linspace(0.0, half, parts + 1).tolist()

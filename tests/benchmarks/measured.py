@@ -1,11 +1,14 @@
 """Which part is damaged, and how large the defect is, on records of real machines.
 
     python -m tests.benchmarks.measured DIR [--sizes] [--by-hand] [--methods]
+    python -m tests.benchmarks.measured DIR --extents
 
 DIR holds records and perhaps a table of what is true of them (see `measured_records`). For each
 record and in sum: right, cannot tell, wrong. A conclusive answer that is wrong makes the command
 fail. --sizes runs the sizing too, over several plausible supports and loads; with --by-hand it is
 told that the outer race is damaged. --methods compares ways to choose the band.
+--extents measures spalls from entry to exit, the race being known, and nothing else; an interval
+that the truth is not in makes it fail.
 """
 
 from __future__ import annotations
@@ -21,10 +24,21 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from unittest import mock
 
-from bearingcore import Diagnosis, Load, Scene, Sizing, Support, diagnose, presets, size_defect
+from bearingcore import (
+    Diagnosis,
+    Load,
+    MeasuredExtent,
+    Scene,
+    Sizing,
+    Support,
+    diagnose,
+    measure_extent,
+    presets,
+    size_defect,
+)
 from bearingcore.diagnosis.part import listened_signal
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.diagnosis.part.parts import OUTER, PARTS
+from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
 from bearingcore.diagnosis.size.sizing import AT_MOST
 from bearingcore.signals.filter_bank import Envelope
 from tests.benchmarks.machine import pace
@@ -149,6 +163,44 @@ def _sum_up(counts: Counter[tuple[str, str]]) -> int:
     return wrong
 
 
+def _extents(found: list[Record]) -> int:
+    """Extents from entry to exit held against the truth; how many are wrong."""
+    counts: Counter[str] = Counter()
+    print(f"{'record':<42} {'true':>6} {'extent':>7} {'interval':>13} {'apart':>6} {'time':>6}")
+    for record in found:
+        if record.truth not in (OUTER, INNER):
+            continue
+        begin = time.perf_counter()
+        answer = measure_extent(
+            record.recording, record.bearing, record.shaft_speed, race=record.truth.split()[0]
+        )
+        took = time.perf_counter() - begin
+        result = extent_verdict(record, answer)
+        counts[result] += 1
+        true = math.nan if record.spall_extent_deg is None else record.spall_extent_deg
+        apart, extent, low, high = (
+            math.degrees(value)
+            for value in (answer.separation, answer.extent, answer.low, answer.high)
+        )
+        interval = f"{low:.2f}-{high:.2f}" if answer.measured else ""
+        print(
+            f"{record.name[-42:]:<42} {true:6.2f} {extent:7.2f} {interval:>13} {apart:6.2f} "
+            f"{took:5.1f}s {result}: {answer.status}"
+        )
+    print(f"\nextents: {dict(counts)}")
+    return counts[WRONG]
+
+
+def extent_verdict(record: Record, found: MeasuredExtent) -> str:
+    """Whether an extent from entry to exit is right: the truth lies in its interval."""
+    if not found.measured:
+        return CANNOT
+    if record.spall_extent_deg is None:
+        return UNCHECKED
+    true = math.radians(record.spall_extent_deg)
+    return RIGHT if found.low <= true <= found.high else WRONG
+
+
 Heard = list[tuple[str, Envelope]]
 
 
@@ -224,11 +276,14 @@ def main() -> int:
     parser.add_argument("--sizes", action="store_true")
     parser.add_argument("--by-hand", action="store_true", help="size as if the outer race were")
     parser.add_argument("--methods", action="store_true")
+    parser.add_argument("--extents", action="store_true", help="from entry to exit")
     chosen = parser.parse_args()
     found = list(records(chosen.folder))
     if not found:
         print(f"no records in {chosen.folder}", file=sys.stderr)
         return 2
+    if chosen.extents:
+        return 1 if _extents(found) else 0
     wrong = _sum_up(_diagnosed(found))
     if chosen.methods:
         _compare_methods(found)

@@ -7,9 +7,9 @@ A table `records.csv` in the folder says it, one record a line under these headi
 
 `variable` names the vector of a MATLAB file or the columns of a text file counted from 1 (4+5), and
 truth is "outer race", "inner race", "ball", "healthy", or "unknown" for damage of unknown kind.
-Without it, truth follows from the names of three public collections: Case Western Reserve
-University (`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`) and FEMTO-ST
-(`femto`).
+Without it, truth follows from the names of four public collections: Case Western Reserve
+University (`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`), FEMTO-ST
+(`femto`) and HIT-SM (`hitsm`, with spalls of known length on both races).
 """
 
 from __future__ import annotations
@@ -44,6 +44,8 @@ class Record:
     recording: Recording
     outer_extent_deg: float | None = None
     """Of a pit on the outer race, where it is known."""
+    spall_extent_deg: float | None = None
+    """Of a spall or pit on either race, where it is known."""
 
 
 def ball_bearing(
@@ -64,8 +66,10 @@ def ball_bearing(
 CWRU = (9, 7.94, 39.04)
 CWRU_RPM = {"0": 1797.0, "1": 1772.0, "2": 1750.0, "3": 1730.0}
 CWRU_EXTENT_DEG = {"007": 0.43, "014": 0.87, "021": 1.30}
+CWRU_INNER_DEG = {"007": 0.66, "014": 1.31, "021": 1.97, "028": 2.62}
 MFPT = (8, 0.235 * 25.4, 1.245 * 25.4)
 FEMTO = (13, 3.5, 25.6)
+HITSM = re.compile(r"([IO])R(\d+)_(\d+)")
 FEMTO_RPM = {"Bearing1": 1800.0, "Bearing2": 1650.0}
 
 
@@ -79,7 +83,7 @@ def records(folder: Path) -> Iterator[Record]:
         return
     for path in sorted(folder.rglob("*")):
         if path.suffix == ".mat":
-            found = _mfpt(path) if "vload" in path.name or "baseline" in path.name else _cwru(path)
+            found = _mat(path)
         elif path.suffix == ".csv" and "_acc_" in path.name:
             found = _femto(path)
         else:
@@ -115,6 +119,25 @@ def _by_table(folder: Path, row: dict[str, str]) -> Record:
     return Record(path.stem, row["truth"], "", bearing, speed, recording)
 
 
+def _mat(path: Path) -> Record:
+    if "vload" in path.name or "baseline" in path.name:
+        return _mfpt(path)
+    spall = HITSM.fullmatch(path.stem)
+    return _hitsm(path, *spall.groups()) if spall else _cwru(path)
+
+
+def _hitsm(path: Path, race: str, extent_deg: str, turns: str) -> Record:
+    content = loadmat(path)
+    signal = next(content[key] for key in content if not key.startswith("__"))
+    recording = Recording(
+        np.asarray(signal, dtype=float).reshape(-1) * UNITS["g"], 51_200.0, ("y",), path.name
+    )
+    return Record(
+        path.stem, {"I": "inner race", "O": "outer race"}[race], "HIT-SM 6205",
+        ball_bearing(*CWRU), _speed(float(turns)), recording, None, float(extent_deg),
+    )  # fmt: skip
+
+
 def _cwru(path: Path) -> Record:
     content = loadmat(path)
     name = path.stem
@@ -129,10 +152,11 @@ def _cwru(path: Path) -> Record:
     truth = {"IR": "inner race", "OR": "outer race", "B": "ball"}[kind[1]] if kind else HEALTHY
     rate = 48_000.0 if name.startswith(("48k", "Normal")) else 12_000.0
     extent = CWRU_EXTENT_DEG.get(kind[2]) if kind and kind[1] == "OR" else None
+    either = CWRU_INNER_DEG.get(kind[2]) if kind and kind[1] == "IR" else extent
     signal = np.asarray(content[variable], dtype=float).reshape(-1) * UNITS["g"]
     return Record(
         name, truth, "CWRU 6205", ball_bearing(*CWRU), _speed(turns),
-        Recording(signal, rate, ("y",), path.name), extent,
+        Recording(signal, rate, ("y",), path.name), extent, either,
     )  # fmt: skip
 
 

@@ -1,9 +1,10 @@
 """Entry and exit of a ball in the mean ball pass of envelopes.
 
-The envelope of each frequency band is cut into ball passes, which are aligned against slip and
-averaged. A ball that enters a spall and one that leaves it each give a peak. What rings after a
-single knock swells too, where two resonances beat; but that differs from band to band. So two peaks
-count only where bands that have no frequency in common agree on their separation.
+A linear prediction takes out what rings. The envelope of each frequency band of what it leaves is
+cut into ball passes, which are aligned against slip and averaged. A ball that enters a spall and
+one that leaves it each give a peak. What rings after a single knock swells too, where two
+resonances beat; but that differs from band to band. So two peaks count only where bands that have
+no frequency in common agree on their separation.
 
 Quantity                                            | Name        | Unit
 --------------------------------------------------- | ----------- | --------------
@@ -14,7 +15,9 @@ angle of the race between the two peaks             | separation  | rad
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,26 +32,31 @@ Array = NDArray[np.float64]
 HARMONICS = 100
 """Of the ball-pass frequency that a mean pass keeps: a hundredth of a ball pass is resolved."""
 
-NARROWEST = 40.0
+NARROWEST = 20.0
 """Ball-pass frequencies that a band is wide at least: narrower ones ring for longer."""
 
-LOWEST = 10.0
+LOWEST = 3.0
 """Ball-pass frequencies from which bands are looked at: below lie shaft, cage and rigid bodies."""
 
-WHITENING = 3.0
-"""Ball-pass frequencies over which a signal is whitened."""
+PARTS = (1, 2, 3, 4, 6)
+"""Into how many equal bands the range is split: more would hold no knock any more compactly."""
 
-BEST_BANDS = 6
-"""That decide."""
+PREDICTED_FROM = 50
+"""Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what
+is left after the prediction is compact knocks, see `without_ringing`. Two for each of 25
+resonances; from further back one knock would predict the next."""
+
+MOST_PASSES_HEARD = 440.0
+"""Ball passes of a recording that are looked at: `averaging` leaves out later ones."""
 
 PLACES = 2048
 """In a mean ball pass."""
 
 LEAST_CONTRAST = 8.0
-"""Height of the highest peak, in standard errors of the mean pass, below which nothing is seen."""
+"""Height of a peak, in standard errors of the mean pass, below which nothing is seen."""
 
 FAINTEST = 0.1
-"""Height of the second peak as a share of the first."""
+"""Height of the second peak as a share of the first: below, prediction and filter leave ripples."""
 
 THIRD = 0.6
 """Height of a third peak, as a share of the second, from which it is a train of peaks: ringing."""
@@ -56,16 +64,31 @@ THIRD = 0.6
 LEAST_DIP = 0.25
 """How far the envelope falls between two peaks, as a share of the lower one, that count as two."""
 
+SIDE_LOBES, LEAST_BESIDE = 3.0, 0.3
+"""A filter answers a knock with ripples of a fifth of its height for a few times one over its band
+width [s]: so near, a second peak must be so high."""
+
 SMOOTHING = (0.015, 0.007, 0.001)
 """Shares of a ball pass over which a mean pass is smoothed before its peaks are looked for."""
 
-AGREE = 0.035
-"""By how much bands may differ in the separation: a share of it, and of a ball pass a tenth of
-this."""
+AGREE = (0.06, 0.002)
+"""By how much bands may differ in the separation: a share of it, and of a ball pass. A release is
+gradual: its peak moves a little with frequency, and peaks are no sharper than the mean pass."""
 
-AGREEING, SHOWING = 0.6, 0.35
-"""Share of the weight of bands with two peaks that must agree, and of the weight of all bands. A
-band without a second peak says nothing, one with another separation speaks against."""
+AGREEING, SHOWING = 0.6, 0.3
+"""Share of the second peaks, by their heights, that must agree, and of all bands that must show
+them."""
+
+ALIKE, UNLIKE = 0.3, 0.22
+"""A ball is released softly and strikes hard: entry and exit differ in their spectra. Two knocks
+whose ratio of heights hardly changes over the bands (four fifths of its natural logarithms lie
+within the first number), and that are not equally high (the logarithm of their ratio is more than
+the second), are a blow and its echo: a ball that bounces."""
+
+EXIT_GROWS = (0.5, 0.75)
+"""Power of frequency with which one peak outgrows the other. As a strike is sharper than a release,
+the one that grows is the exit: certainly so above the second number, and below the first it may be
+the path of the sound. There the shorter way round is taken, between the two neither."""
 
 
 @dataclass(frozen=True)
@@ -96,39 +119,75 @@ class MeanPass:
 
 
 @dataclass(frozen=True)
+class Pair:
+    """Two peaks of a mean pass.
+
+    Attributes
+    ----------
+    first, second
+        their places as shares of a ball pass; the second follows by less than half a one.
+    ratio
+        height of the second over that of the first.
+    """
+
+    first: float
+    second: float
+    ratio: float
+
+    @property
+    def apart(self) -> float:
+        """From the first to the second, as a share of a ball pass."""
+        return (self.second - self.first) % 1.0
+
+    @property
+    def height(self) -> float:
+        """Of the lower one over the higher."""
+        return min(self.ratio, 1.0 / self.ratio)
+
+
+class Seen(StrEnum):
+    """What mean passes show."""
+
+    NOTHING = "nothing"
+    ONE = "one knock"
+    UNCLEAR = "unclear"
+    ALIKE = "alike"
+    EITHER = "either way round"
+    TWO = "two knocks"
+
+
+@dataclass(frozen=True)
 class Knocks:
     """What the mean passes say.
 
     Attributes
     ----------
     passes
-        of the bands that decide, the best first.
+        of the bands that were compared, the one that shows the knocks best first.
     frequency
         ball passes a second [Hz].
     n_passes
         how many were averaged.
+    seen
+        what the bands show together.
     separation, deviation
-        between entry and exit as a share of a ball pass, and its standard deviation; NaN where
-        there are no two peaks on which the bands agree.
-    resolution
-        share of a ball pass below which a second peak hides in the first one's ringing.
+        from entry to exit as a share of a ball pass, and its standard deviation; NaN where there
+        are no two knocks. The shorter way where it may be either way round.
     entry, exit
-        places of the two peaks in the best band's envelope, as shares of a ball pass; NaN without.
+        places of the two peaks in the first of `passes`, as shares of a ball pass; NaN without.
+    trend
+        power of frequency with which the later peak, the shorter way round, outgrows the earlier.
     """
 
     passes: tuple[MeanPass, ...]
     frequency: float
     n_passes: int
-    separation: float
-    deviation: float
-    resolution: float
-    entry: float
-    exit: float
-
-    @property
-    def visible(self) -> bool:
-        """Whether anything repeats with the ball passes."""
-        return bool(self.passes) and self.passes[0].contrast >= LEAST_CONTRAST
+    seen: Seen
+    separation: float = math.nan
+    deviation: float = math.nan
+    entry: float = math.nan
+    exit: float = math.nan
+    trend: float = math.nan
 
 
 def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
@@ -146,36 +205,34 @@ def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
         where the recording holds too few ball passes.
     """
     names, envelopes, rate = _envelopes(recording, nominal)
-    first = _averaged(envelopes, rate, nominal, slip, follow=False)
-    contrast = [one.contrast for one in _mean_passes(first, names)]
-    best = np.argsort(contrast)[::-1][:BEST_BANDS]
-    names = [names[k] for k in best]
-    found = _averaged(envelopes[:, best], rate, first.frequency, 0.005, follow=True)
-    passes = sorted(_mean_passes(found, names), key=lambda one: -one.contrast)
-    return _knocks(tuple(passes), found)
+    widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
+    found = average_passes(
+        envelopes, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=True
+    )
+    return judged(_mean_passes(found, names), found.frequency, found.n_passes)
 
 
 def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, str]], Array, float]:
     """Bands with their directions, envelopes (n, bands) of mean 1, and their sample rate [Hz]."""
-    rate = min(3.0 * HARMONICS * nominal, recording.sample_rate)
-    time = np.arange(int(recording.duration * rate)) / rate
+    sample_rate = recording.sample_rate
+    rate = min(3.0 * HARMONICS * nominal, sample_rate)
+    kept = min(
+        recording.acceleration.shape[0], math.ceil(MOST_PASSES_HEARD * sample_rate / nominal)
+    )
+    time = np.arange(int(kept / sample_rate * rate)) / rate
     bands = [
-        band
-        for band in split(recording.sample_rate, NARROWEST * nominal)
-        if band.low >= LOWEST * nominal or band.high >= 0.4 * recording.sample_rate
+        Band(max(band.low, LOWEST * nominal), band.high)
+        for band in split(sample_rate, NARROWEST * nominal, PARTS)
+        if band.high > 2.0 * LOWEST * nominal
     ]
-    bands = [Band(max(band.low, LOWEST * nominal), band.high) for band in bands]
     names, columns = [], []
-    for direction, samples in zip(recording.directions, recording.acceleration.T, strict=True):
+    for direction, samples in zip(
+        recording.directions, recording.acceleration[:kept].T, strict=True
+    ):
         dropped = signal_faults(samples).dropped
+        left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
         for found in squared_envelopes(
-            samples,
-            recording.sample_rate,
-            bands,
-            HARMONICS * nominal,
-            dropped,
-            WHITENING * nominal,
-            loudest=math.inf,
+            left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
         ):
             values = np.sqrt(np.maximum(found.values, 0.0))
             values = np.interp(time, np.arange(len(values)) / found.rate, values)
@@ -184,13 +241,24 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
     return names, np.array(columns).T, rate
 
 
-def _averaged(
-    envelopes: Array, rate: float, nominal: float, slip: float, *, follow: bool
-) -> BallPasses:
-    widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
-    return average_passes(
-        envelopes, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=follow
-    )
+def without_ringing(samples: Array, order: int) -> Array:
+    """What a linear prediction from the `order` samples before leaves of a signal (n,).
+
+    The prediction with the least squared error (Yule and Walker) follows tones and resonances that
+    ring; what excites them is left, with a flat spectrum.
+    """
+    from scipy.fft import irfft, next_fast_len, rfft
+    from scipy.linalg import solve_toeplitz
+    from scipy.signal import lfilter
+
+    samples = samples - samples.mean()
+    size = next_fast_len(len(samples) + order + 1, real=True)
+    likeness = irfft(np.abs(rfft(samples, size)) ** 2, size)[: order + 1]
+    if not likeness[0] > 0.0:
+        return samples
+    likeness[0] *= 1.0 + 1e-6
+    weights = solve_toeplitz(likeness[:-1], likeness[1:])
+    return np.asarray(lfilter(np.concatenate(([1.0], -weights)), [1.0], samples))
 
 
 def _mean_passes(found: BallPasses, names: list[tuple[Band, str]]) -> list[MeanPass]:
@@ -202,99 +270,120 @@ def _mean_passes(found: BallPasses, names: list[tuple[Band, str]]) -> list[MeanP
     ]
 
 
-def _knocks(passes: tuple[MeanPass, ...], found: BallPasses) -> Knocks:
-    pairs = [two_peaks(one.envelope, one.error) for one in passes]
-    weights = np.array([one.contrast for one in passes])
-    separations = np.array([_apart(pair) for pair in pairs])
-    separation, deviation = _agreed(separations, weights, [one.band for one in passes])
-    resolution = max((ringing(one.envelope) for one in passes), default=math.nan)
-    entry = leave = math.nan
-    if math.isfinite(separation):
-        nearest = int(np.nanargmin(np.abs(separations - separation)))
-        pair = pairs[nearest]
-        assert pair is not None
-        entry, leave = pair
-        passes = (passes[nearest], *passes[:nearest], *passes[nearest + 1 :])
+def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knocks:
+    """What mean passes of several bands show together.
+
+    Parameters
+    ----------
+    passes
+        of any bands and directions.
+    frequency
+        ball passes a second [Hz].
+    n_passes
+        how many were averaged.
+    """
+    passes = tuple(sorted(passes, key=lambda one: -one.contrast))
+    if not passes or passes[0].contrast < LEAST_CONTRAST:
+        return Knocks(passes, frequency, n_passes, Seen.NOTHING)
+    shown = [(one, pair) for one in passes if (pair := two_peaks(one, frequency)) is not None]
+    agreeing = _agreeing(shown)
+    if not agreeing:
+        seen = Seen.UNCLEAR if len(shown) > SHOWING * len(passes) else Seen.ONE
+        return Knocks(passes, frequency, n_passes, seen)
+    height = np.array([pair.height for _, pair in agreeing])
+    apart = np.array([pair.apart for _, pair in agreeing])
+    ratios = np.log([pair.ratio for _, pair in agreeing])
+    if len(agreeing) < SHOWING * len(passes) or height.sum() < AGREEING * sum(
+        pair.height for _, pair in shown
+    ):
+        return Knocks(passes, frequency, n_passes, Seen.UNCLEAR)
+    if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
+        return Knocks(passes, frequency, n_passes, Seen.ALIKE)
+    separation = float(np.average(apart, weights=height))
+    spread = math.sqrt(float(np.average((apart - separation) ** 2, weights=height)))
+    deviation = max(spread, 0.25 / HARMONICS)
+    best, pair = max(agreeing, key=lambda one: one[1].height)
+    trend = _trend([one.band for one, _ in agreeing], ratios, height)
+    entry, leave, seen = pair.first, pair.second, Seen.TWO
+    if trend < -EXIT_GROWS[1]:  # the earlier one is the exit: the longer way round
+        entry, leave, separation = leave, entry, 1.0 - separation
+    elif trend < -EXIT_GROWS[0]:
+        seen = Seen.EITHER
+    others = tuple(one for one in passes if one is not best)
     return Knocks(
-        passes, found.frequency, found.n_passes, separation, deviation, resolution, entry, leave
+        (best, *others), frequency, n_passes, seen, separation, deviation, entry, leave, trend
     )
 
 
-def two_peaks(envelope: Array, error: float) -> tuple[float, float] | None:
-    """Places of the two highest peaks as shares of a ball pass, entry first; None without two.
+def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:
+    """Slope of logarithms of ratios over the logarithm of frequency, by weighted least squares."""
+    octave = np.log([0.5 * (band.low + band.high) for band in bands])
+    octave -= np.average(octave, weights=weights)
+    return float((weights * octave * ratios).sum() / max((weights * octave**2).sum(), 1e-12))
 
-    The peak that the other follows by less than half a ball pass is the entry.
+
+def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
+    """The two highest peaks of a mean pass; None where there are no two, or where there are more.
+
+    Parameters
+    ----------
+    mean_pass
+    frequency
+        ball passes a second [Hz].
     """
     from scipy.ndimage import gaussian_filter1d  # imported late: see `spectrum`
 
+    lobes = SIDE_LOBES * frequency / (mean_pass.band.high - mean_pass.band.low)
     # knocks far apart before the structure of a single one
     for width in SMOOTHING:
-        smooth = gaussian_filter1d(envelope, width * len(envelope), mode="wrap")
-        found = _two_peaks(smooth, error)
+        smooth = gaussian_filter1d(mean_pass.envelope, width * PLACES, mode="wrap")
+        found = _two_peaks(smooth, mean_pass.error, lobes)
         if found is not None:
             return found
     return None
 
 
-def _two_peaks(envelope: Array, error: float) -> tuple[float, float] | None:
+def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
     from scipy.signal import find_peaks, peak_prominences
 
-    count = len(envelope)
-    turned = np.roll(envelope, -int(envelope.argmin()))
-    first = int(turned.argmax())
+    shift = int(envelope.argmin())
+    turned = np.roll(envelope, -shift)
+    highest = int(turned.argmax())
     places, _ = find_peaks(turned)
     prominence = peak_prominences(turned, places)[0]
     height = turned[places]
+    away = np.abs(places - highest) / PLACES
+    near = np.minimum(away, 1.0 - away) < lobes
     enough = (
-        (height >= FAINTEST * turned[first])
+        (height >= np.where(near, LEAST_BESIDE, FAINTEST) * turned[highest])
         & (prominence >= LEAST_DIP * height)
         & (prominence >= LEAST_CONTRAST * error)
-        & (places != first)
+        & (places != highest)
     )
     if not enough.any():
         return None
     ranked = np.argsort(height * enough)[::-1]
     if len(ranked) > 1 and enough[ranked[1]] and height[ranked[1]] > THIRD * height[ranked[0]]:
         return None
-    second = int(places[ranked[0]])
-    shift = int(envelope.argmin())
-    entry, leave = sorted((first, second))
-    if leave - entry > count // 2:
-        entry, leave = leave, entry
-    return ((entry + shift) % count) / count, ((leave + shift) % count) / count
+    first, second = sorted((highest, int(places[ranked[0]])))
+    if second - first > PLACES // 2:
+        first, second = second, first
+    ratio = float(turned[second] / turned[first])
+    return Pair((first + shift) % PLACES / PLACES, (second + shift) % PLACES / PLACES, ratio)
 
 
-def _apart(pair: tuple[float, float] | None) -> float:
-    return math.nan if pair is None else (pair[1] - pair[0]) % 1.0
+def _agreeing(shown: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]:
+    """Most of the mean passes, by height, whose separations agree.
 
-
-def _agreed(separations: Array, weights: Array, bands: list[Band]) -> tuple[float, float]:
-    """The separation on which most of the bands agree, and its deviation; NaN without one."""
-    best, share, members = math.nan, 0.0, np.zeros(len(separations), dtype=bool)
-    for one in separations[np.isfinite(separations)]:
-        near = np.abs(separations - one) <= AGREE * one + 0.1 * AGREE
-        reached = float(weights[near].sum())
-        if reached > share:
-            best, share, members = one, reached, near
-    seen = float(weights[np.isfinite(separations)].sum())
-    if share == 0.0 or share < AGREEING * seen or share < SHOWING * float(weights.sum()):
-        return math.nan, math.nan
-    if max(bands[k].low for k in np.flatnonzero(members)) < min(
-        bands[k].high for k in np.flatnonzero(members)
-    ):
-        return math.nan, math.nan  # no two of them without a common frequency
-    chosen, by = separations[members], weights[members]
-    best = float(np.average(chosen, weights=by))
-    spread = math.sqrt(float(np.average((chosen - best) ** 2, weights=by)))
-    return best, max(spread, 0.25 / HARMONICS)
-
-
-def ringing(envelope: Array) -> float:
-    """Share of a ball pass around the highest peak in which a fainter one would not be seen.
-
-    The longest way from the peak to where the envelope stays below FAINTEST of it.
+    None where all their bands have a frequency in common: it may be one resonance that beats.
     """
-    turned = np.roll(envelope, len(envelope) // 2 - int(envelope.argmax()))
-    high = np.flatnonzero(turned >= FAINTEST * turned.max())
-    middle = len(envelope) // 2
-    return float(max(middle - high[0], high[-1] - middle)) / len(envelope)
+    best: list[tuple[MeanPass, Pair]] = []
+    for _, one in shown:
+        reach = AGREE[0] * one.apart + AGREE[1]
+        near = [(m, pair) for m, pair in shown if abs(pair.apart - one.apart) <= reach]
+        if sum(pair.height for _, pair in near) > sum(pair.height for _, pair in best):
+            best = near
+    bands = [m.band for m, _ in best]
+    if not bands or max(band.low for band in bands) < min(band.high for band in bands):
+        return []
+    return best

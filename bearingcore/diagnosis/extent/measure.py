@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, find_knocks
-from bearingcore.diagnosis.extent.release import Offsets, plausible_offsets
+from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
+from bearingcore.diagnosis.extent.release import plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.scene.defect import RACES
@@ -34,7 +34,10 @@ class ExtentStatus(StrEnum):
     """How a measurement of the extent ended."""
 
     MEASURED = "measured"
-    BOUNDED = "bounded"
+    EITHER = "either way round"
+    ONE_KNOCK = "one knock"
+    UNCLEAR = "unclear"
+    BOUNCES = "bounces"
     NO_RACE = "no race"
     NOT_VISIBLE = "not visible"
     TOO_SHORT = "too short"
@@ -48,7 +51,18 @@ class ExtentStatus(StrEnum):
 
 _SENTENCES = {
     ExtentStatus.MEASURED: "Entry and exit are separate in the mean ball pass.",
-    ExtentStatus.BOUNDED: "Entry and exit are not separate in the mean ball pass.",
+    ExtentStatus.EITHER: "Entry and exit are separate, but which is which cannot be told.",
+    ExtentStatus.ONE_KNOCK: (
+        "There is one knock a ball pass: of a pit, or of a longer spall with a faint entry."
+    ),
+    ExtentStatus.UNCLEAR: (
+        "Frequency bands do not agree on two knocks a ball pass: what rings hides them, or balls "
+        "do not meet the damage alike."
+    ),
+    ExtentStatus.BOUNCES: (
+        "Two knocks a ball pass have one spectrum and differ in height: a ball that bounces, not "
+        "entry and exit."
+    ),
     ExtentStatus.NO_RACE: "No damaged race is named, so there is no extent to measure.",
     ExtentStatus.NOT_VISIBLE: "Nothing repeats clearly with the ball passes of this race.",
     ExtentStatus.TOO_SHORT: "The recording holds too few ball passes for a mean.",
@@ -65,10 +79,10 @@ class MeasuredExtent:
     race
         "outer" or "inner"; "" where no race is named.
     extent, low, high
-        [rad] and the interval in which it lies with 95 %. NaN where there is none; of a bound only
-        `high` is a number: the extent is shorter than that.
+        [rad] and the interval in which it lies with 95 %. NaN where there is none.
     separation, deviation
-        [rad] of the race between the peaks of entry and exit, and its standard deviation.
+        [rad] of the race between the peaks of entry and exit, and its standard deviation. Where
+        either may be the entry, the shorter way.
     offset
         [rad] added to it: the median of the angle over which a ball carries nothing yet or no
         longer, see `release`.
@@ -112,18 +126,21 @@ class MeasuredExtent:
     @property
     def sentence(self) -> str:
         """The answer in a sentence."""
-        degrees = np.degrees([self.extent, self.low, self.high, self.ball_spacing])
-        if self.status == ExtentStatus.BOUNDED:
+        spacing = math.degrees(self.ball_spacing)
+        if self.status == ExtentStatus.EITHER:
+            one, other = (
+                math.degrees(way + self.offset)
+                for way in (self.separation, self.ball_spacing - self.separation)
+            )
             return (
-                f"{self.race.capitalize()} race: shorter than about {degrees[2]:.1f}°. "
-                f"{self.status.sentence}"
+                f"{self.race.capitalize()} race: {one:.1f}° or {other:.1f}°. {self.status.sentence}"
             )
         if not self.measured:
             return self.status.sentence
+        extent, low, high = np.degrees([self.extent, self.low, self.high])
         return (
-            f"{degrees[0]:.1f}° ({degrees[1]:.1f}-{degrees[2]:.1f}°), "
-            f"{1e3 * self.length:.1f} mm, {self.race} race; or that and whole ball spacings of "
-            f"{degrees[3]:.1f}°."
+            f"{extent:.1f}° ({low:.1f}-{high:.1f}°), {1e3 * self.length:.1f} mm, {self.race} race; "
+            f"or that and whole ball spacings of {spacing:.1f}°."
         )
 
     def table(self) -> ResultTable:
@@ -133,7 +150,7 @@ class MeasuredExtent:
             ("status", "", [str(self.status)]),
             ("extent", "rad", [self.extent]),
             ("low", "rad", [self.low], "of the interval with 95 %"),
-            ("high", "rad", [self.high], "of the interval with 95 %, or the bound"),
+            ("high", "rad", [self.high], "of the interval with 95 %"),
             ("separation", "rad", [self.separation], "from the entry's peak to the exit's"),
             ("separation_deviation", "rad", [self.deviation]),
             ("offset", "rad", [self.offset], "over which a ball is not loaded beside the edges"),
@@ -164,9 +181,10 @@ def measure_extent(
     """The extent of a spall from the knocks of balls that enter and leave it.
 
     The envelope of the signal is averaged over the ball passes, aligned against slip, in the bands
-    that show them best. Two peaks on which the bands agree are entry and exit. Their separation and
-    the angle over which statics say that a ball carries nothing beside the edges are the extent,
-    but for whole ball spacings, of which the pass itself says nothing.
+    that show them best. Two peaks on which bands agree are entry and exit; the exit is the one that
+    grows with frequency, else the one that follows sooner. Their separation and the angle over
+    which statics say that a ball carries nothing beside the edges are the extent, but for whole
+    ball spacings, of which the pass itself says nothing.
 
     Parameters
     ----------
@@ -185,8 +203,8 @@ def measure_extent(
 
     Returns
     -------
-    A `MeasuredExtent`: with `status` "measured" an extent and its interval, with "bounded" one that
-    the extent does not reach, else the reason why there is none.
+    A `MeasuredExtent`: with `status` "measured" an extent and its interval, else the reason why
+    there is none.
 
     Raises
     ------
@@ -216,25 +234,35 @@ def measure_extent(
     if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(bearing.ball_spacing):
         return _without(race, bearing, ExtentStatus.TOO_COARSE)
     knocks = find_knocks(recording, nominal, slip)
-    if not knocks.visible:
-        return _without(race, bearing, ExtentStatus.NOT_VISIBLE)
-    return _answer(knocks, bearing, race, plausible_offsets(bearing, race, load, clearance))
+    return _answer(knocks, bearing, race, load, clearance)
 
 
-def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets) -> MeasuredExtent:
+_STATUS = {
+    Seen.NOTHING: ExtentStatus.NOT_VISIBLE,
+    Seen.ONE: ExtentStatus.ONE_KNOCK,
+    Seen.UNCLEAR: ExtentStatus.UNCLEAR,
+    Seen.ALIKE: ExtentStatus.BOUNCES,
+    Seen.EITHER: ExtentStatus.EITHER,
+    Seen.TWO: ExtentStatus.MEASURED,
+}
+
+
+def _answer(
+    knocks: Knocks, bearing: Bearing, race: str, load: float | None, clearance: float | None
+) -> MeasuredExtent:
+    status = _STATUS[knocks.seen]
     spacing = bearing.ball_spacing
     separation, deviation = spacing * knocks.separation, spacing * knocks.deviation
-    offset = offsets.quantile(0.5)
-    extent = low = length = math.nan
+    extent = low = high = length = offset = math.nan
     if math.isfinite(separation):
-        extent, status = separation + offset, ExtentStatus.MEASURED
+        offsets = plausible_offsets(bearing, race, load, clearance)
+        least, offset, most = (offsets.quantile(share) for share in (0.025, 0.5, 0.975))
+    if status == ExtentStatus.MEASURED:
+        extent = separation + offset
         # both sides separately: offsets lean towards long ones
-        below = math.hypot(offset - offsets.quantile(0.025), 1.96 * deviation)
-        above = math.hypot(offsets.quantile(0.975) - offset, 1.96 * deviation)
-        low, high = max(extent - below, 0.0), extent + above
+        low = max(extent - math.hypot(offset - least, 1.96 * deviation), 0.0)
+        high = extent + math.hypot(most - offset, 1.96 * deviation)
         length = extent * _raceway_radius(bearing, race)
-    else:
-        high, status = spacing * knocks.resolution + offsets.quantile(0.975), ExtentStatus.BOUNDED
     return MeasuredExtent(
         race, extent, low, high, separation, deviation, offset, spacing, knocks.passes,
         knocks.entry, knocks.exit, knocks.frequency, knocks.n_passes, length, status,

@@ -22,9 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.scene.assumed import FAN_RIG_SUPPORT
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
+from bearingcore.scene.presets import FAN_RIG_SUPPORT
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.life import dynamic_load_rating
@@ -47,16 +47,19 @@ CLEARANCE_SPREAD = 0.25
 LEAST_CLEARANCE = 3e-4
 """Of a ball diameter: the typical radial clearance where a bearing gives none."""
 
-EDGE_WEIGHTS = {"exact": 0.45, "chord": 0.45, "published": 0.10}
+EDGE_WEIGHTS = {"exact": 0.48, "chord": 0.48, "published": 0.04}
 """How probable each edge model is. The first two are geometry and nearly agree. `published` halves
 the arc; the offsets measured on a rig agree with it at a load only that the rig does not carry, so
-it widens the interval and does not lead the estimate."""
+it stays in the tail of the interval."""
 
-LEVELS = (0.025, 0.1, 0.25, 0.5, 0.75, 0.9, 0.975)
-"""Quantiles of load and clearance that are computed."""
+SEEN_SHARES = {1.0: 0.5, 0.75: 0.25, 0.5: 0.15, 0.25: 0.1}
+"""How probable it is that a sensor sees this share of the offset. Load falls from the edge on and
+is gone an offset later; a ball with mass strikes between there and the far edge. So the peaks lie
+somewhere on the way, and mostly where the load is gone."""
 
 _NORMAL = (-1.96, -1.2816, -0.6745, 0.0, 0.6745, 1.2816, 1.96)
 _WEIGHTS = (0.05, 0.125, 0.2, 0.25, 0.2, 0.125, 0.05)
+"""Standard deviations at which loads are computed, and their weights: a normal distribution."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +128,7 @@ def release_offset(
 def _falls_to_zero(
     place: NDArray[np.float64], compression: NDArray[np.float64], last: int, away: int
 ) -> float:
-    """Where a compression reaches 0 behind its `last` value, on a straight line from the one before."""
+    """Where a compression reaches 0 beyond its `last` value, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
     return float(place[last] - compression[last] / slope)
 
@@ -156,8 +159,10 @@ def plausible_offsets(
             for other, other_weight in zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True):
                 gap = max(typical * (1.0 + clearance_spread * other), 0.0)
                 offset = release_offset(bearing, race, force, gap, edge)
-                if math.isfinite(offset):
-                    values.append(offset)
-                    weights.append(edge_weight * weight * other_weight)
+                if not math.isfinite(offset):
+                    continue
+                for share, share_weight in SEEN_SHARES.items():
+                    values.append(share * offset)
+                    weights.append(edge_weight * weight * other_weight * share_weight)
     total = sum(weights)
     return Offsets(np.array(values), np.array(weights) / total if total else np.array(weights))

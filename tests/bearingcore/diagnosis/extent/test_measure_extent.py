@@ -1,0 +1,167 @@
+"""Spalls from entry to exit: measured where both are there, silent where they are not."""
+
+import math
+import os
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import fftconvolve
+
+from bearingcore import Recording, measure_extent, presets
+from bearingcore.diagnosis.extent.measure import ExtentStatus
+from tests.benchmarks.measured import RIGHT, WRONG, extent_verdict
+from tests.benchmarks.measured_records import records
+
+MEASURED = os.environ.get("MEASURED_RECORDS", "")
+needs_records = pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")
+
+MOTOR = presets["6205"].bearing
+RATE, SECONDS = 25_600.0, 3.0
+SPEED = 2.0 * math.pi * 15.0
+
+
+def signal(race: str = "outer", apart_deg: float = 5.0, entry: float = 1.0, *, seed: int = 1):
+    """Soft and sharp blows so far apart, through resonances, with slip and noise.
+
+    An `entry` of 0 leaves the sharp blows alone.
+    """
+    rng = np.random.default_rng(seed)
+    frequency = MOTOR.bpfo(SPEED) if race == "outer" else MOTOR.bpfi(SPEED)
+    count = round(RATE * SECONDS)
+    steps = 1.0 + 0.004 * rng.standard_normal(math.ceil(SECONDS * frequency))
+    passes = np.cumsum(steps) / frequency
+    late = math.radians(apart_deg) / MOTOR.ball_spacing / frequency
+    time = np.arange(round(0.02 * RATE)) / RATE
+    soft = np.exp(-(((time - 0.002) / 1.2e-4) ** 2)) * (time - 0.002) / 1.2e-4
+    sharp = np.exp(-(((time - 0.002) / 1.5e-5) ** 2))
+    signal = np.zeros(count + len(time))
+    for delay, shape in ((0.0, entry * soft), (late, sharp)):
+        blows = np.zeros(count)
+        places = np.rint((passes + delay) * RATE).astype(int)
+        blows[places[places < count]] = 1.0
+        signal[: count + len(time) - 1] += fftconvolve(blows, shape)
+    path = np.zeros(len(time))
+    path[0] = 1.0
+    for ring, size in ((2300.0, 0.15), (4900.0, 0.2), (8100.0, 0.2)):
+        path += size * np.exp(-0.03 * 2 * np.pi * ring * time) * np.sin(2 * np.pi * ring * time)
+    heard = fftconvolve(signal, path)[:count]
+    heard += 0.02 * rng.standard_normal(count)
+    return heard + 0.3 * np.cos(SPEED * np.arange(count) / RATE)
+
+
+def measured(samples, race="outer", **given):
+    return measure_extent(Recording(samples, RATE, ("y",)), MOTOR, SPEED, race=race, **given)
+
+
+@cache
+def spall(race: str = "outer"):
+    return measured(signal(race), race)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_the_time_between_knocks_and_the_offset_are_the_extent(race):
+    found = spall(race)
+    assert found.status == ExtentStatus.MEASURED
+    assert math.degrees(found.separation) == pytest.approx(5.0, abs=0.25)
+    assert found.extent == pytest.approx(found.separation + found.offset)
+    assert found.low < found.extent < found.high
+    assert (found.exit - found.entry) % 1.0 * found.ball_spacing == pytest.approx(
+        found.separation, abs=math.radians(0.3)
+    )
+    assert found.race == race
+    assert f"{math.degrees(found.extent):.1f}°" in found.sentence
+
+
+def test_the_exit_is_what_grows_with_frequency():
+    """30° of 40: the shorter way round is from exit to entry."""
+    found = measured(signal(apart_deg=30.0))
+    assert found.status == ExtentStatus.MEASURED
+    assert math.degrees(found.separation) == pytest.approx(30.0, abs=0.4)
+
+
+def test_time_has_a_direction():
+    """Backwards, 5° are the 35° after which a soft knock follows a sharp one."""
+    backwards = measured(signal()[::-1])
+    assert math.degrees(backwards.separation) == pytest.approx(35.0, abs=0.4)
+
+
+def test_units_do_not_matter():
+    louder = measured(1e3 * signal())
+    assert louder.extent == pytest.approx(spall().extent, rel=1e-6)
+    assert louder.high == pytest.approx(spall().high, rel=1e-6)
+
+
+def test_a_known_load_narrows_the_interval():
+    known = measured(signal(), load=100.0, clearance=3e-6)
+    assert known.high - known.low < spall().high - spall().low
+    assert known.separation == spall().separation
+
+
+def test_a_pit_has_no_extent_to_measure():
+    for seed in (1, 2):
+        found = measured(signal(entry=0.0, seed=seed))
+        assert not found.measured
+        assert math.isnan(found.extent)
+        assert found.status in (ExtentStatus.ONE_KNOCK, ExtentStatus.UNCLEAR)
+
+
+def test_noise_has_nothing_to_measure():
+    noise = np.random.default_rng(3).standard_normal(round(RATE * SECONDS))
+    assert measured(noise).status == ExtentStatus.NOT_VISIBLE
+
+
+def test_a_healthy_bearing_names_no_race():
+    noise = np.random.default_rng(4).standard_normal(round(RATE * SECONDS))
+    found = measure_extent(Recording(noise, RATE, ("y",)), MOTOR, SPEED)
+    assert found.status == ExtentStatus.NO_RACE
+    assert len(found.table()["extent"]) == 1
+
+
+def test_too_few_ball_passes_and_too_few_samples():
+    assert measured(signal()[: round(0.15 * RATE)]).status == ExtentStatus.TOO_SHORT
+    coarse = Recording(signal()[::32], RATE / 32, ("y",))
+    answer = measure_extent(coarse, MOTOR, SPEED, race="outer")
+    assert answer.status == ExtentStatus.TOO_COARSE
+
+
+@pytest.mark.parametrize(
+    "given", [{"race": "cage"}, {"load": 0.0}, {"load": math.nan}, {"clearance": -1e-6}]
+)
+def test_what_cannot_be_is_refused(given):
+    with pytest.raises(ValueError, match=next(iter(given))):
+        measured(signal(), **given)
+
+
+def test_the_table_holds_the_answer_and_the_mean_pass():
+    table = spall().table()
+    assert table["extent"][0] == spall().extent
+    assert len(table["envelope"]) == len(table["angle"])
+
+
+@needs_records
+def test_spalls_of_a_rig_are_measured():
+    """Twelve of 5° and 8° within 1°, and none of 2° with an interval that it is not in."""
+    found = [
+        (one, measure_extent(one.recording, one.bearing, one.shaft_speed, race=one.truth[:5]))
+        for one in records(Path(MEASURED, "hitsm"))
+        if one.spall_extent_deg
+    ]
+    results = [extent_verdict(*pair) for pair in found]
+    assert WRONG not in results
+    long = [(one, answer) for one, answer in found if one.spall_extent_deg > 2.0]
+    assert len(long) == 12
+    for one, answer in long:
+        assert math.degrees(answer.extent) == pytest.approx(one.spall_extent_deg, abs=1.0)
+        assert math.degrees(answer.high - answer.low) <= 3.0
+    assert results.count(RIGHT) >= 12
+
+
+@needs_records
+@pytest.mark.parametrize("collection", ["cwru", "mfpt"])
+def test_pits_are_given_no_extent_that_cannot_be(collection):
+    for one in records(Path(MEASURED, collection)):
+        if one.truth in ("inner race", "outer race"):
+            answer = measure_extent(one.recording, one.bearing, one.shaft_speed, race=one.truth[:5])
+            assert not answer.measured or answer.low < math.radians(3.0)

@@ -234,6 +234,27 @@ def test_a_map_is_read_and_clicked(visitor: Visitor, explorer: Server) -> None:
     visitor.reads(re.compile(f"{visitor.number('Extent'):g}°"))
 
 
+def test_the_value_under_the_pointer_is_that_of_the_core(
+    visitor: Visitor, explorer: Server
+) -> None:
+    visitor.open(explorer, "?v=1&preset=liew-lim&tab=maps")
+    visitor.point(0, 0.12, 0.12)
+    tooltip = visitor.page.locator(".bk-Tooltip div:has(> b)").filter(visible=True)
+    shown = tooltip.inner_text().replace("−", "-")
+    found = re.search(r"(-?[\d.]+) ([kM])N/m", shown)
+    place = [re.search(rf"{name}\D*?([\d.]+)°", shown) for name in ("Extent", "Cage angle")]
+    assert found is not None
+    assert None not in place, shown
+    extent, angle = (float(number[1]) for number in place if number is not None)
+    liew_lim, near = presets["liew-lim"], []
+    for apart in (-0.5, 0.0, 0.5):  # degrees, as the pointer lies between points of the map
+        scene = liew_lim.replace(extent=math.radians(extent + apart))
+        angles = np.radians(angle + np.array([-0.3, 0.0, 0.3]))
+        near.append(equilibrium(scene, np.maximum(angles, 0.0)).term("k_xx"))
+    value = float(found[1]) * {"k": 1e3, "M": 1e6}[found[2]]
+    assert 0.99 * np.min(near) <= value <= 1.01 * np.max(near)
+
+
 def test_defects_are_added_chosen_and_removed(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer, FAN_RIG + "load")
     before = visitor.figures()
@@ -280,7 +301,8 @@ def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor, explorer: 
     visitor.open(explorer, FAN_RIG + "explore")
     visitor.wait(lambda: len(visitor.figures()) >= 4)
     visitor.sees_change(lambda: visitor.choose("Vertical axis", "Radial clearance (µm)"))
-    visitor.reads(re.compile("clearance"))
+    visitor.wait(lambda: any("clearance" in words for words in visitor.sentences()))
+    visitor.steady()
     visitor.point(0, 0.5, 0.5)
     visitor.page.mouse.down()
     visitor.page.mouse.up()
@@ -312,6 +334,21 @@ def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(
     visitor.steady()
     visitor.press("Undo")
     expect(visitor.page.get_by_label("Balls", exact=True)).to_have_value("massless")
+
+
+def test_a_ball_strikes_where_the_numbers_say(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "ball-mass")
+    visitor.reads(re.compile("strikes the outer race after"))
+    sentence = " ".join(visitor.sentences())
+    strikes = re.findall(r"the (inner|outer) race after ([\d.]+) ms with ([\d.]+) N", sentence)
+    assert {race for race, *_ in strikes} >= {"outer"}
+    _, text = visitor.download(lambda: visitor.export("CSV"))
+    table = np.genfromtxt(io.StringIO(text.decode()), delimiter=",", names=True)
+    for race, after, load in strikes:
+        near = np.abs(table["time_s"] - 1e-3 * float(after)) < 0.1e-3
+        columns = [name for name in table.dtype.names or () if f"{race}_race_load" in name]
+        hardest = max(float(table[name][near].max()) for name in columns)
+        assert hardest == pytest.approx(float(load), rel=0.1)
 
 
 def test_orbits_are_mapped_and_a_long_map_is_cancelled(visitor: Visitor, explorer: Server) -> None:
@@ -384,14 +421,15 @@ def test_rotor_support_and_directions_are_changed(visitor: Visitor, explorer: Se
     visitor.reads(re.compile(rf"\b{expected} Hz"))
 
 
-def _recording(extent_deg: float, rate: float = 48_000.0) -> bytes:
-    """A WAV file of 3 s of the fan rig's housing along y, with noise."""
+def _recording(extent_deg: float, rate: float = 48_000.0, *, channels: int = 1) -> bytes:
+    """A WAV file of 3 s of the fan rig's housing with noise: y alone, or x, y and noise alone."""
     scene = FAN.replace(extent=math.radians(extent_deg))
-    signal = simulate(scene, 3.2, rate).outer_acceleration[round(0.2 * rate) :, 1]
+    signal = simulate(scene, 3.2, rate).outer_acceleration[round(0.2 * rate) :]
     rng = np.random.default_rng(1)
-    signal = signal + 0.1 * signal.std() * rng.standard_normal(len(signal))
+    signal = signal + 0.1 * signal.std() * rng.standard_normal(signal.shape)
+    signal = np.column_stack([signal, rng.standard_normal(len(signal))])
     file = io.BytesIO()
-    wavfile.write(file, round(rate), signal.astype(np.float32))
+    wavfile.write(file, round(rate), signal[:, 1 if channels == 1 else slice(3)].astype("f4"))
     return file.getvalue()
 
 
@@ -412,6 +450,21 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(
     assert "blank" not in visitor.figures()
     visitor.press(re.compile(r"38\.\d° into the scene"))
     visitor.wait(lambda: abs(visitor.number("Extent") - 38.6) < 0.3)
+
+
+def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "diagnosis")
+    visitor.bring(visitor.main, "three.wav", _recording(38.6, channels=3))
+    visitor.reads(re.compile("The file holds 3 signals"))
+    along = [visitor.main.get_by_label(re.compile(f"^Along {name}")) for name in "xy"]
+    along[1].select_option(index=1)
+    visitor.reads(re.compile("three.wav: 3 s along y"))
+    along[0].select_option(index=1)
+    visitor.reads(re.compile("cannot be the same column"))
+    along[1].select_option(index=2)
+    visitor.reads(re.compile("along x and y"))
+    visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    visitor.reads(re.compile("outer race is (probably )?damaged"))
 
 
 def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer: Server) -> None:
@@ -435,10 +488,34 @@ def test_accuracy_is_measured_and_the_measuring_cancelled(
     visitor.press("Measure")
     visitor.reads(re.compile(r"\d+ points after"))
     visitor.wait(lambda: "blank" not in visitor.figures() and bool(visitor.figures()))
+
+
+def test_a_measured_step_is_taken_over_and_given_back(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "accuracy")
+    visitor.reads(re.compile("The program chooses the steps"))
     visitor.choose("What to measure", "Motion: methods")
     visitor.press("Measure")
+    bar = visitor.main.get_by_role("progressbar").first
+    # the program's own Runge-Kutta is measured first
+    visitor.wait(lambda: float(bar.get_attribute("value") or 0.0) >= 0.22)
     visitor.press("Cancel", visitor.main)
     visitor.reads(re.compile("Cancelled"))
+    steps = visitor.main.get_by_label("Steps of the scene's motion")
+    visitor.wait(lambda: steps.locator("option").count() > 3)
+    steps.select_option(index=3)
+    visitor.reads(re.compile(r"Steps set by hand: \d+ Hz"))
+    visitor.press("Reset", visitor.main)
+    visitor.reads(re.compile("The program chooses the steps"))
+
+
+def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "accuracy")
+    visitor.press("What would less do here?", visitor.main)
+    visitor.reads(re.compile(r"\d+ models after"))
+    rows = visitor.main.get_by_role("table").get_by_role("row")
+    visitor.wait(lambda: rows.count() > 4)
+    for words in rows.all_inner_texts()[1:]:
+        assert re.search(r"\d (dB|%)|not known", words), words
 
 
 # --- lessons, classes, looks ----------------------------------------------------------------------

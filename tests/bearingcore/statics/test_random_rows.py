@@ -1,7 +1,6 @@
 """No random pair, self-aligning or roller bearing gives a wrong or an unexplained answer.
 
-`tests.helpers.random_rows` judges, in extended precision and without the solver's code. Two hundred
-thousand of them: `python -m tests.benchmarks.random_rows`.
+`tests.helpers.random_rows` judges, in extended precision and without the solver's code.
 """
 
 from __future__ import annotations

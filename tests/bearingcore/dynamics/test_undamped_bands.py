@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.linalg import eig
 
 from bearingcore import Scene, equilibrium, kernels, presets
 from bearingcore.dynamics.modes import (
@@ -161,19 +160,6 @@ def test_against_forty_digits() -> None:
             values = sorted(mpmath.eigsy(scaled, eigvals_only=True))
             exact = [float(mpmath.sqrt(value) / (2 * mpmath.pi)) for value in values]
             np.testing.assert_allclose(found[k], exact, rtol=1e-11)
-
-
-def test_the_general_problem_without_damping_says_the_same() -> None:
-    """λ² M + K = 0 as the damped modes are found, but with C = 0."""
-    terms = terms_of(RIG, 7)[:, 0][[0, 1, 5]]
-    mass = np.concatenate([RIG.support.inertia(body, ("x", "y")) for body in ("inner", "outer")])
-    support = RIG.support.stiffness(("x", "y"))
-    template = template_of(terms, support, mass)
-    found = np.sort(_frequencies_like(template, terms, support, mass).T, axis=1)
-    for k, K in enumerate(full(terms, support)):
-        state = np.block([[np.zeros((4, 4)), np.eye(4)], [-K / mass[:, None], np.zeros((4, 4))]])
-        values = np.sort(np.abs(eig(state, right=False)))[::2] / (2.0 * math.pi)
-        np.testing.assert_allclose(found[k], values, rtol=1e-10)
 
 
 def test_where_two_templates_want_the_same_mode_the_assignment_decides() -> None:

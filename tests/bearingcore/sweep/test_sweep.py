@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import errno
 import os
@@ -361,14 +360,12 @@ def copied(finished_store: Path, tmp_path: Path) -> Path:
 def test_a_store_holds_what_memory_would(reference: xarray.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "results.zarr"
     told: list[tuple[float, str]] = []
+
+    def progress(part: float, words: str) -> None:
+        told.append((part, words))
+
     found = sweep(
-        RIG,
-        OVER,
-        FEW,
-        store=path,
-        settings=COARSE,
-        scenes_per_task=TASK,
-        progress=lambda part, words: told.append((part, words)),
+        RIG, OVER, FEW, store=path, settings=COARSE, scenes_per_task=TASK, progress=progress
     )
     xarray.testing.assert_equal(found.load(), reference)
     assert found.attrs == reference.attrs
@@ -714,48 +711,6 @@ def test_a_wrong_file_is_refused_by_name(old: str, new: str, words: str) -> None
     assert old in FILE
     with pytest.raises(ValueError, match=re.escape(words)):
         grid_from_toml(FILE.replace(old, new, 1))
-
-
-_VALUES = st.recursive(
-    st.none()
-    | st.booleans()
-    | st.integers()
-    | st.floats()
-    | st.text(max_size=8)
-    | st.sampled_from(["extent", "fy", "start", "stop", "num", *OUTPUTS]),
-    lambda inner: (
-        st.lists(inner, max_size=4)
-        | st.dictionaries(
-            st.sampled_from(["extent", "fy", "start", "stop", "num", "outputs", "over", "edge"]),
-            inner,
-            max_size=4,
-        )
-    ),
-    max_leaves=12,
-)
-
-
-@given(data=st.dictionaries(st.sampled_from(["outputs", "over", "duration"]), _VALUES))
-@hypothesis_settings(max_examples=300, deadline=None)
-def test_any_table_gives_a_grid_or_a_sentence(data: dict[str, Any]) -> None:
-    import tomli_w
-
-    def plain(value: Any) -> Any:
-        if isinstance(value, dict):
-            return {k: plain(v) for k, v in value.items() if v is not None}
-        return [plain(v) for v in value if v is not None] if isinstance(value, list) else value
-
-    text = RIG.to_toml() + tomli_w.dumps({"sweep": plain(data)})
-    with contextlib.suppress(ValueError):  # and nothing else
-        assert grid_from_toml(text).size >= 1
-
-
-@given(st.text(max_size=200), st.integers(0, len(FILE)), st.integers(0, 40))
-@hypothesis_settings(max_examples=300, deadline=None)
-def test_any_text_gives_a_grid_or_a_sentence(text: str, at: int, gone: int) -> None:
-    for candidate in (text, FILE[:at] + text[:5] + FILE[at + gone :]):
-        with contextlib.suppress(ValueError):
-            assert grid_from_toml(candidate).size >= 1
 
 
 def test_the_command_asks_before_a_very_large_sweep(

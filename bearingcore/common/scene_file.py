@@ -105,7 +105,7 @@ def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T
     try:
         return kind(**values)
     except (TypeError, OverflowError) as error:
-        raise ValueError(f"{name}: {error}") from None
+        raise checks.refuse(name, short(values), f"values that fit it ({error})") from None
 
 
 def to_toml(data: Mapping[str, Any]) -> str:
@@ -136,7 +136,7 @@ def from_toml(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise ValueError(f"the text is not TOML: {error}") from None
+        raise checks.refuse("text", short(text), f"TOML ({error})") from None
     except ValueError:  # the interpreter's own limit, inside a list
         raise checks.refuse(
             "a number in the text", "one of many digits", f"{MOST_DIGITS} at most"

@@ -176,9 +176,10 @@ def _in_store(
         seen = False
         for region, computed in _finished(cluster, stores.finish, regions):
             if not (seen or stores.is_finished(region)):
-                raise ValueError(
-                    f"a worker wrote to {path}, but here it is not to be seen: "
-                    "the store must be a folder that this and all workers share"
+                raise checks.refuse(
+                    "store",
+                    str(path),
+                    "a folder that all workers share: one wrote to it and nothing is there",
                 )
             seen = True
             done.add(region.part.size, kept=not computed)
@@ -363,8 +364,5 @@ def _same_version(version: str, work: Callable[[Any], Any], task: Any) -> Any:
     """On a worker: do the work, if both ends are the same program."""
     here = program_version()
     if here != version:
-        raise ValueError(
-            f"a worker has version {here} of this program, the sweep was started by {version}: "
-            "install the same on all"
-        )
+        raise checks.refuse("version of a worker", here, f"{version}, which started the sweep")
     return work(task)

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.errors import FieldError
 from bearingcore.sweep.grid import Grid, program_version
 from bearingcore.sweep.outputs import MODE, OUTPUTS, Numbers
 from bearingcore.sweep.status import STATUSES
@@ -82,7 +83,7 @@ def prepare(path: Path, grid: Grid, region_shape: Sequence[int]) -> tuple[int, .
     Raises
     ------
     ValueError
-        where the folder holds something else, or results of another sweep: a sentence says which.
+        where the folder holds something else, or results of another sweep.
     """
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         _create(path, grid, region_shape)
@@ -145,14 +146,13 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
     """Shape of the regions of a store of just this sweep."""
     import zarr
 
-    what = f"{path} is there already and"
     try:
         root: Any = zarr.open_group(path, mode="r", zarr_format=3)
         found = dict(root.attrs)
         if found.get("program") != PROGRAM or "request" not in found:
             raise KeyError("request")
     except (OSError, ValueError, KeyError):
-        raise ValueError(f"{what} does not hold results of a sweep: name another folder") from None
+        raise _taken(path, "does not hold results of a sweep") from None
     expected = attributes(grid)
     for name, words in (
         ("scene", "another scene"),
@@ -160,15 +160,17 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
         ("program_version", f"results of version {found.get('program_version')} of this program"),
     ):
         if found.get(name) != expected[name]:
-            raise ValueError(f"{what} holds {words}: name another folder, or remove it")
+            raise _taken(path, f"holds {words}")
     for axis in grid.axes:
         values = np.asarray(root[axis.name][...])
         if not np.array_equal(values.astype(axis.values.dtype), axis.values):
-            raise ValueError(
-                f"{what} holds a sweep over other values of {axis.name}: "
-                "name another folder, or remove it"
-            )
+            raise _taken(path, f"holds a sweep over other values of {axis.name}")
     return tuple(int(n) for n in root[STATUS].chunks)
+
+
+def _taken(path: Path, words: str) -> FieldError:
+    """The refusal of a folder with something else in it."""
+    return checks.refuse("store", str(path), f"a new folder, or this sweep's own: it {words}")
 
 
 class Region(NamedTuple):

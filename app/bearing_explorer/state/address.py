@@ -60,8 +60,8 @@ from bearing_explorer.state.field_values import (
     limits_of,
 )
 from bearing_explorer.state.field_values import read as read_number
-from bearing_explorer.state.scene_editor import MOST_DEFECTS, SceneEditor, clean_name
-from bearing_explorer.state.sentences import sentence_of
+from bearing_explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
+from bearing_explorer.state.sentences import one_line, sentence_of
 from bearingcore import (
     DOF_NAMES,
     Bearing,
@@ -355,7 +355,7 @@ def _read(given: dict[str, str]) -> Place:
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
     tab = FORMER_TABS.get(tab, tab)
-    name = clean_name(given.pop("name", ""))
+    name = one_line(given.pop("name", ""), LONGEST_NAME)
     rows = {"rows": _rows(given.pop("rows"))} if "rows" in given else {}
     defects, notes = [], []
     for number in range(count):
@@ -524,5 +524,5 @@ def unpacked(word: str) -> MeasuredFloor:
 
 def _shown(text: str) -> str:
     """Untrusted text for a sentence: short, on one line."""
-    clean = "".join(sign if sign.isprintable() else " " for sign in text[:60])
+    clean = one_line(text, 31)
     return clean if len(clean) <= 30 else clean[:29] + "…"

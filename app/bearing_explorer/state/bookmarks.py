@@ -28,12 +28,11 @@ from bearing_explorer.state.address import (
 from bearing_explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.state.history import History
 from bearing_explorer.state.reference import Reference
-from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
-from bearing_explorer.state.sentences import sentence_of
+from bearing_explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
+from bearing_explorer.state.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common.scene_file import LARGEST_TEXT
 
-LONGEST_NAME = 60
 _STEPS = ("set", "typed", "choose", "reset", "floor")
 
 
@@ -72,8 +71,7 @@ def read_request(request: OpenRequest) -> Place | str:
 
 def name_of(text: str) -> str:
     """A name for a scene from untrusted text: short, on one line, not empty."""
-    clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
-    return " ".join(clean.split())[:LONGEST_NAME].rstrip() or "Unnamed"
+    return one_line(text, LONGEST_NAME) or "Unnamed"
 
 
 class Bookmarks:
@@ -154,8 +152,7 @@ class Bookmarks:
             self.say(found)
             return False
         if request.what == "pin":
-            self.pinned = Reference(found.scene, request.name)
-            self.say(f"“{request.name}” is pinned: grey shows it behind every scene.")
+            self._pin(found.scene, request.name)
             return True
         try:
             self._editor.take_scene(
@@ -170,8 +167,11 @@ class Bookmarks:
 
     def pin_here(self, name: str) -> None:
         """Pin the scene of now."""
-        self.pinned = Reference(self._editor.scene, name_of(name))
-        self.say(f"“{self.pinned.name}” is pinned: grey shows it behind every scene.")
+        self._pin(self._editor.scene, name_of(name))
+
+    def _pin(self, scene: Scene, name: str) -> None:
+        self.pinned = Reference(scene, name)
+        self.say(f"“{name}” is pinned: grey shows it behind every scene.")
 
     def unpin(self) -> None:
         """Grey shows the healthy bearing again."""

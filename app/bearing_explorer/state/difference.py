@@ -5,7 +5,13 @@ from __future__ import annotations
 import math
 
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE
-from bearing_explorer.state.field_values import SHOWN_FIELDS, Values, defects_of, values_of
+from bearing_explorer.state.field_values import (
+    SHOWN_FIELDS,
+    Values,
+    defects_of,
+    differ,
+    values_of,
+)
 from bearingcore import Scene
 from bearingcore.fields import Field
 
@@ -45,12 +51,8 @@ def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, floa
     return [
         (field, (before[field.key], now[field.key]))
         for field in SHOWN_FIELDS
-        if field.part and _differ(before[field.key], now[field.key])
+        if field.part and differ(before[field.key], now[field.key])
     ]
-
-
-def _differ(a: float, b: float) -> bool:
-    return a != b and not (math.isnan(a) and math.isnan(b))
 
 
 def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:

@@ -98,6 +98,11 @@ def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0
     return scene.replace(**others) if others else scene
 
 
+def differ(a: float, b: float) -> bool:
+    """Whether two numbers of fields differ; NaN, left open, equals itself."""
+    return a != b and not (math.isnan(a) and math.isnan(b))
+
+
 def limits_of(base: Scene) -> dict[str, Range]:
     """Ranges that fit a preset, by key: loads up to a few times its own, for example."""
     values = values_of(base)

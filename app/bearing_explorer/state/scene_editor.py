@@ -30,6 +30,7 @@ from bearing_explorer.state.field_values import (
     Values,
     check_values,
     defects_of,
+    differ,
     groove_limits,
     in_shown_unit,
     in_si,
@@ -39,7 +40,7 @@ from bearing_explorer.state.field_values import (
     values_of,
 )
 from bearing_explorer.state.second_units import second_units
-from bearing_explorer.state.sentences import sentence_of
+from bearing_explorer.state.sentences import one_line, sentence_of
 from bearingcore import (
     DOF_NAMES,
     Bearing,
@@ -177,7 +178,7 @@ class SceneEditor:
         for number in range(len(defects)):
             check_values({**values_of(scene, number), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
-        self.own_name, self.origin = clean_name(name), None
+        self.own_name, self.origin = one_line(name, LONGEST_NAME), None
         self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
         self._begin_limits(limits)
@@ -258,7 +259,7 @@ class SceneEditor:
         self._take(scene_with(self.scene, bearing))
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        self.own_name = clean_name(name)
+        self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
         self.drop_draft()
 
@@ -301,7 +302,7 @@ class SceneEditor:
         for name, value in taken.items():
             self.limits[name] = self.limits[name].around(value)
         changed = {
-            name: value for name, value in self.values.items() if _differ(before[name], value)
+            name: value for name, value in self.values.items() if differ(before[name], value)
         }
         return refused, changed
 
@@ -394,7 +395,7 @@ class SceneEditor:
         if isinstance(defect := choice.get("defect"), str):
             refused |= self._tried("defect", self._take_defect, defect)
         if isinstance(name := choice.get("name"), str):
-            self.own_name = clean_name(name)
+            self.own_name = one_line(name, LONGEST_NAME)
         if isinstance(listed := choice.get("bearing"), str):
             refused |= self._tried("bearing", self._take_listed, listed)
         if choice.get("draft") == "discard":
@@ -592,12 +593,6 @@ def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | No
         return None, f"{error}."
 
 
-def clean_name(text: str) -> str:
-    """A name for a bearing from untrusted text: short and on one line, or empty."""
-    clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * LONGEST_NAME])
-    return " ".join(clean.split())[:LONGEST_NAME].rstrip()
-
-
 def _with_rows(
     bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
 ) -> Bearing:
@@ -670,7 +665,3 @@ def _one_of(value: Any, options: Iterable[str]) -> str | None:
 def _close(a: float, b: float) -> bool:
     """Whether two numbers are the same up to the rounding of units."""
     return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-10, abs_tol=1e-12)
-
-
-def _differ(a: float, b: float) -> bool:
-    return not (a == b or (math.isnan(a) and math.isnan(b)))

@@ -59,6 +59,12 @@ def label_inside(field: Field) -> str:
     return label if label[:2] in ("Yo", "Po") else label[0].lower() + label[1:]
 
 
+def one_line(text: str, longest: int) -> str:
+    """Untrusted text on one line: printable characters, at most `longest` of them."""
+    clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * longest])
+    return " ".join(clean.split())[:longest].rstrip()
+
+
 def with_unit(value: float, unit: str, digits: int = 6) -> str:
     """A number with the unit of the page behind it: "12 mm", "3°"."""
     return number(value, digits) + (unit if unit in ("", "°") else f" {unit}")

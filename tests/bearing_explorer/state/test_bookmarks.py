@@ -146,7 +146,7 @@ def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
     assert Scene.from_toml(file["text"]) == editor.scene
     for text, words in (
         (presets["6205"].to_toml(), "is open"),
-        ("nonsense [", "not TOML"),
+        ("nonsense [", "allowed: TOML"),
         ("version = 7", "version"),
         ('[bearing]\nn_balls = "many"', "bearing"),
         (file["text"].replace("n_balls = 14", "n_balls = 1000000000"), "number of balls"),

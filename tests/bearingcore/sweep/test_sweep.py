@@ -660,12 +660,12 @@ def test_a_scheduler_that_is_not_there_is_told() -> None:
         sweep(RIG, {"extent": [0.1]}, FEW, client="tcp://127.0.0.1:9")
 
 
-def test_a_worker_of_another_version_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_of_another_version_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     versions = iter(["0.1.0"])
     monkeypatch.setattr(
         "bearingcore.sweep.run.program_version", lambda: next(versions, "another version")
     )
-    with pytest.raises(ValueError, match="a worker has version another version"):
+    with pytest.raises(ValueError, match="version of a worker"):
         sweep(RIG, {"extent": [0.1]}, FEW)
 
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
-AS_IN_FILE = style.AxisQuantity("Numbers of the file, unit not known", "", "")
+AS_IN_FILE = style.AxisQuantity("Value, unit not known", "", "")
 TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 HEIGHT = 230
 DRAWN_PARTS = 700

@@ -122,7 +122,7 @@ def _at_speed(
     # lines broader than the window that they are looked for in make nothing finer
     if own.clear and signal.duration * 2.0 * slip * shaft > 1.0:
         shaft = own.frequency
-        source += ", made finer by the shaft's own lines"
+        source += ", refined from the shaft lines in the signal"
     judged = judge(signal, parts, shaft, slip, given)
     answer = decide(signal, judged, shaft, source)
     return (

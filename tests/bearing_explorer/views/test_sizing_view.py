@@ -485,7 +485,7 @@ def test_a_signal_without_a_unit_is_drawn_on_an_axis_without_one():
     assert "m/s²" not in sentence
     for plot in view.figures:
         shown = [axis for axis in plot.left if axis.visible]
-        assert [axis.axis_label for axis in shown] == ["Numbers of the file, unit not known"]
+        assert [axis.axis_label for axis in shown] == ["Value, unit not known"]
     assert list(view.table(RESULTS)) == ["time_s", "signal_x", "signal_y"]
     assert '[1, 2], ["x", "y"], "m/s²"' in view.python()
     assert "in_si=False" in view.python()

@@ -695,7 +695,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
         ('"fan-rig"', '"fan"', 4, "“fan” is not a preset; there are"),
         ('["fy_n"]', '"fy_n"', 5, "drag should be a list of texts"),
-        ('["fy_n"]', '["fy"]', 5, "“fy” is not a control beside the figures"),
+        ('["fy_n"]', '["fy"]', 5, "“fy” is not a control of the page"),
         ('["bearing"]', '["maps"]', 6, "“maps” is not a figure of this tab; there are bearing"),
         ("[scene]", "[seen]", 8, "“seen” is not known"),
         ("extent_deg = 64", "extent_deg = 640", 9, "640° is out of range: extent goes from 0"),

@@ -71,7 +71,7 @@ class Recorder(Work):
 def test_whatever_a_sweep_gives_can_be_mapped_over_whatever_has_a_slider() -> None:
     assert {output.in_sweep for output in MAP_OUTPUTS.values() if output.in_sweep} == set(OUTPUTS)
     assert len({choice.label for choice in MAP_OUTPUTS.values()}) == len(MAP_OUTPUTS)
-    assert {quantity.field for quantity in SWEEPABLE.values()} <= set(UNITS)
+    assert {quantity.name for quantity in SWEEPABLE.values()} <= set(UNITS)
     # groups stand together, or a list would name them twice
     groups = [choice.group for choice in MAP_OUTPUTS.values()]
     assert len(set(groups)) == 1 + sum(a != b for a, b in pairwise(groups))
@@ -261,23 +261,23 @@ FORM = {
 def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
     view, editor = ExplorePlane(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=words):
-        view.asked({**FORM, **change}, editor)
-    assert view.asked(FORM, editor).stride == 4
+        view.request_of({**FORM, **change}, editor)
+    assert view.request_of(FORM, editor).stride == 4
 
 
 @pytest.mark.parametrize("preset", list(presets))
 def test_the_form_as_it_comes_up_can_be_answered(preset: str) -> None:
     view, editor = ExplorePlane(PackedSource()), SceneEditor(preset)
     values, _ = view.form(editor)
-    asked = view.asked(values, editor)
-    found = coarse(asked.of(Results(editor.scene)))
+    request = view.request_of(values, editor)
+    found = coarse(request.of(Results(editor.scene)))
     assert found.missing == 0
 
 
 def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     packed = PackedSource()
     view, editor = ExplorePlane(packed), SceneEditor("fan-rig")
-    view._asking = view.asked(FORM, editor)
+    view._request = view.request_of(FORM, editor)
     results = Results(RIG)
     sources, ranges = view.data(results)
     assert sources["explore_mark"]["x"] == pytest.approx([20.0])
@@ -286,15 +286,15 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     words = view.sentence(results)
     assert words.startswith("9 × 7 points. kyy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
-    view.found = coarse(view._asking.of(results))
+    view.found = coarse(view._request.of(results))
     assert view.data(results)[0]["explore_old"]["alpha"].size == 0
     table = view.table(results)
     assert set(table) == {"extent_deg", "fy_n", "k_yy_mean_n_per_m", "no_answer_because"}
     assert table["k_yy_mean_n_per_m"].shape == (7, 9)
     # an output that takes a while: what is drawn is veiled until its map is there
-    view._asking = view.asked({**FORM, "output": "acceleration_rms_y"}, editor)
+    view._request = view.request_of({**FORM, "output": "acceleration_rms_y"}, editor)
     assert view.data(results)[0]["explore_old"]["alpha"] == pytest.approx([0.65])
-    assert view.sentence(results).startswith("What is drawn, faint, is another map.")
+    assert view.sentence(results).startswith("Faint: an earlier map.")
     assert summary(view.found) in words
 
 
@@ -335,8 +335,8 @@ def test_the_form_of_explore_asks_for_a_band_with_the_share_of_mass_alone() -> N
     assert [field["only"] for field in bands] == [{"output": ["mass_share"]}] * 2
     editor = SceneEditor("fan-rig")
     given = {**view.form(editor)[0], "output": "mass_share", "band_from": "10", "band_to": "20"}
-    assert view.asked(given, editor).output.band == (10e3, 20e3)
+    assert view.request_of(given, editor).output.band == (10e3, 20e3)
     with pytest.raises(ValueError, match="A band goes from"):
-        view.asked({**given, "band_to": "5"}, editor)
+        view.request_of({**given, "band_to": "5"}, editor)
     with pytest.raises(ValueError, match="must be a number"):
-        view.asked({**given, "band_from": "low"}, editor)
+        view.request_of({**given, "band_from": "low"}, editor)

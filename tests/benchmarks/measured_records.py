@@ -64,6 +64,7 @@ def ball_bearing(
 
 
 CWRU = (9, 7.94, 39.04)
+CWRU_FAN_END = (8, 6.746, 28.50)
 CWRU_RPM = {"0": 1797.0, "1": 1772.0, "2": 1750.0, "3": 1730.0}
 CWRU_EXTENT_DEG = {"007": 0.43, "014": 0.87, "021": 1.30}
 CWRU_INNER_DEG = {"007": 0.66, "014": 1.31, "021": 1.97, "028": 2.62}
@@ -123,39 +124,57 @@ def _mat(path: Path) -> Record:
     if "vload" in path.name or "baseline" in path.name:
         return _mfpt(path)
     spall = HITSM.fullmatch(path.stem)
-    return _hitsm(path, *spall.groups()) if spall else _cwru(path)
+    if spall:
+        race, extent_deg, turns = spall.groups()
+        return _hitsm(path, {"I": "inner race", "O": "outer race"}[race], turns, float(extent_deg))
+    if path.parent.name == "hitsm":  # healthy by its label, with lines of both races in it
+        return _hitsm(path, UNKNOWN, path.stem.rpartition("_")[2], None)
+    return _cwru(path)
 
 
-def _hitsm(path: Path, race: str, extent_deg: str, turns: str) -> Record:
+def _hitsm(path: Path, truth: str, turns: str, extent_deg: float | None) -> Record:
     content = loadmat(path)
     signal = next(content[key] for key in content if not key.startswith("__"))
     recording = Recording(
         np.asarray(signal, dtype=float).reshape(-1) * UNITS["g"], 51_200.0, ("y",), path.name
     )
     return Record(
-        path.stem, {"I": "inner race", "O": "outer race"}[race], "HIT-SM 6205",
-        ball_bearing(*CWRU), _speed(float(turns)), recording, None, float(extent_deg),
+        path.stem, truth, "HIT-SM 6205", ball_bearing(*CWRU), _speed(float(turns)), recording,
+        None, extent_deg,
     )  # fmt: skip
 
 
 def _cwru(path: Path) -> Record:
     content = loadmat(path)
     name = path.stem
-    number = re.search(r"_(\d{2,4})(?:@\d+)?_(?:Normal_)?\d$", name)
-    drive_end = [key for key in content if key.endswith("_DE_time")]
+    fan_end = "Fan_End" in name
+    place = "_FE_time" if fan_end else "_DE_time"
+    # the record's number stands before the load's digit in one store of them, behind it in another
+    number = re.search(r"_(\d{2,4})(?:@\d+)?_(?:Normal_)?\d$", name) or re.search(
+        r"_\d_(\d{3,4})$", name
+    )
+    load = re.search(r"_(\d)(?:_\d{3,4})?$", name)
+    own = [key for key in content if key.endswith(place)]
     # a file may hold another's vectors too: its own carry its number
-    named = [key for key in drive_end if number and key.lstrip("X0").startswith(number.group(1))]
-    variable = (named or drive_end)[0]
-    told = content.get(variable.replace("_DE_time", "RPM"))
-    turns = CWRU_RPM[name[-1]] if told is None else float(np.asarray(told).reshape(-1)[0])
+    named = [key for key in own if number and key.lstrip("X0").startswith(number.group(1))]
+    variable = (named or own)[0]
+    given = content.get(variable.replace(place, "RPM"))
+    turns = (
+        CWRU_RPM[load[1] if load else "0"]
+        if given is None
+        else float(np.asarray(given).reshape(-1)[0])
+    )
     kind = re.search(r"_(IR|OR|B)_(\d{3})", name)
     truth = {"IR": "inner race", "OR": "outer race", "B": "ball"}[kind[1]] if kind else HEALTHY
     rate = 48_000.0 if name.startswith(("48k", "Normal")) else 12_000.0
-    extent = CWRU_EXTENT_DEG.get(kind[2]) if kind and kind[1] == "OR" else None
-    either = CWRU_INNER_DEG.get(kind[2]) if kind and kind[1] == "IR" else extent
+    extent = either = None
+    if kind and not fan_end:
+        extent = CWRU_EXTENT_DEG.get(kind[2]) if kind[1] == "OR" else None
+        either = CWRU_INNER_DEG.get(kind[2]) if kind[1] == "IR" else extent
     signal = np.asarray(content[variable], dtype=float).reshape(-1) * UNITS["g"]
     return Record(
-        name, truth, "CWRU 6205", ball_bearing(*CWRU), _speed(turns),
+        name, truth, "CWRU 6203" if fan_end else "CWRU 6205",
+        ball_bearing(*(CWRU_FAN_END if fan_end else CWRU)), _speed(turns),
         Recording(signal, rate, ("y",), path.name), extent, either,
     )  # fmt: skip
 

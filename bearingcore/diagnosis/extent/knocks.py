@@ -62,9 +62,9 @@ THIRD = 0.6
 """Height of a third peak, as a share of the second, from which it is a train of peaks: ringing."""
 
 LEAST_DIP = 0.25
-"""How far the envelope falls between two peaks, as a share of the lower one, that count as two."""
+"""Fall of the envelope between two peaks that count as two, as a share of the lower one."""
 
-SIDE_LOBES, LEAST_BESIDE = 3.0, 0.3
+SIDE_LOBES, LEAST_NEAR = 3.0, 0.3
 """A filter answers a knock with ripples of a fifth of its height for a few times one over its band
 width [s]: so near, a second peak must be so high."""
 
@@ -146,7 +146,7 @@ class Pair:
 
 
 class Seen(StrEnum):
-    """What mean passes show."""
+    """Findings in mean passes."""
 
     NOTHING = "nothing"
     ONE = "one knock"
@@ -158,7 +158,7 @@ class Seen(StrEnum):
 
 @dataclass(frozen=True)
 class Knocks:
-    """What the mean passes say.
+    """Knocks in the mean passes.
 
     Attributes
     ----------
@@ -242,7 +242,7 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
 
 
 def without_ringing(samples: Array, order: int) -> Array:
-    """What a linear prediction from the `order` samples before leaves of a signal (n,).
+    """The error of a linear prediction of a signal (n,) from the `order` samples before.
 
     The prediction with the least squared error (Yule and Walker) follows tones and resonances that
     ring; what excites them is left, with a flat spectrum.
@@ -271,7 +271,7 @@ def _mean_passes(found: BallPasses, names: list[tuple[Band, str]]) -> list[MeanP
 
 
 def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knocks:
-    """What mean passes of several bands show together.
+    """The finding on which mean passes of several bands agree.
 
     Parameters
     ----------
@@ -355,7 +355,7 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
     away = np.abs(places - highest) / PLACES
     near = np.minimum(away, 1.0 - away) < lobes
     enough = (
-        (height >= np.where(near, LEAST_BESIDE, FAINTEST) * turned[highest])
+        (height >= np.where(near, LEAST_NEAR, FAINTEST) * turned[highest])
         & (prominence >= LEAST_DIP * height)
         & (prominence >= LEAST_CONTRAST * error)
         & (places != highest)

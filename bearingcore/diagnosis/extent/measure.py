@@ -31,7 +31,7 @@ SAMPLES_A_DEGREE = 1.0
 
 
 class ExtentStatus(StrEnum):
-    """How a measurement of the extent ended."""
+    """The outcome of a measurement of the extent."""
 
     MEASURED = "measured"
     EITHER = "either way round"
@@ -51,7 +51,7 @@ class ExtentStatus(StrEnum):
 
 _SENTENCES = {
     ExtentStatus.MEASURED: "Entry and exit are separate in the mean ball pass.",
-    ExtentStatus.EITHER: "Entry and exit are separate, but which is which cannot be told.",
+    ExtentStatus.EITHER: "Entry and exit are separate, but it is not clear which is which.",
     ExtentStatus.ONE_KNOCK: (
         "There is one knock a ball pass: of a pit, or of a longer spall with a faint entry."
     ),

@@ -1,4 +1,4 @@
-"""How far inside the edges of a spall a ball loses its load and takes it up again, by statics.
+"""Release and pressing of a ball inside the edges of a spall, by statics.
 
 A ball does not let go at the edge. It sinks along the corner until it has sunk by its compression
 and by what the rings follow, and before the far edge it is pressed again the same way. So a sensor
@@ -48,12 +48,12 @@ LEAST_CLEARANCE = 3e-4
 """Of a ball diameter: the typical radial clearance where a bearing gives none."""
 
 EDGE_WEIGHTS = {"exact": 0.48, "chord": 0.48, "published": 0.04}
-"""How probable each edge model is. The first two are geometry and nearly agree. `published` halves
+"""Probability of each edge model. The first two are geometry and nearly agree. `published` halves
 the arc; the offsets measured on a rig agree with it at a load only that the rig does not carry, so
 it stays in the tail of the interval."""
 
 SEEN_SHARES = {1.0: 0.5, 0.75: 0.25, 0.5: 0.15, 0.25: 0.1}
-"""How probable it is that a sensor sees this share of the offset. Load falls from the edge on and
+"""Probability that a sensor sees this share of the offset. Load falls from the edge on and
 is gone an offset later; a ball with mass strikes between there and the far edge. So the peaks lie
 somewhere on the way, and mostly where the load is gone."""
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore import presets, simulate
+from bearingcore.dynamics.status import MotionStatus
 
 FAN_RIG = presets["fan-rig"]
 RATE = 65536.0
@@ -54,7 +55,7 @@ def test_a_step_that_rings_can_take_is_too_long_for_the_ball() -> None:
     made_to = simulate(scene, 0.1, RATE, step_rate=RATE)
     assert simulate(scene.replace(balls="massless"), 0.01, RATE).step_rate < RATE
     assert not made_to.completed
-    assert "too few" in made_to.status
+    assert made_to.status == MotionStatus.DIVERGED
     assert np.isnan(made_to.outer_acceleration[-1]).all()
     assert np.isnan(made_to.race_loads(6000, 6010)).all()
     by_itself = simulate(scene, 0.1, RATE)

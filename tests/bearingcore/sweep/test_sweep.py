@@ -704,7 +704,7 @@ def test_a_file_is_read() -> None:
         ("num = 20", f"num = {10**400}", "num of extent"),
         ("shaft_speed", "shaft_sped", "shaft_sped"),
         ("version = 1", "version = 2", "version"),
-        ("[sweep]", "[sweep", "not TOML"),
+        ("[sweep]", "[sweep", "allowed: TOML"),
     ],
 )
 def test_a_wrong_file_is_refused_by_name(old: str, new: str, words: str) -> None:

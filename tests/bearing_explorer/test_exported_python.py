@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement.form import understood
+from bearing_explorer.measurement.form import read_form
 from bearing_explorer.measurement.session import read_file
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.page import SECTIONS
@@ -80,7 +80,7 @@ def recorded() -> tuple[bytes, Measured]:
     file = io.BytesIO()
     wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
     read = read_file(RECORDED, file.getvalue(), 7.0)
-    asked = understood(read.table, {**read.form, "unit": "m/s²"})
+    asked = read_form(read.table, {**read.form, "unit": "m/s²"})
     return file.getvalue(), Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
 
 

@@ -16,9 +16,9 @@ from bearing_explorer.measurement.form import (
     columns_of,
     guess,
     questions,
+    read_form,
     reasons,
     said,
-    understood,
 )
 from bearing_explorer.state.address import opened, place_of, write
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -173,7 +173,7 @@ def _table(content: bytes) -> object:
         if words and (wrong := unclear(words)) is not None:
             raise AssertionError(f"{wrong}: {words[:200]!r}")
     y = form["y"] or next(value for value, _ in columns_of(table)[::-1])
-    return understood(table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"})
+    return read_form(table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"})
 
 
 def _addresses() -> list[str]:

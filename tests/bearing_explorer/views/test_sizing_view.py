@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 from bearing_explorer.measurement.diagnoses import Question, answered
-from bearing_explorer.measurement.form import understood
+from bearing_explorer.measurement.form import read_form
 from bearing_explorer.measurement.session import Sized, read_file
 from bearing_explorer.measurement.signal import Measured, Origin, Simulated
 from bearing_explorer.results.jobs import Jobs, Work
@@ -237,7 +237,7 @@ def test_a_file_from_elsewhere_is_sized_on_the_page():
     """Read, asked about and sized as the page does; its clock is 0.1 % off."""
     truth, content = file_from_elsewhere()
     read = read_file("rig.csv", content, 12.0)
-    asked = understood(read.table, {**read.form, "unit": "g"})
+    asked = read_form(read.table, {**read.form, "unit": "g"})
     measured = Measured(asked.recording, asked.shaft_speed)
     work = worked()
     compute(work, measured, measured.scene(truth.replace(extent=0.2)))

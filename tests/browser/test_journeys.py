@@ -506,14 +506,14 @@ def test_a_measured_step_is_taken_over_and_given_back(visitor: Visitor, explorer
     steps = visitor.main.get_by_label("Steps of the scene's motion")
     visitor.wait(lambda: steps.locator("option").count() > 3)
     steps.select_option(index=3)
-    visitor.reads(re.compile(r"Steps set by hand: \d+ Hz"))
+    visitor.reads(re.compile(r"Chosen steps: \d+ Hz"))
     visitor.press("Reset", visitor.main)
     visitor.reads(re.compile("The program chooses the steps"))
 
 
 def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer, FAN_RIG + "accuracy")
-    visitor.press("What would less do here?", visitor.main)
+    visitor.press("Compare simpler models", visitor.main)
     visitor.reads(re.compile(r"\d+ models after"))
     rows = visitor.main.get_by_role("table").get_by_role("row")
     visitor.wait(lambda: rows.count() > 4)
@@ -694,7 +694,7 @@ def test_a_scene_is_saved_changed_opened_and_swept(
     expect(visitor.box("Extent")).to_have_value("12.9")
     dialog = visitor.menu("Download")
     visitor.bring(dialog, "bad.toml", b"extent = [")
-    visitor.reads(re.compile("not TOML"), visitor.scene)
+    visitor.reads(re.compile("allowed: TOML"), visitor.scene)
     visitor.bring(visitor.scene, "mine.toml", text)
     expect(visitor.box("Extent")).to_have_value("38.6")
 

@@ -24,6 +24,9 @@ from bearing_explorer.serve.websocket import LiveSocket, close_idle
 SESSION_GRACE_SECONDS = 15.0
 """For which a session is kept that has no browser: it may come, or come back [s]."""
 
+LARGEST_HEADERS = 2_500_000
+"""Of a request [bytes]: browsers send addresses of 2 MB, which are answered with a sentence."""
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -89,6 +92,7 @@ def make_server(
         include_headers=[],
         include_cookies=[],
         websocket_max_message_size=limits.message,
+        http_server_kwargs={"max_header_size": LARGEST_HEADERS},
         unused_session_lifetime_milliseconds=int(1e3 * SESSION_GRACE_SECONDS),
         check_unused_sessions_milliseconds=1000,
         default_handler_class=Missing,

@@ -130,9 +130,9 @@ class BearingDrawing(View):
     name = "bearing"
     title = "The bearing"
     about = (
-        "Ball loads at the current cage angle, seen along the shaft. Rows are side by side. Bars "
-        "and colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The "
-        "keyway turns with the shaft; z points towards you."
+        "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
+        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The keyway "
+        "turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
     equal_aspect = True

@@ -180,7 +180,7 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     assert made.state.proposed == "g"
     assert "g is likely: a root mean square of 0.3" in made.state.reasons["unit"]
     assert made.state.reasons["unit"] in made.state.words
-    assert "Which part is damaged does not depend on it" in made.state.words
+    assert "The diagnosis of the damaged part does not depend on it" in made.state.words
     answer(made, sure="yes")  # agreeing to guesses is no answer to this
     assert made.state.open == ["unit"]
     assert not made.measured.in_si

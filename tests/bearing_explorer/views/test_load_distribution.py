@@ -168,4 +168,4 @@ def test_captions_of_a_roller_bearing_say_rollers() -> None:
     rollers = with_elements_of(
         presets["nu208"].bearing, "Balls at the ball-pass frequency of a ball"
     )
-    assert rollers == "Rollers and the ball-pass frequency"
+    assert rollers == "Rollers at the ball-pass frequency of a roller"

@@ -70,7 +70,8 @@ def report(
     `found`: results of jobs, by view; views of jobs without are left out.
     """
     parts: list[str] = []
-    drawn: list[Figure] = []
+    items: list[Any] = []
+    drawn: list[str] = []
     for kind in views:
         if not (kind.in_report and (kind.needs or kind.name in found)):
             continue
@@ -83,15 +84,16 @@ def report(
         except Exception:
             log.exception("the view %s failed in a report", kind.name)
             continue
-        drawn.append(figure)
-        if plots := figure.view.figures:
-            parts.append(_figure(kind, results, [plot.id for plot in plots], figure.sentence))
-    shown = [figure for figure in drawn if figure.view.figures]
+        drawable = figure.layout.references()  # a view may have figures for other choices
+        if ids := [plot.id for plot in figure.view.figures if plot in drawable]:
+            parts.append(_figure(kind, results, ids, figure.sentence))
+            items.append(json_item(figure.layout))
+            drawn += ids
     return {
         "name": FILE,
         "html": page(results, about, parts),
-        "items": [json_item(figure.layout) for figure in shown],
-        "figures": [plot.id for figure in shown for plot in figure.view.figures],
+        "items": items,
+        "figures": drawn,
     }
 
 

@@ -18,7 +18,7 @@ from bearing_explorer.widgets.status import status_of
 
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Point, Reference
-from bearingcore.experiments.stability import stability_chart
+from bearingcore.experiments.stability import FIXED_STEP, stability_chart
 
 RIG = presets["fan-rig"]
 
@@ -141,7 +141,7 @@ def test_the_stability_chart_holds_every_trial() -> None:
     sizes = [sources[f"accuracy_verdict_{k}"]["steps"].size for k in range(4)]
     assert sum(sizes) == len(chart.trials)
     assert sizes[3] > 0
-    assert sources["accuracy_limits"]["steps"].size == 3  # the implicit ones have none
+    assert sources["accuracy_limits"]["steps"].size == len(FIXED_STEP)  # all are explicit
     assert "diverges" in view.sentence(Results(RIG))
     assert view.table(Results(RIG))["verdict"].size == len(chart.trials)
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.explorer_page import wait
+from tests.browser.explorer_page import settle, wait
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -142,7 +142,8 @@ def test_the_page_works_without_the_speedups(watch: tuple[Page, Watch]) -> None:
         page.wait_for_function("window.__mark !== undefined")
         page.locator(".tab-load").click()
         drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
-        page.wait_for_function("window.__asked > 3 && window.__mark === window.__asked")
+        page.wait_for_function("window.__asked > 0")
+        settle(page)  # a slow picture has fewer positions of the slider asked for
         expect(page.get_by_text("The greatest load of a ball is").first).to_be_attached()
         source = "Bokeh.documents[0].get_model_by_name('load_distribution_balls')"
         assert page.evaluate(f"Object.values({source}.data)[0].length") > 3, "drawn without packets"

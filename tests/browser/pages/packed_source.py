@@ -10,6 +10,15 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import View
 from bokeh.plotting import figure
 
+from bearingcore import presets
+
+
+class Height(float):
+    """Results with nothing but a number."""
+
+    scene = presets["fan-rig"]
+    reference_caption = ""
+
 
 class Line(View):
     name = "line"
@@ -42,11 +51,11 @@ nodelay = pn.pane.Str("0", css_classes=["nodelay"])
 
 
 async def draw(value):
-    data, ranges = await in_thread(view.data, float(value))
+    data, ranges = await in_thread(view.data, Height(value))
 
     def change():
         packed.send(data, ranges, mark=value)
-        view.say(float(value), view.sentence(float(value)))
+        view.say(Height(value), view.sentence(Height(value)))
 
     await one_message(doc, change)
 

@@ -25,6 +25,9 @@ from bearingcore.signals.shaft_tones import without_shaft_tones
 FEWEST_PASSES = 6
 """Below this an average says nothing about its own scatter."""
 
+CUT = 0.3
+"""Share of the lowest frequency below which a signal is filtered out."""
+
 MOST_PASSES = 400
 """Later passes are left out: cages do not keep their speed so long."""
 
@@ -107,6 +110,22 @@ def coefficients(passes: NDArray[np.float64], count: int) -> NDArray[np.complex1
     return np.fft.rfft(passes, axis=1)[:, 1 : count + 1] / passes.shape[1]
 
 
+def least_passes(nominal: float, lowest: float) -> int:
+    """Ball passes that a signal must hold for `average_passes`, with what its filter spoils.
+
+    Parameters
+    ----------
+    nominal, lowest
+        [Hz] as of `average_passes`.
+    """
+    return FEWEST_PASSES + 2 * _margin(nominal, lowest) + 1
+
+
+def _margin(nominal: float, lowest: float) -> int:
+    """Ball passes at either end of a signal in which the filter rings."""
+    return math.ceil(1.5 * nominal / (CUT * lowest))
+
+
 def average_passes(
     signal: NDArray[np.float64],
     sample_rate: float,
@@ -147,14 +166,13 @@ def average_passes(
     from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
     from scipy.signal import butter, sosfiltfilt
 
-    cut = 0.3 * lowest
-    margin = math.ceil(1.5 * nominal / cut)
-    least = (FEWEST_PASSES + 2 * margin + 1) / (nominal * (1.0 - slip))
+    cut, margin = CUT * lowest, _margin(nominal, lowest)
+    least = least_passes(nominal, lowest) / (nominal * (1.0 - slip))
     if len(signal) / sample_rate < least:
         raise checks.refuse(
             "signal",
             f"of {len(signal) / sample_rate:.3g} s",
-            f"at least {least:.3g} s, {FEWEST_PASSES + 2 * margin + 1} ball passes",
+            f"at least {least:.3g} s, {least_passes(nominal, lowest)} ball passes",
         )
     if sample_rate < 2.5 * widest * (1.0 - 1e-9):  # 2.5 · 0.4 may be more than 1 in its last digit
         raise checks.refuse("sample_rate", sample_rate, f"at least {2.5 * widest:.0f} Hz")

@@ -17,7 +17,7 @@ import numpy as np
 
 from bearingcore import measure_extent, presets
 from bearingcore.scene.scene import Scene
-from tests.helpers.path_effects import PathEffects, Resonance, recorded_through
+from tests.helpers.path_effects import PathEffects, drawn_resonances, recorded_through
 
 SEED = 777
 
@@ -35,15 +35,7 @@ def draw(number: int) -> tuple[Scene, PathEffects]:
         edge=edge,
         balls="with mass",
     )
-    resonances = tuple(
-        Resonance(
-            math.exp(rng.uniform(math.log(low), math.log(high))),
-            rng.uniform(0.02, 0.06),
-            tuple((rng.uniform(0.5, 3.0, 2) * rng.choice([-1.0, 1.0], 2)).tolist()),
-        )
-        for low, high in ((500.0, 1400.0), (1400.0, 3500.0))
-    )
-    return scene, PathEffects(resonances=resonances)
+    return scene, PathEffects(resonances=drawn_resonances(rng))
 
 
 def judge(number: int, with_load: bool) -> str:

@@ -30,7 +30,7 @@ from bearingcore import Scene, presets
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
 from tests.benchmarks.machine import pace
-from tests.helpers.path_effects import PathEffects, Resonance, recorded_through
+from tests.helpers.path_effects import PathEffects, drawn_resonances, recorded_through
 
 SCORED, TRAINING = 5812, 4711
 TOGETHER = 8
@@ -81,15 +81,7 @@ def draw(family: int, number: int) -> tuple[Scene, PathEffects]:
         fy=-math.exp(group.uniform(math.log(80.0), math.log(400.0))),
         shaft_speed=2.0 * math.pi * group.uniform(6.0, 20.0),
     )
-    resonances = tuple(
-        Resonance(
-            math.exp(rng.uniform(math.log(low), math.log(high))),
-            rng.uniform(0.02, 0.06),
-            tuple((rng.uniform(0.5, 3.0, 2) * rng.choice([-1.0, 1.0], 2)).tolist()),
-        )
-        for low, high in ((500.0, 1400.0), (1400.0, 3500.0))
-    )
-    return scene, PathEffects(resonances=resonances)
+    return scene, PathEffects(resonances=drawn_resonances(rng))
 
 
 def size(family: int, effects: tuple[str, ...], steady: bool, number: int) -> Answer:

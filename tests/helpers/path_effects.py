@@ -69,6 +69,18 @@ class Resonance:
 TWO_RESONANCES = (Resonance(950.0, 0.04, (2.0, -1.5)), Resonance(2100.0, 0.03, (-1.0, 2.0)))
 
 
+def drawn_resonances(rng: np.random.Generator) -> tuple[Resonance, ...]:
+    """A low and a high resonance, each felt along x and y with gains of their own."""
+    return tuple(
+        Resonance(
+            math.exp(rng.uniform(math.log(low), math.log(high))),
+            rng.uniform(0.02, 0.06),
+            tuple((rng.uniform(0.5, 3.0, 2) * rng.choice([-1.0, 1.0], 2)).tolist()),
+        )
+        for low, high in ((500.0, 1400.0), (1400.0, 3500.0))
+    )
+
+
 @dataclass(frozen=True)
 class PathEffects:
     """What is added to a simulated motion, each switched off by its 0, () or None.

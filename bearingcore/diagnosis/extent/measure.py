@@ -17,7 +17,7 @@ from bearingcore.diagnosis.extent.release import plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.scene.defect import RACES
-from bearingcore.signals.averaging import FEWEST_PASSES
+from bearingcore.signals.averaging import least_passes
 from bearingcore.signals.recording import Recording
 
 SLIP = 0.02
@@ -229,7 +229,8 @@ def measure_extent(
         speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
         nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
         slip = SLIP
-    if recording.duration * nominal < FEWEST_PASSES + 8:
+    # a pass of envelopes is averaged from its own frequency on
+    if recording.duration * nominal * (1.0 - slip) < least_passes(nominal, nominal):
         return _without(race, bearing, ExtentStatus.TOO_SHORT)
     if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(bearing.ball_spacing):
         return _without(race, bearing, ExtentStatus.TOO_COARSE)

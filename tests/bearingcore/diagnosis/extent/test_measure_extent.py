@@ -121,6 +121,9 @@ def test_a_healthy_bearing_names_no_race():
 
 def test_too_few_ball_passes_and_too_few_samples():
     assert measured(signal()[: round(0.15 * RATE)]).status == ExtentStatus.TOO_SHORT
+    # enough for an average, and not for what its filter spoils at both ends
+    some = measured(signal()[: round(16.0 / MOTOR.bpfo(SPEED) * RATE)])
+    assert some.status == ExtentStatus.TOO_SHORT
     coarse = Recording(signal()[::32], RATE / 32, ("y",))
     answer = measure_extent(coarse, MOTOR, SPEED, race="outer")
     assert answer.status == ExtentStatus.TOO_COARSE

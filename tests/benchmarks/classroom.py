@@ -160,6 +160,17 @@ class Person:
             self.notes.compared.append((dict(values), shown))
 
 
+def _unlike(picture: Any, shown: dict[str, dict[str, Any]]) -> int:
+    """How many columns of a picture did not come as they are here."""
+    return sum(
+        not np.array_equal(np.asarray(column, np.float32).ravel(), shown[source][name], True)
+        for drawing in picture.drawings
+        for source, columns in drawing.data[0].items()
+        for name, column in columns.items()
+        if (source, name) not in REMEMBERING and not source.startswith("bearing_")
+    )
+
+
 def differences(notes: Notes, tab: str) -> int:
     """How many of the pictures kept are not those of their scene."""
     from bearing_explorer.page import SECTIONS
@@ -175,15 +186,11 @@ def differences(notes: Notes, tab: str) -> int:
         editor = SceneEditor("fan-rig")
         for name, value in values.items():
             editor.set({name: value})
-        picture = picture_of(Results(editor.scene, 0.0), views)
-        for drawing in picture.drawings:
-            assert drawing.data is not None
-            for source, columns in drawing.data[0].items():
-                for name, column in columns.items():
-                    if (source, name) in REMEMBERING or source.startswith("bearing_"):
-                        continue
-                    expected, came = np.asarray(column, np.float32).ravel(), shown[source][name]
-                    wrong += not np.array_equal(expected, came, equal_nan=True)
+        # drawn while the slider moves, or finely after it
+        wrong += min(
+            _unlike(picture_of(Results(editor.scene, 0.0, moving=moving), views), shown)
+            for moving in (True, False)
+        )
     return wrong
 
 

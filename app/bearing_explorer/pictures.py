@@ -85,13 +85,14 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Picture:
-    """Drawings of some views, status of the computation, and its duration [s]."""
+    """Drawings of some views, status of the computation, its duration and processor time [s]."""
 
     results: Results
     drawings: list[Drawing]
     status: dict[str, Any]
     limits: tuple[Limit, ...] | None
     seconds: float
+    work: float
 
 
 def picture_of(
@@ -109,8 +110,9 @@ def picture_of(
     results.prefetch(shown)
     drawings = [drawing_of(results, view) for view in views]
     checked = results.limits if limits else None
-    status = status_of(results, time.thread_time() - worked, shown)
-    return Picture(results, drawings, status, checked, time.perf_counter() - started)
+    work = time.thread_time() - worked
+    status = status_of(results, work, shown)
+    return Picture(results, drawings, status, checked, time.perf_counter() - started, work)
 
 
 def drawing_of(results: Results, view: View) -> Drawing:

@@ -49,6 +49,10 @@ _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
 
+#: pictures that took less than this [s] of a processor are made on the event loop: where thirty
+#: people share the interpreter, threads that wait for one another take half as long again
+_AT_ONCE = 0.025
+
 #: the limits of the model are checked when the slider rests; while it moves after so long [s], and
 #: where many share the machine, after so many pictures: they cost as much as two
 _LIMITS_EVERY = 1.0
@@ -83,7 +87,7 @@ class Explorer:
         self._drawn_mark = 0
         self._settings = Settings()
         self._life_inputs = LifeInputs()
-        self._slow_cost = math.inf
+        self._slow_cost = self._quick_cost = math.inf
         self._slow_at = self._limits_at = -math.inf
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
@@ -302,7 +306,7 @@ class Explorer:
         started = time.perf_counter()
         if self._on_screen != self._shown:
             await self._open_tab(self._shown)
-            self._slow_cost = math.inf  # not known yet
+            self._slow_cost = self._quick_cost = math.inf  # not known yet
         views = self._views[self._on_screen]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
@@ -314,7 +318,11 @@ class Explorer:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
-            inputs, picture = await in_thread(self._newest_picture, inputs, quick)
+            if self._quick_cost < _AT_ONCE:
+                inputs, picture = self._newest_picture(inputs, quick)
+            else:
+                inputs, picture = await in_thread(self._newest_picture, inputs, quick)
+            self._quick_cost = picture.work
             await self._assign(picture, None if slow else inputs.mark)
         if slow:
             before = time.perf_counter()

@@ -19,7 +19,7 @@ from cachetools import LRUCache
 
 Result = TypeVar("Result")
 
-MOST_BYTES = 256_000_000
+MOST_BYTES = 64_000_000
 """Of all results that are kept. A count would be no bound: one is a kilobyte or twenty megabytes,
 and with caches that counted a process held more than a gigabyte after some thousand scenes."""
 

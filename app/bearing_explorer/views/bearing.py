@@ -488,7 +488,9 @@ class Shapes:
     def load_rim(
         self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
     ) -> dict[str, np.ndarray]:
-        """The area that the bars of a ball sweep as it goes round."""
+        """The area that the bars of a ball sweep as it goes round, at each half degree or more."""
+        every = max(1, angle.size // 720)
+        angle, load = angle[::every], load[::every]
         start = self.rim + BAR_START
         end = start + BAR_LENGTH * np.nan_to_num(load) / top
         return polar(

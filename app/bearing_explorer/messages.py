@@ -55,6 +55,8 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
         options by the names of their lists.
     released
         whether a drag has ended with it, as one step to undo.
+    turning
+        whether the bearing turns by itself, which is no step to undo.
     """
 
     mark: Mark | None = None
@@ -63,6 +65,7 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     choose: dict[str, str] | None = None
     reset: bool = False
     released: bool = False
+    turning: bool = False
     floor: TextFile | None = None
     catalogue: TextFile | None = None
 

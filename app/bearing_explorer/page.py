@@ -18,6 +18,7 @@ from bearing_explorer.serve.fast import PLAIN
 from bearing_explorer.serve.live import on_loop
 from bearing_explorer.serve.template import PageTemplate
 from bearing_explorer.session import Explorer, Section
+from bearing_explorer.state import glossary
 from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
 from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.alternatives import OtherModels
@@ -40,7 +41,6 @@ from bearing_explorer.views.mechanism import WhichMechanism
 from bearing_explorer.views.model_editor import ModelEditor
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.orbit import SteadyOrbit
-from bearing_explorer.views.overview.bands import OverviewBands
 from bearing_explorer.views.overview.bearing import OverviewBearing
 from bearing_explorer.views.overview.change import LastChange
 from bearing_explorer.views.overview.spectrum import OverviewSpectrum
@@ -59,7 +59,7 @@ SECTIONS = (
     Section(
         "overview",
         "Overview",
-        (OverviewBearing, LastChange, OverviewStiffness, OverviewBands, OverviewSpectrum),
+        (OverviewBearing, LastChange, OverviewStiffness, OverviewSpectrum),
         "Understand",
     ),
     Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
@@ -131,6 +131,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("connection_script", asset_text("connection.js"))
     template.add_variable("order_script", asset_text("in_order.js"))
     template.add_variable("figures_script", "" if PLAIN else asset_text("fast_figures.js"))
+    template.add_variable("glossary", glossary.as_html())
     template.add_variable("python_install", PYTHON_INSTALL)
     template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
     template.add_variable("page_script", scripts("element.js", "page.js"))

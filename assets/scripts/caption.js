@@ -34,18 +34,18 @@ export function render({ model }) {
   const line = element("p", { class: "line" }), grey = element("p", { class: "grey" })
   const rest = element("p", { class: "rest", id: "rest" })
   unfolds(help, rest)
-  help.hidden = !model.rest && !model.compact
+  help.hidden = !model.rest
   follow(model, ["line", "rest"], () => {
     line.textContent = model.line
-    rest.textContent = model.compact ? `${model.line} ${model.rest}` : model.rest
+    rest.textContent = model.rest
   })
   follow(model, ["pinned"], () => {
     grey.hidden = !model.pinned
     grey.textContent = `Grey: ${model.pinned}`
   })
+  if (model.compact)  // the figure says the rest itself
+    return element("header", { class: "compact" }, element("div", { class: "words" }, title, grey))
   const head = element("div", { class: "title" }, title, help)
-  if (model.compact)  // all there is to say is behind the "?"
-    return element("header", { class: "compact" }, element("div", { class: "words" }, head, rest, grey))
 
   const file = (ending) => `bearing-${model.name_of_files}.${ending}`
   const item = (name, words, act) => button(words, act, { class: `save-${name}` })

@@ -2,46 +2,81 @@
 // front of this file.
 
 const TURN_RATE = 18      // degrees of cage angle a second while playing
+const IDLE_RATE = 6       // the same by itself, until the first touch ...
+const IDLE_TIME = 60e3    // ms, or so long
+const IDLE_PAUSE = 10     // times what a picture takes: many pages that turn do not fill a server
+const TOUCHES = ["pointerdown", "keydown", "wheel"]
+const LENGTHENING = 1200  // ms in which the defect grows by a ball spacing
 const LARGEST_FILE = 1e6  // bytes of a measured floor
 const PLAY = "M2.5 1v10l8-5z", PAUSE = "M2 1h3v10H2zM7 1h3v10H7z"
 
 export function render({ model }) {
   const spec = model.spec
-  const panel = make_rows(model)
-  const { rows, send } = panel
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches
+  const panel = make_rows(model, { changed: () => count_changed() })
+  const { rows, values, send } = panel
 
-  // Turns the bearing until it is pressed again.
+  // Turns the bearing until it is pressed again. A page that is opened without a scene turns it by
+  // itself, which is no step to undo.
   const play = (name) => {
-    let last = 0, playing = false
-    const toggle = button("", () => {
-      playing = !playing
-      if (!playing) panel.release()
-      show()
-      last = performance.now()
-      if (playing) requestAnimationFrame(turn)
-    }, { class: "play" })
-    const show = () => {
+    let last = 0, drawn_after = 0, playing = false, idle = false
+    const set_playing = (wanted, by_itself = false) => {
+      if (playing && !wanted) idle ? send({ set: {}, turning: true, released: true }) : panel.release()
+      playing = wanted
+      idle = by_itself
       toggle.setAttribute("aria-pressed", String(playing))
       toggle.setAttribute("aria-label", playing ? "Stop turning" : "Turn the bearing")
       toggle.title = playing ? "Stop" : "Turn the bearing"
       toggle.innerHTML = `<svg viewBox="0 0 12 12" aria-hidden="true"><path d="${playing ? PAUSE : PLAY}"/></svg>`
+      announce("turning", idle)
+      last = performance.now()
+      if (playing) requestAnimationFrame(turn)
     }
+    const toggle = button("", () => set_playing(!playing), { class: "play" })
     const turn = (now) => {
       if (!playing || !toggle.isConnected) return
-      const passed = Math.min(now - last, 250)
+      const passed = now - last
       // The next angle is asked for when the last one is drawn: turning never outruns drawing.
-      if (panel.drawn() && passed >= 30) {
+      if (!panel.drawn()) drawn_after = passed
+      else if (passed >= (idle ? Math.max(60, IDLE_PAUSE * drawn_after) : 30)) {
         last = now
-        const angle = Number(((panel.values[name] + TURN_RATE * passed / 1000) % 360).toFixed(3))
+        const by = (idle ? IDLE_RATE : TURN_RATE) * Math.min(passed, 250) / 1000
+        const angle = Number(((values[name] + by) % 360).toFixed(3))
         panel.put(name, angle)
         rows[name].number.value = format(Number(angle.toFixed(1)), panel.limits[name].step)
-        panel.push(name, angle)
+        idle ? send({ set: { [name]: angle }, turning: true }) : panel.push(name, angle)
       }
       requestAnimationFrame(turn)
     }
+    const rest = (event) => {  // space and the button stop it themselves
+      if (event && (event.key === " " || event.composedPath().includes(toggle))) return
+      for (const kind of TOUCHES) removeEventListener(kind, rest, true)
+      if (idle) set_playing(false)
+    }
+    const begin = () => {
+      removeEventListener("explorer-drawn", begin)
+      if (still || location.search || document.documentElement.hasAttribute("data-lesson")) return
+      for (const kind of TOUCHES) addEventListener(kind, rest, true)
+      setTimeout(rest, IDLE_TIME)
+      set_playing(true, true)
+    }
+    addEventListener("explorer-drawn", begin)
     on_event("play", toggle, () => toggle.click())  // the space bar, see page.js
-    show()
+    set_playing(false)
     return toggle
+  }
+
+  // Lengthens the defect by a ball spacing, as a hand would.
+  let spacing = 0
+  const lengthen = () => {
+    const name = spec.extent, from = values[name], began = performance.now()
+    const to = Math.min(from + spacing, panel.limits[name].most)
+    const step = (now) => {
+      const share = still ? 1 : Math.min(1, Math.max(0, now - began) / LENGTHENING)
+      if (share === 1 || panel.drawn()) panel.move(name, Number((from + share * (to - from)).toFixed(2)))
+      share < 1 ? requestAnimationFrame(step) : panel.release()
+    }
+    if (to > from) requestAnimationFrame(step)
   }
 
   // The defects: which one the sliders move, one more, one less.
@@ -70,22 +105,43 @@ export function render({ model }) {
   const floor = element("div", { class: "upload" }, element("label", { for: "floor-file" },
     "Two columns: angle in °, depth in µm, or in the units of its headings"), file, words)
 
-  const boxes = spec.groups.map((group) => panel.group_box(group, spec.last))
-  for (const box of boxes.filter((box) => box.dataset.group === spec.defects)) {
-    box.firstChild.after(defects)
-    box.append(floor)
-  }
+  // A few sliders, and all others folded, with a count of those that are not as the bearing has them.
+  const is_main = ({ name }) => spec.main.includes(name)
+  const all_of = spec.groups.flatMap(({ controls }) => controls)
+  const main = element("div", { class: "main" },
+    ...spec.main.map((name) => panel.control(all_of.find((one) => one.name === name))))
+  const boxes = spec.groups.map(({ title, controls }) =>
+    panel.group_box({ title, controls: controls.filter((one) => !is_main(one)) }, spec.last))
+  const box_of_defects = boxes.find((box) => box.dataset.group === spec.defects)
+  box_of_defects.firstChild.after(defects)
+  box_of_defects.append(floor)
+  const rest = element("div", { class: "rest", id: "more-controls" }, ...boxes)
+  const more = button("", () => { unfolded = !unfolded; show_named() },
+    { class: "more", "aria-controls": "more-controls" })
+  const toggle = play(spec.turning)
+  const tools = element("div", { class: "tools" }, toggle, more)
   const all = button("", () => { whole = !whole; show_named() }, { class: "all" })
-  const form = panel.form({ "aria-label": "Scene" }, panel.choice("preset"), ...boxes, all)
-  rows[spec.turning]?.line.prepend(play(spec.turning))
+  const form = panel.form({ "aria-label": "Scene" }, panel.choice("preset"), main, tools, rest, all)
+
+  let usual = {}, many = 1
+  const count_changed = () => {
+    const differs = (name, value) => usual[name] !== undefined && value !== usual[name]
+    const changed = many - 1 + all_of.filter((one) => !is_main(one) && differs(one.name, values[one.name])).length
+      + Object.entries(panel.selects).filter(([name, { select }]) => differs(name, select.value)).length
+    more.textContent = changed ? `More (${changed} changed)` : "More"
+  }
 
   // With a lesson only the controls that it names, and all others on request.
-  let named = null, whole = false
+  let named = null, whole = false, unfolded = false
   const show_named = () => {
     const few = named !== null && named.length > 0 && !whole
     for (const [name, { root }] of Object.entries({ ...rows, ...panel.selects }))
       root.classList.toggle("put-aside", few && !named.includes(name))
     form.classList.toggle("few", few)  // boxes without a control go by the style sheet
+    rest.hidden = !few && !unfolded
+    more.hidden = few
+    more.setAttribute("aria-expanded", String(unfolded))
+    toggle.hidden = few && !named.includes(spec.turning)
     all.hidden = named === null
     all.textContent = few ? "All controls" : "Only those of the lesson"
     all.setAttribute("aria-expanded", String(!few))
@@ -96,14 +152,21 @@ export function render({ model }) {
     show_named()
   })
   on_event("typed", form, (typed) => send({ typed }))  // what is clicked at in a figure
+  on_event("longer", form, lengthen)
   show_named()
   const take = (state) => {
+    Object.assign(usual, state.usual ?? {})
+    spacing = 360 / (state.values.n_balls ?? 360 / spacing)
     panel.take(state)
-    if (state.defects) list_defects(state.defects)
+    if (state.defects) {
+      many = state.defects.names.length
+      list_defects(state.defects)
+    }
     if (state.floor) {
       floor.hidden = !state.floor.shown
       write_note(words, state.floor.words, state.floor.bad)
     }
+    count_changed()
   }
   take(model.state)
   panel.listen(take)

@@ -37,9 +37,11 @@ export function render({ model }) {
   let open = false, listed = false  // whether the list is shown instead of a lesson
   let resumed = model.open_first  // whether the lesson that comes was open before, with its answers
   const send_event = () => {
-    const { drag = [], watch = [] } = began() && !listed ? model.lesson : {}
+    const { drag = [], watch = [], predict } = began() && !listed ? model.lesson : {}
+    const { given, revealed } = answers()
+    const veiled = Boolean(predict) && given === undefined && !revealed
     root.toggleAttribute("data-lesson", open)
-    announce("lesson", open ? { drag, watch } : null)
+    announce("lesson", open ? { drag, watch, veiled } : null)
   }
   const go = (number) => {
     if (number < 0) return
@@ -105,7 +107,7 @@ export function render({ model }) {
       element("ol", { class: "entries" }, ...entries), teachers)
   }
 
-  // A prediction: chosen or typed, before the answer is seen.
+  // A prediction: chosen or typed. Until then the figures that would answer it are veiled.
   const prediction = ({ ask: question, choices, right, unit, within }, reveal) => {
     const verdict = element("p", { class: "verdict", role: "status" })
     const boxes = choices.map((_, index) =>
@@ -113,11 +115,12 @@ export function render({ model }) {
     const box = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": question })
     const settle = (given) => {
       const is_right = boxes.length ? given === right : Math.abs(given - right) <= within
-      const words = boxes.length ? `“${choices[given]}”` : `${given} ${unit}`.trim().replace("-", "−")
+      const said = (answer) => boxes.length ? `“${choices[answer]}”` : `${answer} ${unit}`.trim().replace("-", "−")
       form.dataset.said = is_right ? "right" : "other"
-      verdict.textContent = `${is_right ? "Right" : "Not quite"}: ${words}.`
+      verdict.textContent = is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(right)}.`
       reveal.textContent = reveal.dataset.after
       remember_answer({ given })
+      announce("predicted")
     }
     boxes.forEach((one, index) => one.addEventListener("change", () => settle(index)))
     const form = element("form", { class: "prediction" }, element("h3", {}, "Your prediction"),
@@ -151,12 +154,12 @@ export function render({ model }) {
       part.hidden = false
       reveal.hidden = true
       remember_answer({ revealed: true })
+      announce("predicted")
     }
     part.classList.add("answer")
     part.hidden = true
-    const box = element("div", { class: "last" }, ...(predict ? [prediction(predict, reveal)] : []), reveal, part)
     if (resumed && answers().revealed) uncover()
-    return box
+    return [predict ? [prediction(predict, reveal)] : [], element("div", { class: "last" }, reveal, part)]
   }
   const show = () => {
     if (!began()) return
@@ -166,10 +169,10 @@ export function render({ model }) {
     select.value = String(number)
     back.disabled = next_of(number, -1) < 0
     next.disabled = next_of(number, 1) < 0
-    fill(element("h2", { tabindex: "-1" }, title), ...parts.map(({ heading, html }, index) => {
-      const part = element("div", { class: "part" }, element("h3", {}, heading), element("div", { class: "body", html }))
-      return index === parts.length - 1 ? answer(part, heading, predict) : part
-    }))
+    const made = parts.map(({ heading, html }) =>
+      element("div", { class: "part" }, element("h3", {}, heading), element("div", { class: "body", html })))
+    const [predicted, last] = answer(made.pop(), parts.at(-1).heading, predict)
+    fill(element("h2", { tabindex: "-1" }, title), ...made.slice(0, 1), ...predicted, ...made.slice(1), last)
     resumed = false
   }
 
@@ -196,7 +199,14 @@ export function render({ model }) {
   }
   on_event("projector", lesson, show_projector)
   on_event("lessons", lesson, (which) => {
-    if (which !== "first") return toggle()
+    const number = model.titles.findIndex(([, , name]) => name && name === which?.name)
+    if (number >= 0) {  // Back came to it: its words, and the scene as it is
+      resumed = true
+      set_open(true)
+      ask(model, { lesson: number, words_only: true })
+      return send_event()
+    }
+    if (which !== "first") return !which || open ? toggle() : undefined
     set_open(true)
     go(next_of(-1, 1))
     send_event()

@@ -1,12 +1,18 @@
-// Warnings: the first limit that is exceeded in a line, and a table of all limits on demand.
-// Screen readers get a sentence for each that is exceeded.
+// Warnings: limits that are exceeded, in short, until they are dismissed; all limits in a table on demand.
 const STATES = { crossed: "exceeded", kept: "passed", unknown: "not checked" }
 
 export function render({ model }) {
-  const warnings = element("div", { class: "warnings", role: "status" })
-  const more = element("button", { type: "button", "aria-controls": "limits-list" })
+  const warnings = element("p", { class: "warnings", role: "status" })
+  const more = element("button", { type: "button", "aria-controls": "limits-list", hidden: "" })
+  const dismissed = new Set()
+  const dismiss = button("\u00d7", () => {
+    for (const { name } of crossed()) dismissed.add(name)
+    write()
+    more.focus()
+  }, { class: "dismiss", "aria-label": "Dismiss the warning", title: "Dismiss" })
   const list = element("div", { class: "list", id: "limits-list" })
-  const strip = element("section", { class: "strip", "aria-label": "Limits of the model" }, warnings, more, list)
+  const strip = element("section", { class: "strip", "aria-label": "Limits of the model" }, warnings, more, dismiss, list)
+  const crossed = () => model.rows.filter(({ state }) => state === "crossed")
   const line = (cells, tag = "td") => cells.map((cell) => element(tag, {}, cell))
   const fill = () => list.replaceChildren(element("table", {},
     element("thead", {}, element("tr", {}, ...line(["Check", "Value", "Limit", "", "In words"], "th"))),
@@ -16,23 +22,17 @@ export function render({ model }) {
     more.title = shown ? "Hide the limits" : "Show all limits of the model"
     if (shown) fill()
   })
-  let written = null
   const write = () => {
-    const crossed = model.rows.filter(({ state }) => state === "crossed")
-    const text = crossed.map(({ sentence }) => sentence).join("\n")
-    if (text !== written)
-      warnings.replaceChildren(...crossed.map(({ sentence }) => element("p", { title: sentence }, sentence)))
-    written = text
-    strip.dataset.crossed = String(crossed.length)
+    const warned = crossed().filter(({ name }) => !dismissed.has(name))
+    const text = warned.map(({ short }) => short).join("; ")
+    if (warnings.textContent !== text) warnings.textContent = text
+    dismiss.hidden = warned.length === 0
+    strip.dataset.crossed = String(crossed().length)
     // beside the status line where all is well, a line of its own where it is not
-    strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)
-    // where there is little room, the first count alone
+    strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", warned.length > 0)
+    more.hidden = !model.summary  // before the first picture
     const [first, ...others] = model.summary.split(", ")
-    const [count, word, ...how] = first.split(" ")
-    more.replaceChildren(`${count} `, element("span", { class: "word" }, `${word} `), how.join(" "),
-      element("span", { class: "rest" }, ["", ...others].join(", ")),
-      element("span", { class: "help", "aria-hidden": "true" }, "?"))
-    more.setAttribute("aria-label", model.summary)
+    more.replaceChildren(first, element("span", { class: "others" }, ["", ...others].join(", ")))
     if (!list.hidden) fill()
   }
   for (const name of ["rows", "summary"]) model.on(name, write)

@@ -11,8 +11,10 @@
     lessons.setAttribute("aria-expanded", String(lesson !== null))
     if (lesson === null && root.hasAttribute("data-projector")) announce("projector", false)
     marked = lesson?.watch ?? []
+    veiled = lesson?.veiled ?? false
     mark_as_they_come(show_marked)
   })
+  on_event("predicted", root, () => { veiled = false; mark() })
 
   const show_theme = () => {
     const dark = root.dataset.theme === "dark"
@@ -23,9 +25,9 @@
   on_event("theme", root, show_theme)
   show_theme()
 
-  // The first visit: what this is, and three ways in. Once closed it is found behind "?".
+  // The first visit: what this is. Once closed it is found behind "?", in the help.
   const WELCOMED = "bearing-explorer.welcomed"
-  const welcome = part("welcome"), what = part("welcome-button"), python = part("python-door")
+  const welcome = part("welcome"), help = part("help"), help_button = part("help-button")
   let greet = true
   try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
   const room = () => {
@@ -34,28 +36,23 @@
   }
   const show_welcome = () => {
     welcome.hidden = !greet || root.dataset.tab !== "overview"
-    what.setAttribute("aria-expanded", String(!welcome.hidden))
     room()
   }
-  const end_welcome = () => {
-    greet = false
+  const set_greet = (wanted) => {
+    greet = wanted
     try { localStorage.setItem(WELCOMED, "1") } catch { /* for this page only */ }
     show_welcome()
   }
+  part("longer-button").addEventListener("click", () => announce("longer"))
+  part("welcome-close").addEventListener("click", () => { set_greet(false); help_button.focus() })
+  help_button.addEventListener("click", () => help.showModal())
   const doors = {
-    close: () => { end_welcome(); what.focus() },
-    lessons: () => { end_welcome(); announce("lessons", "first") },
-    bearing: () => { end_welcome(); announce("show", "bearing") },
-    python: () => python.showModal(),
+    lessons: () => announce("lessons", "first"),
+    bearing: () => announce("show", "bearing"),
+    introduction: () => { set_greet(true); announce("show", "overview") },
   }
-  for (const door of welcome.querySelectorAll("[data-door]"))
-    door.addEventListener("click", doors[door.dataset.door])
-  what.addEventListener("click", () => {
-    if (!welcome.hidden) return doors.close()
-    greet = true
-    if (root.dataset.tab === "overview") show_welcome()
-    else announce("show", "overview")
-  })
+  for (const door of help.querySelectorAll("[data-door]"))
+    door.addEventListener("click", () => { help.close(); doors[door.dataset.door]() })
   on_event("tab", root, show_welcome)
   for (const box of [main, welcome]) new ResizeObserver(room).observe(box)
 
@@ -81,13 +78,14 @@
       if (found.shadowRoot) yield* inside(found.shadowRoot)
     }
   }
-  let marked = []
+  let marked = [], veiled = false  // veiled: they would answer what is to be predicted
   const mark = () => {
     const missing = new Set(marked)
     for (const view of inside(main)) {
       if (!view.classList.contains("view")) continue
       const found = marked.find((name) => view.classList.contains(`view-${name}`))
       view.classList.toggle("watched", found !== undefined)
+      view.classList.toggle("veiled", found !== undefined && veiled)
       missing.delete(found)
     }
     return missing.size === 0
@@ -120,6 +118,9 @@
     if (box.height && (box.top < room.top || box.bottom > room.bottom))
       view.scrollIntoView({ block: box.height < room.height ? "nearest" : "start" })
   }
+
+  // While the bearing turns by itself nothing is read out.
+  on_event("turning", main, (idle) => main.setAttribute("aria-busy", String(idle)))
 
   // Space turns the bearing, unless something else has a use for it.
   window.addEventListener("keydown", (event) => {

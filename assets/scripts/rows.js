@@ -30,6 +30,9 @@ const tip = ({ about, unit, limit: { least, most } }) => {
   return `${about}\n${kind}; the slider goes from ${least} to ${most}${in_unit}.`.replace(/-(?=\d)/g, "\u2212")
 }
 
+// The number that is typed in a box: NaN for none.
+const number_in = ({ value }) => value.trim() ? Number(value.replace("\u2212", "-").replace(",", ".")) : NaN
+
 // Boxes are as wide as their numbers, so that "−100000" is not cut.
 const WIDEST = 13  // digits
 function write_in(input, text) {
@@ -206,10 +209,14 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
     }
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
+    number.addEventListener("input", () => {  // what is typed back is no error any more
+      const { least, most } = limits[name], given = number_in(number)
+      if (given >= least && given <= most) refuse(name, "")
+    })
     second.number.addEventListener("blur", () => show_second(name))
     second.number.addEventListener("change", () => {
-      const given = Number(second.number.value.replace("\u2212", "-").replace(",", "."))
-      const text = second.number.value.trim() && isFinite(given)
+      const given = number_in(second.number)
+      const text = isFinite(given)
         ? String(Number((given / second_units[name].factor).toPrecision(12))) : second.number.value
       send({ typed: { [name]: text } })
     })
@@ -330,6 +337,6 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     return made
   }
 
-  return { rows, selects, values, limits, control, choice, group_box, form, take, listen, send, push, put, release,
+  return { rows, selects, values, limits, control, choice, group_box, form, take, listen, send, push, put, move, release,
            drawn: () => asked() <= drawn() || late() }
 }

@@ -128,6 +128,10 @@ export function render({ model }) {
     undo, redo, reset, element("i", { class: "gap", "aria-hidden": "true" }), ...menus.map(({ opener }) => opener))
   const root = element("div", { class: "share" }, bar, notice, ...menus.map(({ panel }) => panel))
 
+  const place_of = (text) => {
+    const said = new URLSearchParams(text)
+    return { tab: said.get("tab") ?? "", lesson: said.get("lesson") ?? "" }
+  }
   let shown = null, said = null
   follow(model, ["state"], () => {
     const { address, whole, undo: back, redo: again, pinned: grey, said: sentence } = model.state
@@ -138,12 +142,24 @@ export function render({ model }) {
     pinned.textContent = grey ? `Grey: “${grey}”.` : "Grey: the bearing without its defect."
     unpin.hidden = !grey
     // The first is that of the page as it was opened: what is in the address stays, even if it
-    // could not be read. Replacing, not pushing: Back leaves the page, as people expect.
-    if (shown !== null && shown !== address) history.replaceState(history.state, "", `?${address}`)
+    // could not be read. Back goes to the last tab or lesson; changes of the scene are undone by Undo.
+    const place = place_of(address)
+    if (shown === null) history.replaceState(place, "")
+    else if (shown !== address) {
+      const moved = place.tab !== history.state?.tab || place.lesson !== history.state?.lesson
+      history[moved ? "pushState" : "replaceState"](place, "", `?${address}`)
+    }
     shown = address
     if (said !== sentence.number) say(sentence.words)
     said = sentence.number
   })
+  const gone_back = ({ state: place }) => {
+    if (!root.isConnected) return window.removeEventListener("popstate", gone_back)
+    if (!place) return
+    if (place.lesson !== place_of(shown).lesson) announce("lessons", { name: place.lesson })
+    if (place.tab !== place_of(shown).tab) announce("show", place.tab)
+  }
+  window.addEventListener("popstate", gone_back)
   const failed = (error) => {
     console.warn("the report could not be made", error)
     say("The report could not be made.")

@@ -139,13 +139,14 @@ def serving(server: Server) -> Iterator[Server]:
 def chromium(
     playwright: Playwright, width: int = 1366, height: int = 768
 ) -> Iterator[BrowserContext]:
-    """A new browser with nothing remembered."""
+    """A new browser with nothing remembered, in which nothing moves by itself."""
     folder = tempfile.mkdtemp(prefix="chromium-")
     context = playwright.chromium.launch_persistent_context(
         folder,
         executable_path=find_chromium(),
         args=list(CHROMIUM_OPTIONS),
         viewport={"width": width, "height": height},
+        reduced_motion="reduce",
     )
     try:
         yield context
@@ -236,6 +237,13 @@ def holding(
     for step in itertools.cycle(there + there[-2::-1]):
         page.mouse.move(x[0] + (x[1] - x[0]) * step / steps, y)
         yield
+
+
+def unfold(page: Page) -> None:
+    """Unfold the controls behind "More", where they are folded."""
+    more = page.locator("aside .more[aria-expanded=false]")
+    if more.is_visible():
+        more.click()
 
 
 def choose_tab(page: Page, name: str) -> None:

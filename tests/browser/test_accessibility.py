@@ -269,6 +269,7 @@ def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) ->
     about = page.get_by_role("button", name="About depth")
     note = page.locator("#control-depth_um-about")
     expect(note).to_be_hidden()
+    slider(page, "depth_um").focus()  # the symbol of a slider comes with the focus
     about.press("Enter")
     expect(note).to_be_visible()
     expect(about).to_have_attribute("aria-expanded", "true")

@@ -18,7 +18,7 @@ from tests.browser.explorer_page import (
     source,
     value,
 )
-from tests.browser.helpers import Server, Watch, drag, move
+from tests.browser.helpers import Server, Watch, drag, move, unfold
 
 
 @pytest.mark.parametrize(
@@ -143,6 +143,7 @@ def query(page: Page) -> str:
 def opened(page: Page, server: Server, text: str) -> None:
     page.goto(f"{server.url}?{text}")
     page.wait_for_function("window.__frames >= 1")
+    unfold(page)
     settle(page)
 
 

@@ -63,7 +63,7 @@ def _outer_race(scene: Scene) -> str:
 
 #: of each tab: cards, figures at least, a number of the core that it says, and what moves it
 TABS = {
-    "Overview": (5, 3, _frequency, "Extent"),
+    "Overview": (4, 3, _frequency, "Extent"),
     "Load": (3, 3, _most_loaded, "Extent"),
     "Life": (1, 0, None, None),
     "Stiffness": (1, 1, _stiffest, "Extent"),
@@ -781,15 +781,22 @@ def test_a_figure_is_taken_along(
 
 def test_first_visits_are_shown_in(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer)
-    what = visitor.page.get_by_role("button", name="What this is")
-    welcome = visitor.page.get_by_role("region", name="What this is")
-    if not welcome.is_visible():
-        what.click()
-    welcome.get_by_role("button", name=re.compile("^Python")).click()
-    expect(visitor.page.get_by_role("dialog")).to_contain_text("from bearingcore import")
-    visitor.page.keyboard.press("Escape")
-    welcome.get_by_role("button", name=re.compile("^My machine")).click()
+    what = visitor.page.get_by_role("button", name="Help")
+    welcome = visitor.page.get_by_role("region", name="Introduction")
+    help_of_page = visitor.page.get_by_role("dialog", name="Bearing explorer")
+    what.click()
+    expect(help_of_page).to_contain_text("from bearingcore import")
+    help_of_page.get_by_role("button", name=re.compile("^My machine")).click()
     expect(visitor.page.get_by_role("tab", name="Bearing", selected=True)).to_be_visible()
     what.click()
-    welcome.get_by_role("button", name=re.compile("^Learn")).click()
+    help_of_page.get_by_role("button", name=re.compile("^Introduction")).click()
+    spacing = 360.0 / FAN.bearing.n_balls
+    visitor.sees_change(lambda: visitor.press("Make the defect longer", welcome))
+    assert visitor.number("Extent") == pytest.approx(12.9 + spacing, abs=0.01)
+    visitor.press("Undo")
+    expect(visitor.box("Extent")).to_have_value("12.9")
+    visitor.press("Close this introduction")
+    expect(welcome).to_be_hidden()
+    what.click()
+    help_of_page.get_by_role("button", name=re.compile("^Learn")).click()
     expect(visitor.page.get_by_role("region", name="Lesson")).to_be_visible()

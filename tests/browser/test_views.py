@@ -4,6 +4,7 @@ import math
 
 import pytest
 from bearing_explorer.plots import style
+from bearing_explorer.views.bearing import HALF_WIDTH
 from playwright.sync_api import Page
 
 from tests.browser.explorer_page import rest, wait
@@ -53,5 +54,5 @@ def test_the_bearing_is_round(watch: tuple[Page, Watch], explorer: Server, width
     wait(page, settled)
     plot = shapes[-1]
     assert plot["w"] / plot["x"] == pytest.approx(plot["h"] / plot["y"], rel=1e-3)
-    assert min(plot["x"], plot["y"]) == pytest.approx(2 * 1.56, rel=1e-6)
+    assert min(plot["x"], plot["y"]) == pytest.approx(2 * HALF_WIDTH, rel=1e-6)
     assert math.isfinite(plot["w"])

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.helpers import Server
+from tests.browser.helpers import Server, unfold
 
 FAN_RIG = "?v=1&preset=fan-rig&tab="
 _SOON = 120.0
@@ -54,6 +54,7 @@ class Visitor:
         self.page.goto(server.url + address)
         expect(self.page.get_by_role("tab", selected=True)).to_be_visible()
         self.wait(lambda: any(self.sentences()))
+        unfold(self.page)
         self.steady()
 
     def go_to(self, tab: str) -> None:

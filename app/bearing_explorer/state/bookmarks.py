@@ -120,6 +120,9 @@ class Bookmarks:
         """
         now = self._editor.snapshot()
         given = message.get("set")
+        if message.get("turning") is True:
+            self._history.amend(now)
+            return message.get("released") is True
         if not isinstance(given, dict) or any(name in message for name in _STEPS[1:]):
             self._history.step(now)
             return True

@@ -51,6 +51,10 @@ class History(Generic[State]):
             self._moving = what
         self._now = now
 
+    def amend(self, now: State) -> None:
+        """Change the state without a step: undoing leads to none before it."""
+        self._now = now
+
     def settle(self) -> None:
         """The step that was being made is made."""
         if self._idle_move:

@@ -558,9 +558,11 @@ class SceneEditor:
 
     def _choices_state(self) -> dict[str, Any]:
         scene, floor = self.scene, self.floors[self.selected]
+        usual = {k: v for k, v in values_of(presets[self.preset]).items() if not math.isnan(v)}
         hidden = [] if floor.kind == "rough" else [one.key for one in _OF_FLOOR]
         hidden += hidden_of(scene.bearing)
         return {
+            "usual": {**usual, **chosen_of(presets[self.preset])},
             "choices": {
                 **chosen_of(scene, self.selected),
                 "preset": self.preset,

@@ -27,11 +27,12 @@ if TYPE_CHECKING:
     from bearingcore import Bearing, Load, Scene
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
-HALF_WIDTH = 1.56
+HALF_WIDTH = 1.62
 HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
-BAR_LENGTH = 0.32  # of a ball that carries the greatest load of the colour bar
-TOP_LINE, LINE_HEIGHT = 1.47, 0.1
+BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+NUMBER_START = 0.09  # beyond a bar: the middle of its number
+TOP_LINE, LINE_PIXELS = 1.53, 16.0
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
@@ -51,11 +52,14 @@ if (kind == 0) return value > 0 ? `Radial load ${si(value, 'N')} at ${rounded(an
                                 : 'No radial load'
 if (kind == 1) return `Axial load ${si(Math.abs(value), 'N')} ` +
                       (value > 0 ? '⊙ towards you' : '⊗ away from you')
+if (kind == 4) return `Defect drawn ${value >= 1 ? value : rounded(value, 2)}× as deep`
 return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
-_SCALE_WORDS = """
-return row.scale > 0 ? `Defect drawn ${row.scale >= 1 ? row.scale : rounded(row.scale, 2)}× as deep`
-                     : 'No defect'
+_BAR_WORDS = """
+const text = si(row.load, 'N', 2)
+let room = 0
+try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
+return row.most || room > 7*text.length ? text : ''
 """
 _ROW_WORDS = """
 return `Row ${row.row} at z = ${rounded(1000*row.place, 3)} mm`
@@ -78,10 +82,10 @@ if (cb_obj.height !== high) cb_obj.setv({height: high}, {sync: false})
 
 _EDGE = "#6B7480"
 _MIDDLE = {"text_align": "center"}
-_NUMBER = {**_MIDDLE, "text_font_size": "10px"}
+_NUMBER = {**_MIDDLE, "text_font_size": style.SMALL_TEXT_SIZE}
 _LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
 # hung up by their tops: larger type on a projector is not cut by the frame
-_HUNG = {**_LINE, "text_baseline": "top", "y_offset": -12}
+_HUNG = {**_LINE, "text_baseline": "top", "y_offset": {"field": "down"}}
 
 
 def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> list[Layer]:
@@ -114,13 +118,21 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
             {**_NUMBER, "text_color": style.FAINT_INK, "angle": "turn"},
         ),
         segments(f"{prefix}_bars", load, 8, reads=("load",)),
+        Words(
+            f"{prefix}_bars",
+            "x",
+            "y",
+            _BAR_WORDS,
+            ("load", "room", "most"),
+            fitting=style.NARROW,
+            look=_MIDDLE,
+        ),
         ball,
         end,
         words("balls", "return row.number", ("load", "number"), {**_NUMBER, "text_color": number}),
         filled(f"{prefix}_arrow", style.INK),
-        words("load_words", _LOAD_WORDS, ("kind", "value", "angle"), _HUNG),
+        words("load_words", _LOAD_WORDS, ("kind", "value", "angle", "down"), _HUNG),
         words("row_words", _ROW_WORDS, ("row", "place"), {**_LINE, **_MIDDLE}),
-        words("scale_words", _SCALE_WORDS, ("scale",), {**_HUNG, "text_align": "right"}),
     ]
 
 
@@ -138,8 +150,6 @@ class BearingDrawing(View):
     equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
-    #: height of the line about the depth scale of the defect
-    scale_line: ClassVar[float] = TOP_LINE
 
     def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
@@ -236,13 +246,8 @@ class BearingDrawing(View):
             for name in several[0]
         }
         sources |= {
-            f"{self.prefix}_load_words": load_words(scene.load, wide),
+            f"{self.prefix}_load_words": load_words(scene.load, wide, drawn.depth_scale),
             f"{self.prefix}_row_words": row_words(scene, wide),
-            f"{self.prefix}_scale_words": {
-                "x": np.array([wide]),
-                "y": load_words(scene.load, wide)["y"][:1] + self.scale_line - TOP_LINE,
-                "scale": np.array([drawn.depth_scale]),
-            },
         }
         return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
 
@@ -344,22 +349,27 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
     }
 
 
-def load_words(load: Load, wide: float = HALF_WIDTH) -> dict[str, np.ndarray]:
-    """Rows of text in the corner: the radial load always, the others where there are any."""
+def load_words(
+    load: Load, wide: float = HALF_WIDTH, depth_scale: float = 0.0
+) -> dict[str, np.ndarray]:
+    """Rows of text in the corner: the radial load always, the others where there are any.
+
+    Under them how many times as deep as they are defects are drawn, which is 0 without any.
+    """
     radial = (math.hypot(load.fx, load.fy), math.degrees(math.atan2(load.fy, load.fx)) % 360.0)
     rows = [(0, *radial)]
     rows += [
         (kind, value, 0.0)
-        for kind, value in ((1, load.fz), (2, load.mx), (3, load.my))
+        for kind, value in ((1, load.fz), (2, load.mx), (3, load.my), (4, depth_scale))
         if value != 0.0
     ]
     kind, value, angle = np.array(rows, dtype=float).T
     # several rows of balls are drawn smaller, with room above them
-    line = LINE_HEIGHT * wide / HALF_WIDTH
     above = 0 if wide == HALF_WIDTH else kind.size
     return {
         "x": np.full(kind.size, -wide),
-        "y": TOP_LINE + line * (above - np.arange(kind.size)),
+        "y": np.full(kind.size, TOP_LINE),
+        "down": LINE_PIXELS * (np.arange(kind.size) - above) - 12.0,
         "kind": kind,
         "value": value,
         "angle": angle,
@@ -472,12 +482,20 @@ class Shapes:
         }
 
     def bars(self, load: NDArray[np.float64], top: float) -> dict[str, np.ndarray]:
-        """A bar outside the ring for each ball, as long as its load; `top` has full length."""
+        """A bar outside the ring for each ball, as long as its load; `top` has full length.
+
+        With the place of its number, the room for that, and whether its load is the greatest.
+        """
         angle = self.ball_angles()
         start = self.rim + BAR_START
         end = start + BAR_LENGTH * load / top
         end[~(load > 0.0)] = np.nan  # a bar without length would still show its line's ends
+        number = end + NUMBER_START
         return {
+            "x": number * np.cos(angle),
+            "y": number * np.sin(angle),
+            "room": np.full(angle.size, 2.0 * math.pi * self.rim / angle.size),
+            "most": load == np.max(load, initial=0.0, where=np.isfinite(load)),
             "x0": start * np.cos(angle),
             "y0": start * np.sin(angle),
             "x1": end * np.cos(angle),

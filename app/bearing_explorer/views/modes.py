@@ -31,15 +31,15 @@ const room = cb_obj.outer_width < below ? 34 : usual  // names alone are shorter
 if (cb_obj.min_border_right != room) cb_obj.setv({min_border_right: room}, {sync: false})
 """
 
-_BAND_NAME = """
+BAND_NAME = """
 const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
 """
-_BAND_SPAN = """
+BAND_SPAN = """
 const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
-BAND_WORDS = _BAND_NAME + _BAND_SPAN
-SHORT_BAND_WORDS = f"{_BAND_NAME}\nif (narrow) return name\n{_BAND_SPAN}"
+BAND_WORDS = BAND_NAME + BAND_SPAN
+SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
 """The same for `style.fitting_words`."""
 
 

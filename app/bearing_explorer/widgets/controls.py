@@ -82,6 +82,10 @@ class Rows(LiveComponent):
         self.send(news)
 
 
+MAIN = ("extent_deg", "depth_um", "fy_n", "shaft_speed_hz")
+"""Sliders that are always seen; all others are folded."""
+
+
 class Controls(Rows):
     """The controls next to the figures: bearing, defects, turning, load."""
 
@@ -90,8 +94,9 @@ class Controls(Rows):
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         spec = {
             **spec_of(SCENE_GROUPS, PRESET),
+            "main": MAIN,
+            "extent": "extent_deg",
             "turning": CAGE_ANGLE,
-            "speed": "shaft_speed_hz",
             "defects": "Defect",
             "last": [field.key for field in SHOWN_FIELDS if field.part == "floor"],
         }

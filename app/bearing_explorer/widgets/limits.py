@@ -44,6 +44,8 @@ def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:
             else "crossed"
             if limit.crossed
             else "kept",
+            "short": f"{limit.name.capitalize()}: {_number(limit.value, limit.unit)} "
+            f"(limit {_number(limit.limit, limit.unit)})",
             "sentence": limit.sentence + _where(limit),
         }
         for limit in limits

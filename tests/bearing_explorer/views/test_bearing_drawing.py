@@ -60,7 +60,8 @@ def test_balls_turn_with_the_cage_and_carry_their_load_with_them() -> None:
 def test_the_defect_is_as_deep_as_the_drawing_says(depth_um: float) -> None:
     scene = FAN_RIG.replace(depth=1e-6 * depth_um)
     sources = drawn(scene)
-    scale = sources["bearing_scale_words"]["scale"][0]
+    words = sources["bearing_load_words"]
+    scale = words["value"][words["kind"] == 4.0][0]
     shape = sources["bearing_defect"]
     deepest = np.hypot(shape["x"], shape["y"]).max() - 1.0
     assert deepest == pytest.approx(scale * 1e-6 * depth_um / 26.5e-3)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
 import re
 
@@ -12,14 +11,13 @@ import pytest
 from bearing_explorer.results.chain import Chain, Peak
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.overview.bands import OverviewBands
 from bearing_explorer.views.overview.change import LastChange
 from bearing_explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.views.overview.stiffness import OverviewStiffness, free_terms
 from bearing_explorer.views.overview.words import story
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
-from bearingcore import Scene, equilibrium, modes, presets, simulate, spectrum
+from bearingcore import DOF_NAMES, Scene, equilibrium, modes, presets, simulate, spectrum
 
 FAN_RIG = presets["fan-rig"]
 LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
@@ -140,6 +138,11 @@ def changed(**news: object) -> str:
          "from 672 to 1088 Hz, 8 dB lower."),
         ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz is 3 dB higher."),
+        # next to almost nothing decibels say nothing
+        ({"peaks": {"y": Peak(672.0, 32.0, 32.0)}},
+         "So: the spectrum's peak at 672 Hz rises from almost none."),
+        ({"peaks": {"y": Peak(640.0, -76.0, 32.0)}},
+         "So: the spectrum's peak at 672 Hz falls to almost none."),
         ({"peaks": {}, "silent": "nothing turns"},
          "So: at rest hardly anything changes; there is no spectrum: nothing turns."),
         # what is said is not only what happens where the housing is loudest
@@ -169,35 +172,28 @@ def test_only_terms_that_matter_are_lively() -> None:
     assert healthy["overview_terms"]["lively"].sum() <= 3
 
 
-def test_bands_and_spectrum_share_their_frequencies() -> None:
+def test_curves_and_bands_of_the_spectrum_are_named_in_the_figure() -> None:
     for scene in (FAN_RIG, presets["liew-lim"]):
         results = Results(scene, 0.1)
-        bars, ranges = OverviewBands(PackedSource()).data(results)
-        drawn, others = OverviewSpectrum(PackedSource()).data(results)
-        assert ranges["overview_band_frequency"] == others["overview_frequency"]
-        bars = bars["overview_bands"]
-        assert (bars["low"] <= bars["now"] + 1e-9).all()
-        assert (bars["now"] <= bars["high"] + 1e-9).all()
-        assert scene is not FAN_RIG or (np.diff(bars["row"]) < 0.0).all()
+        drawn, ranges = OverviewSpectrum(PackedSource()).data(results)
         full = VibrationSpectra(PackedSource()).data(results)[0]["spectrum_lines"]
         np.testing.assert_array_equal(drawn["overview_lines"]["y"], full["y"])
+        bands, names = drawn["overview_bands"], drawn["overview_names"]
+        assert len(bands["low"]) == len(results.bands)
+        assert {0.0, 1.0} <= set(names["which"]), "horizontal and vertical"
+        low, high = ranges["overview_level"]
+        assert ((names["y"] > low) & (names["y"] < high)).all()
+        at_end = names["which"] < 2.0
+        assert abs(np.diff(names["y"][at_end])) > 0.05 * (high - low)
+        assert (names["x"][~at_end] <= 0.8 * ranges["overview_frequency"][1]).all()
+        for line in set(bands["line"]):
+            own = np.flatnonzero(bands["line"] == line)
+            ends = bands["low"][own] + bands["room"][own]
+            assert (ends[:-1] <= bands["low"][own][1:] + 1e-9).all()
 
 
-@pytest.mark.parametrize("name", list(presets))
-def test_names_of_bands_stand_clear_of_each_other(name: str) -> None:
-    """Ten modes share five rows, or their names would lie over one another in the small card."""
-    sources, ranges = OverviewBands(PackedSource()).data(Results(presets[name]))
-    bands, top = sources["overview_bands"], ranges["overview_band_frequency"][1]
-    assert len(set(bands["row"])) <= 5
-    width = 0.22 * top  # "θy₂ 1970–2069 Hz" on half a laptop's screen
-    for row in set(bands["row"]):
-        own = bands["row"] == row
-        ends = [
-            (low - width, high) if to_left else (low, high + width)
-            for low, high, to_left in zip(
-                bands["low"][own], bands["high"][own], bands["to_left"][own], strict=True
-            )
-        ]
-        ends.sort()
-        assert all(a[1] < b[0] for a, b in itertools.pairwise(ends)), ends
-        assert ends[-1][1] < 1.03 * top
+def test_a_cell_without_a_curve_says_why() -> None:
+    terms = OverviewStiffness(PackedSource()).data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
+    idle = [not lively for lively in terms["lively"]]
+    held = {DOF_NAMES[int(i)] for i, none in zip(terms["held"], idle, strict=True) if none}
+    assert held == {"z", "rx", "ry"}, "the ring of the fan rig moves along x and y alone"

@@ -9,7 +9,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.bearing import LINE_HEIGHT, TOP_LINE, BearingDrawing
+from bearing_explorer.views.bearing import BearingDrawing
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -23,7 +23,6 @@ class OverviewBearing(BearingDrawing):
     name = "overview-bearing"
     prefix = "overview_bearing"
     title = "Load of the balls"
-    scale_line = -TOP_LINE - 0.06  # in the other corner: it is narrow
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "load"
@@ -38,10 +37,6 @@ class OverviewBearing(BearingDrawing):
         sources, ranges = super().data(results)
         words = sources[f"{self.prefix}_load_words"]
         words["y"] = words["y"] - _LOWER
-        rows = sources[f"{self.prefix}_row_words"]
-        if rows["y"].size > 1:  # the corner is the second row's: below the names of both
-            below = rows["y"][:1] - 1.5 * LINE_HEIGHT * rows["y"].size
-            sources[f"{self.prefix}_scale_words"]["y"] = below
         return sources, ranges
 
     def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:

@@ -5,40 +5,92 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.modes import band_rows
-from bearing_explorer.views.overview.bands import LEFT, highest_band
+from bearing_explorer.views.modes import BAND_NAME, BAND_SPAN, band_rows, highest
 from bearing_explorer.views.vibration_spectrum import (
-    DEPTH_OF_VIEW,
     FREQUENCY,
     HIGHEST,
-    LEVEL_FLOOR,
     SHOWN,
     VibrationSpectra,
+    density_axis,
     drawn_levels,
+    seen_levels,
 )
+from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 
-LEVEL = style.AxisQuantity("Density", "", "dB")
+LEFT = 68
+"""[px] left of the frame: the widest numbers fit, so that no drag moves it."""
+TOP_ROOM = 16.0
+"""[dB] above the loudest line, for the names of the bands."""
+NAME_ROOM = 0.06
+"""Of the height of the frame: what the name of a curve needs."""
+NAME_WIDTH = 0.16
+"""Of the width of the frame."""
+END = 0.8
+"""Of the frequencies: beyond, a curve makes room for its name."""
+
+_BAND_WORDS = f"""
+const name = (() => {{ {BAND_NAME} return name }})()
+const whole = (() => {{ {BAND_SPAN} }})()
+let room = 0
+try {{ room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width/6.5 }} catch {{}}
+return whole.length < room ? whole : name.length < room ? name : ''
+"""
+_CURVE_WORDS = "return ['horizontal', 'vertical', 'without defect', 'pinned'][row.which]"
+_OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK, style.FAINT_INK)
+
+
+def layers() -> list[Layer]:
+    """From the lowest to the highest: bands, grey, curves, names."""
+    blue, orange = style.DIRECTION_COLORS[:2]
+    of_band = by_number("direction", style.DIRECTION_COLORS)
+    of_curve = by_number("which", _OF_CURVES)
+    return [
+        strips("overview_bands", of_band, 0.13, reads=("direction",)),
+        *(curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2) for dof in SHOWN),
+        curve("overview_lines", "frequency", "x", blue),
+        curve("overview_lines", "frequency", "y", orange),
+        Words(
+            "overview_bands",
+            "low",
+            1.0,
+            _BAND_WORDS,
+            ("direction", "number", "high", "room", "line"),
+            y_share=True,
+            fitting=style.NARROW,
+            look={"text_color": of_band, "y_offset": {"field": "line"}},
+        ),
+        Words(
+            "overview_names",
+            "x",
+            "y",
+            _CURVE_WORDS,
+            ("which",),
+            look={"text_color": of_curve, "text_align": "right"},
+        ),
+    ]
 
 
 class OverviewSpectrum(View):
-    """Along x and y in one figure, over the frequencies of the bands above it."""
+    """Along x and y in one figure, with the bands in which the natural frequencies move."""
 
     name = "overview-spectrum"
-    title = "Vibration of the housing"
+    title = "Vibration and natural frequencies"
     about = (
         "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
         "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
-    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs | {"healthy_bands"}
+    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs | {"bands"}
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "vibration"
@@ -49,45 +101,105 @@ class OverviewSpectrum(View):
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         plot = style.make_figure(
             FREQUENCY,
-            LEVEL,
+            density_axis(""),
             packed.range("overview_frequency", 0.0, HIGHEST),
             packed.range("overview_level", -80.0, -20.0),
             height=120,
             sizing_mode="stretch_both",
         )
         plot.min_border_left = LEFT
-        healthy = packed.source("overview_healthy_lines", "frequency", *SHOWN)
-        lines = packed.source("overview_lines", "frequency", *SHOWN)
-        colors = dict(zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True))
-        for dof in SHOWN:
-            bands = packed.source(f"overview_bands_{dof}", "low", "high")
-            plot.vstrip(
-                "low", "high", source=bands, fill_color=colors[dof], fill_alpha=0.13,
-                line_color=None,
-            )  # fmt: skip
-        for dof in SHOWN:
-            plot.line("frequency", dof, source=healthy, line_color=style.HEALTHY, line_width=1.2)
-        for dof in SHOWN:
-            plot.line("frequency", dof, source=lines, line_color=colors[dof], line_width=2.0)
+        draw(plot, packed, layers())
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        bands = band_rows(results.bands)
-        top = self._frequency.fit(HIGHEST, highest_band(results))[1]
+        top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
         drawn = drawn_levels(results.late_spectra, top)
         healthy = drawn_levels(results.healthy_late_spectra, top)
-        in_view = np.concatenate([drawn[dof] for dof in SHOWN])
-        loudest = np.nanmax(in_view, initial=LEVEL_FLOOR)
-        shown = self._levels.fit(np.maximum(in_view, loudest - DEPTH_OF_VIEW), loudest + 6.0)
-        of_mode = {dof: bands["direction"] == style.DIRECTIONS.index(dof) for dof in SHOWN}
+        shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn))
+        names = end_names(drawn, shown, top)
+        if results.reference_label:
+            names += grey_name(healthy, drawn, shown, 2 if results.pinned is None else 3)
+        x, y, which = np.array(names, dtype=float).reshape(-1, 3).T
         return {
             "overview_lines": drawn,
             "overview_healthy_lines": healthy,
-            **{
-                f"overview_bands_{dof}": {end: bands[end][own] for end in ("low", "high")}
-                for dof, own in of_mode.items()
-            },
+            "overview_bands": named_bands(results, top),
+            "overview_names": {"x": x, "y": y, "which": which},
         }, {"overview_frequency": (0.0, top), "overview_level": shown}
 
-    sentence = VibrationSpectra.sentence
+    def sentence(self, results: Results) -> str:
+        moving = [
+            f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
+            for label, (low, high) in results.bands.items()
+            if low == low
+        ]
+        words = style.list_words(moving)
+        bands = f" The natural frequencies move within: {words}." if words else ""
+        return VibrationSpectra.sentence(self, results) + bands
+
     table = VibrationSpectra.table
+
+
+def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
+    """Bands by their frequency, with the room [Hz] up to the next name, in two lines of names."""
+    bands = band_rows(results.bands)
+    order = np.argsort(bands["low"], kind="stable")
+    low = bands["low"][order]
+    line = np.arange(low.size) % 2
+    room = [
+        np.min(low[(line == own) & (low > at)], initial=top) - at
+        for own, at in zip(line, low, strict=True)
+    ]
+    named = {name: column[order] for name, column in bands.items()}
+    return {**named, "room": np.array(room, dtype=float), "line": 8.0 + 14.0 * line}
+
+
+def end_names(
+    drawn: dict[str, NDArray[np.float64]], shown: tuple[float, float], top: float
+) -> list[tuple[float, float, int]]:
+    """Names of the curves at their right ends: above the upper one, below the lower one."""
+    at_end = drawn["frequency"] > END * top
+    ends = {
+        dof: drawn[dof][at_end]
+        for dof in SHOWN
+        if at_end.any() and np.isfinite(drawn[dof][at_end]).all()
+    }
+    room = NAME_ROOM * (shown[1] - shown[0])
+    upper = max(ends, key=lambda dof: float(ends[dof].mean()), default="")
+    places = {
+        dof: float(end.max()) + room if dof == upper else float(end.min()) - room
+        for dof, end in ends.items()
+    }
+    return [
+        (top, min(max(y, shown[0] + room), shown[1] - 2.0 * room), SHOWN.index(dof))
+        for dof, y in places.items()
+    ]
+
+
+def grey_name(
+    healthy: dict[str, NDArray[np.float64]],
+    drawn: dict[str, NDArray[np.float64]],
+    shown: tuple[float, float],
+    which: int,
+) -> list[tuple[float, float, int]]:
+    """Name of the grey curves, over one of their peaks, as far from all curves as it can be.
+
+    None where they are out of view.
+    """
+    if not healthy["frequency"].size or not drawn["frequency"].size:
+        return []
+    room = NAME_ROOM * (shown[1] - shown[0])
+    level = np.fmax(healthy["x"], healthy["y"])
+    wide = int(NAME_WIDTH * level.size)
+    free = []
+    for i in range(wide, int(END * level.size)):  # beyond are the names of the others
+        y = level[i] + room
+        under = slice(i - wide, i + 1)
+        others = [level[under], *(drawn[dof][under] for dof in SHOWN)]
+        apart = min(float(np.nanmin(np.abs(other - y), initial=np.inf)) for other in others)
+        if shown[0] < level[i] < shown[1] - 4.0 * room:
+            free.append((min(apart, room), float(level[i]), i))
+    if not free:
+        return []
+    _, y, i = max(free)
+    return [(float(healthy["frequency"][i]), y + room, which)]

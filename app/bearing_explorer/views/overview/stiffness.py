@@ -1,4 +1,4 @@
-"""The 15 stiffness terms, small: lively where something happens, pale where nothing does."""
+"""The 15 stiffness terms, small: a curve where something happens, a reason where nothing does."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.matrix_cells import (
+    PLACES,
     SYMBOLS,
     UNITS,
     Cell,
@@ -23,7 +24,8 @@ from bearing_explorer.plots.matrix_cells import (
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearingcore import STIFFNESS_TERMS
+from bearingcore import DOF_NAMES, STIFFNESS_TERMS
+from bearingcore.scene.scene import DOF_SYMBOLS
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 
 if TYPE_CHECKING:
@@ -32,8 +34,6 @@ if TYPE_CHECKING:
 COLUMNS = 5
 LIVELY = 0.02
 """Of the size of a term: it matters where it swings or is off the healthy one by more."""
-CALM = 10.0
-"""A cell in which nothing happens shows so much more: its small changes are no picture."""
 MOST_POINTS = 61
 """Of a trace: a cell is little more than a hundred pixels wide."""
 
@@ -45,8 +45,16 @@ _ROWS = math.ceil(len(_CELLS) / COLUMNS)
 _LEFT = np.array([cell.left for cell in _CELLS])
 _RIGHT = np.array([cell.right for cell in _CELLS])
 _TOP = np.array([cell.top for cell in _CELLS])
+_MIDDLE = np.array([0.5 * (cell.top + cell.bottom) for cell in _CELLS])
+_TERM_COLUMNS = ("right", "top", "now", "unit", "lively", "held", "middle", "center")
 _UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
 _GAP = np.array([np.nan])
+_DIRECTIONS = np.array(PLACES)
+_WHY_WORDS = f"""
+const names = {[DOF_SYMBOLS[dof] for dof in DOF_NAMES]}
+if (row.lively) return ''
+return row.held < 0 ? 'constant' : names[row.held] + (narrow ? '' : ' fixed')
+"""
 _VALUE_WORDS = f"""
 if (narrow) return ''  // it would lie on the symbol
 const unit = {list(UNITS)}[row.unit]
@@ -61,8 +69,8 @@ class OverviewStiffness(View):
     title = "Stiffness of the bearing"
     about = (
         "The 15 terms of the stiffness matrix as the bearing turns. Blue, with their value now: "
-        "those that vary, or differ from the grey ones. Grey: {grey}. Pale: those to which "
-        "nothing happens, or along which the ring cannot move in this scene."
+        "those that vary, or differ from the grey ones. Grey: {grey}. “Fixed”: the ring does not "
+        "move along this direction in this scene."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
     compact = True
@@ -96,22 +104,31 @@ class OverviewStiffness(View):
         )
         below = {"x_offset": 8, "y_offset": -1}
         plot.text(
-            "left", "top", text="below", source=frames, text_font_size="10px", **below, **serif
+            "left", "top", text="below", source=frames, text_font_size="11px", **below, **serif
         )
-        terms = packed.source("overview_terms", "right", "top", "now", "unit", "lively")
+        terms = packed.source("overview_terms", *_TERM_COLUMNS)
+        small = {"text_font": value(style.FONT), "text_font_size": style.SMALL_TEXT_SIZE}
         plot.text(
             "right",
             "top",
             text=style.fitting_words(plot, terms, _VALUE_WORDS),
             source=terms,
             text_align="right",
-            text_font={"value": style.FONT},
-            text_font_size="10.5px",
             y_offset=-3,
             text_color=style.INK,
+            **small,
+        )
+        plot.text(
+            "middle",
+            "center",
+            text=style.fitting_words(plot, terms, _WHY_WORDS),
+            source=terms,
+            text_align="center",
+            text_baseline="middle",
+            text_color=style.FAINT_INK,
+            **small,
         )
         for name, color, width in (
-            ("calm", style.STEEL_EDGE, 1.0),
             ("healthy", style.HEALTHY, 1.3),
             ("lively", style.DEFECTIVE, 1.8),
         ):
@@ -132,26 +149,21 @@ class OverviewStiffness(View):
         share = (results.cage_angle - first) % (last - first) / (last - first)
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
         free = free_terms(found.dofs)
+        is_held = np.array([dof not in found.dofs for dof in DOF_NAMES])[_DIRECTIONS]
+        held = np.where(is_held[:, 0], _DIRECTIONS[:, 0], _DIRECTIONS[:, 1])
         lively = np.zeros(len(_CELLS))
         values = np.empty(len(_CELLS))
-        traces: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {
-            "calm": [],
-            "healthy": [],
-            "lively": [],
-        }
+        traces: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"healthy": [], "lively": []}
         marks = np.full((2, len(_CELLS)), np.nan)
         for i, (cell, term, scale) in enumerate(zip(_CELLS, STIFFNESS_TERMS, scales, strict=True)):
             a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
             values[i] = cleaned(now.term(term), scale)[0]
             lively[i] = term in free and is_lively(a, b, scale)
-            limits = trace_limits(self._limits[i], scale if lively[i] else CALM * scale, a, b)
-            ours = cell.x(shares[0]), cell.y(a[pick[0]], limits)
             if lively[i]:
-                traces["lively"].append(ours)
+                limits = trace_limits(self._limits[i], scale, a, b)
+                traces["lively"].append((cell.x(shares[0]), cell.y(a[pick[0]], limits)))
                 traces["healthy"].append((cell.x(shares[1]), cell.y(b[pick[1]], limits)))
                 marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
-            else:
-                traces["calm"].append(ours)
         return {
             **{f"overview_{name}": _with_gaps(lines) for name, lines in traces.items()},
             "overview_terms": {
@@ -160,6 +172,9 @@ class OverviewStiffness(View):
                 "now": values,
                 "unit": _UNIT,
                 "lively": lively,
+                "held": np.where(is_held.any(axis=1), held, -1),
+                "middle": 0.5 * (_LEFT + _RIGHT),
+                "center": _MIDDLE,
             },
             "overview_term_now": {"x": marks[0], "y": marks[1]},
         }, {}

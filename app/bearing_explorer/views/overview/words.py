@@ -19,6 +19,8 @@ LEAST_LOAD = 0.05
 """Of the greatest load of a ball."""
 LEAST_LEVEL = 2.0
 """[dB] of the loudest line."""
+ALMOST_NONE = 30.0
+"""[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
 _BESIDE = 1.5  # times the change of a stiffness that another one has to have to be named too
 
@@ -159,6 +161,11 @@ def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
     new, old = now.peaks[along], before.peaks[along]
     louder = new.level - old.level
     level = ""
+    if abs(louder) >= ALMOST_NONE:
+        where = "" if along == now.loudest else f" along {along}"
+        at = f"{(new if louder > 0.0 else old).frequency:.0f} Hz"
+        verb = "rises from" if louder > 0.0 else "falls to"
+        return f"the spectrum's peak{where} at {at} {verb} almost none"
     if abs(louder) >= LEAST_LEVEL:
         level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
     moved = new.frequency - old.frequency

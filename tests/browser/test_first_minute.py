@@ -1,0 +1,217 @@
+"""The first minute: what stands on the first screen, what moves, and no nonsense in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.explorer_page import number, rest, settle, slider, value
+from tests.browser.helpers import Server, Watch, explorer_server, serving
+
+#: every element inside shadows too, and the ones that are seen
+SEEN = """
+window.deep = function* (where) {
+  for (const element of where.querySelectorAll("*")) {
+    yield element
+    if (element.shadowRoot) yield* deep(element.shadowRoot)
+  }
+}
+window.seen = (element) => {
+  const box = element.getBoundingClientRect()
+  return box.width > 2 && box.height > 2 && box.right > 0 && box.bottom > 0
+    && box.left < innerWidth && box.top < innerHeight
+    && element.checkVisibility({ visibilityProperty: true, opacityProperty: true })
+    && getComputedStyle(element).clipPath === "none"
+}
+"""
+#: words and type sizes outside of figures, words and sizes in figures, and controls
+COUNTS = """() => {
+  const found = { words: [], drawn: [], sizes: {}, controls: [] }
+  const size = (px, of) => { (found.sizes[px] ??= []).push(of.slice(0, 30)) }
+  const words_of = (text) => text.match(/[\\p{L}\\p{N}.,−–]*\\p{L}[\\p{L}\\p{N}.,−–]*/gu) ?? []
+  const add = (text, element) => {
+    found.words.push(...words_of(text))
+    if (words_of(text).length) size(parseFloat(getComputedStyle(element).fontSize), text)
+  }
+  const clipped = (element) => {
+    for (let at = element; at; at = at.parentElement ?? at.getRootNode().host)
+      if (getComputedStyle(at).clipPath !== "none") return true
+  }
+  for (const element of deep(document.body)) {
+    if (element.matches("script, style, option, optgroup, template") || !seen(element)) continue
+    if (clipped(element)) continue
+    if (element.matches("button, input, select, textarea, a[href], summary"))
+      found.controls.push(element.id || element.getAttribute("aria-label") || element.textContent)
+    if (element.matches("select")) add(element.selectedOptions[0]?.textContent ?? "", element)
+    for (const node of element.childNodes)
+      if (node.nodeType === Node.TEXT_NODE) add(node.textContent, element)
+  }
+  for (const { model, el } of Bokeh.index.query((view) => view.model.type === "Figure")) {
+    if (!seen(el)) continue
+    for (const axis of [...model.left, ...model.below]) {
+      if (!axis.visible || !axis.axis_label) continue
+      found.drawn.push(...words_of(axis.axis_label))
+      for (const name of ["axis_label", "major_label"])
+        size(parseFloat(axis[`${name}_text_font_size`]), axis.axis_label)
+    }
+    for (const { glyph, data_source } of model.renderers) {
+      if (glyph?.type !== "Text") continue
+      const { expr, field } = glyph.text
+      const texts = [...(expr?.v_compute(data_source) ?? data_source.data[field])]
+      found.drawn.push(...texts.flatMap(words_of))
+      size(parseFloat(glyph.text_font_size.value ?? glyph.text_font_size), texts.join(" "))
+    }
+  }
+  return found
+}"""
+
+
+def first_screen(page: Page, server: Server) -> dict[str, Any]:
+    """What is seen of the page on a first visit."""
+    page.add_init_script(SEEN)
+    page.goto(server.url)
+    page.evaluate("localStorage.clear()")
+    page.reload()
+    page.wait_for_function("window.__frames >= 1")
+    rest(page)
+    found: dict[str, Any] = page.evaluate(COUNTS)
+    return found
+
+
+def test_the_first_screen_is_seen_at_a_glance(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    page.set_viewport_size({"width": 1440, "height": 900})
+    found = first_screen(page, explorer)
+    assert len(found["controls"]) <= 45, found["controls"]
+    assert len(found["words"]) <= 150, found["words"]
+    sizes = sorted(float(size) for size in found["sizes"])
+    assert len(sizes) <= 4, found["sizes"]
+    assert sizes[0] >= 11.0, found["sizes"]
+    expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [768, 960, 1199])
+def test_a_figure_is_near_the_top_where_there_is_less_room(
+    watch: tuple[Page, Watch], explorer: Server, width: int
+) -> None:
+    page, _ = watch
+    page.set_viewport_size({"width": width, "height": 900})
+    first_screen(page, explorer)
+    expect(page.get_by_role("region", name="Introduction")).to_be_visible()
+    first = page.locator("main canvas").first.bounding_box()
+    assert first is not None
+    assert first["y"] <= 450.0
+
+
+# --- no nonsense, from the first frame on ---------------------------------------------------------
+
+_SAMPLE = (
+    SEEN
+    + """
+window.__nonsense = new Set()
+window.__samples = 0
+setInterval(() => {
+  if (!document.body) return
+  window.__samples++
+  for (const element of deep(document.body)) {
+    if (element.matches("script, style, pre")) continue
+    for (const node of element.childNodes)
+      if (node.nodeType === Node.TEXT_NODE && /\\b(undefined|NaN|null)\\b/.test(node.textContent))
+        window.__nonsense.add(node.textContent)
+  }
+}, 100)
+"""
+)
+
+
+def samples(page: Page, server: Server) -> list[str]:
+    """What is wrong in the text of the page, ten times a second until it rests."""
+    page.add_init_script(_SAMPLE)
+    page.goto(server.url)
+    page.wait_for_function("window.__samples >= 3")
+    rest(page)
+    return list(page.evaluate("[...window.__nonsense]"))
+
+
+def test_no_frame_says_undefined(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    assert samples(page, explorer) == []
+    # what is looked for is found
+    page.evaluate("document.querySelector('footer').append(String(undefined))")
+    page.wait_for_function("window.__nonsense.size === 1")
+
+
+@pytest.mark.proof
+def test_no_frame_of_a_cold_start_says_undefined(watch: tuple[Page, Watch]) -> None:
+    page, _ = watch
+    with serving(explorer_server()) as server:
+        assert samples(page, server) == []
+
+
+# --- it moves -------------------------------------------------------------------------------------
+
+
+def test_the_bearing_turns_until_the_first_touch(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    page.emulate_media(reduced_motion="no-preference")
+    page.goto(explorer.url)
+    undo = page.get_by_role("button", name="Undo", exact=True)
+    page.wait_for_function(
+        "document.querySelector('main').getAttribute('aria-busy') === 'true'"
+        " && (window.__mark || 0) > 5"
+    )
+    expect(undo).to_be_disabled()
+    page.mouse.click(5, 300)
+    settle(page)
+    turned = value(page, "cage_angle_deg")
+    assert turned > 0.0
+    page.wait_for_timeout(300)
+    assert value(page, "cage_angle_deg") == turned
+    expect(undo).to_be_disabled()
+    slider(page, "extent_deg").press("ArrowRight")
+    expect(undo).to_be_enabled()
+    undo.click()
+    settle(page)
+    expect(undo).to_be_disabled()
+    assert value(page, "cage_angle_deg") == turned
+    # a link with a scene shows that scene
+    page.goto(f"{explorer.url}?v=1&preset=fan-rig&cage_angle_deg=3&tab=overview")
+    page.wait_for_function("window.__frames >= 1")
+    rest(page)
+    assert value(page, "cage_angle_deg") == 3.0
+
+
+# --- controls that are folded ---------------------------------------------------------------------
+
+
+def test_what_is_folded_and_changed_is_counted(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    page.goto(f"{explorer.url}?v=1&preset=fan-rig&center_deg=250&edge=exact&tab=load")
+    page.wait_for_function("window.__frames >= 1")
+    more = page.locator("aside .more")
+    expect(more).to_have_text("More (2 changed)")
+    expect(slider(page, "center_deg")).to_be_hidden()
+    more.press("Enter")
+    expect(slider(page, "center_deg")).to_be_visible()
+    number(page, "center_deg").fill("270")
+    number(page, "center_deg").press("Enter")
+    expect(more).to_have_text("More (1 changed)")
+
+
+def test_a_value_that_is_typed_back_is_no_error_any_more(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, _ = watch
+    page.goto(f"{explorer.url}?v=1&preset=fan-rig&tab=load")
+    page.wait_for_function("window.__frames >= 1")
+    refusal = page.locator(".control-extent_deg .refusal")
+    field = number(page, "extent_deg")
+    field.fill("999")
+    field.press("Enter")
+    expect(refusal).to_contain_text("0 to 360")
+    field.fill("12.9")
+    expect(refusal).to_be_hidden()

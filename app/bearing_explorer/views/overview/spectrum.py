@@ -135,8 +135,9 @@ class OverviewSpectrum(View):
         ]
         words = style.list_words(moving)
         bands = f" The natural frequencies move within: {words}." if words else ""
-        return VibrationSpectra.sentence(self, results) + bands
+        return self._of_spectrum(results) + bands
 
+    _of_spectrum = VibrationSpectra.sentence
     table = VibrationSpectra.table
 
 

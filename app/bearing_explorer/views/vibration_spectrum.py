@@ -194,35 +194,7 @@ class VibrationSpectra(View):
         return sources, {**ranges, "spectrum_frequency": (0.0, top), "spectrum_level": shown}
 
     def sentence(self, results: Results) -> str:
-        words = []
-        if not results.late_spectra:
-            return f"There is no spectrum, as {why_ended(results.motion)}."
-        for dof in SHOWN:
-            if dof in results.late_spectra:
-                frequency, density = results.late_spectra[dof]
-                heard = (frequency >= 100.0) & (frequency <= HIGHEST)
-                most = np.flatnonzero(heard)[np.argmax(density[heard])]
-                words.append(
-                    f"along {dof} {style.number(decibels(density[most]), 2)} dB at "
-                    f"{frequency[most]:.0f} Hz"
-                )
-        text = (
-            "Above 100 Hz the housing vibrates most " + style.list_words(words)
-            if words
-            else "The housing cannot move along x or y in this scene"
-        )
-        passing = style.list_words(
-            [
-                f"of the {race} race{f', row {row},' if row else ''} at "
-                f"{style.number(frequency, 4)} Hz"
-                for race, row, frequency in passed(results.scene)
-            ]
-        )
-        text += f"; balls pass a point {passing}"
-        if results.moving:
-            return f"{text}."
-        start = style.with_prefix(results.settled_since, "s")
-        return f"{text}. It is of a motion integrated in time, without its first {start}."
+        return loudest_words(results)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
@@ -235,6 +207,38 @@ class VibrationSpectra(View):
                 columns = one.table([dof], unit).named()
                 table |= {f"{prefix}{name}": values for name, values in columns.items()}
         return table
+
+
+def loudest_words(results: Results) -> str:
+    """Where the housing vibrates most along each direction, and how often balls pass."""
+    words = []
+    if not results.late_spectra:
+        return f"There is no spectrum, as {why_ended(results.motion)}."
+    for dof in SHOWN:
+        if dof in results.late_spectra:
+            frequency, density = results.late_spectra[dof]
+            heard = (frequency >= 100.0) & (frequency <= HIGHEST)
+            most = np.flatnonzero(heard)[np.argmax(density[heard])]
+            words.append(
+                f"along {dof} {style.number(decibels(density[most]), 2)} dB at "
+                f"{frequency[most]:.0f} Hz"
+            )
+    text = (
+        "Above 100 Hz the housing vibrates most " + style.list_words(words)
+        if words
+        else "The housing cannot move along x or y in this scene"
+    )
+    passing = style.list_words(
+        [
+            f"of the {race} race{f', row {row},' if row else ''} at {style.number(frequency, 4)} Hz"
+            for race, row, frequency in passed(results.scene)
+        ]
+    )
+    text += f"; balls pass a point {passing}"
+    if results.moving:
+        return f"{text}."
+    start = style.with_prefix(results.settled_since, "s")
+    return f"{text}. It is of a motion integrated in time, without its first {start}."
 
 
 def density_axis(symbol: str) -> style.AxisQuantity:

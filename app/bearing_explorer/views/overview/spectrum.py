@@ -20,6 +20,7 @@ from bearing_explorer.views.vibration_spectrum import (
     VibrationSpectra,
     density_axis,
     drawn_levels,
+    loudest_words,
     seen_levels,
 )
 from bearingcore.sweep.outputs import mode_symbol
@@ -135,9 +136,8 @@ class OverviewSpectrum(View):
         ]
         words = style.list_words(moving)
         bands = f" The natural frequencies move within: {words}." if words else ""
-        return self._of_spectrum(results) + bands
+        return loudest_words(results) + bands
 
-    _of_spectrum = VibrationSpectra.sentence
     table = VibrationSpectra.table
 
 

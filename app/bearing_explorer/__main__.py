@@ -118,7 +118,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     def load() -> None:
         lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
-        _load_figures()
 
     if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
         bearingcore.warm(report=_say)
@@ -183,17 +182,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Stopped.")
     sys.stderr.flush()
     os._exit(0)  # at once: Python would wait for what threads still compute, for minutes
-
-
-def _load_figures() -> None:
-    """HoloViews, which Explore draws with: Panel looks for it from any thread once it is there.
-
-    Where one thread still imports it then, both fail. A first map has it import three hundred
-    modules more, in a third of a second: not on the event loop, when somebody opens Explore.
-    """
-    from bearing_explorer.plots.plane import first_drawing
-
-    first_drawing()
 
 
 def _end_with_parent(loop: Any) -> None:

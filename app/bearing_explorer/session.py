@@ -131,7 +131,6 @@ class Explorer:
             ask=self.requests.change_scene,
             add_controls=self.requests.panels.append,
             take_steps=self._take_steps,
-            fill=self._fill,
             set_life_inputs=self._set_life_inputs,
         )
 
@@ -267,26 +266,6 @@ class Explorer:
             sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
             margin=0,
         )
-
-    def _fill(
-        self,
-        layout: pn.Column,
-        make: Callable[[], pn.viewable.Viewable],
-        then: Callable[[], None],
-    ) -> asyncio.Task[None]:
-        """Put what is made into a layout of a view on screen, and then act: turn after turn."""
-
-        async def fill() -> None:
-            made = make()
-            await asyncio.sleep(0.0)
-
-            def change() -> None:
-                layout[:] = [made]
-                then()
-
-            await one_message(self._doc, change, new_models=True)
-
-        return self._keep(fill())
 
     def _attach_tab(self, name: str) -> None:
         if self._containers[name] not in self.main:

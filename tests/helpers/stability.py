@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep
-from bearing_explorer.views.stability_map import Found
+from bearing_explorer.views.swept_view import Swept
 
 from bearingcore import presets
 from bearingcore.dynamics.stability_map import stability_map
@@ -12,7 +12,7 @@ from bearingcore.dynamics.stability_map import stability_map
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 
 
-def found_map() -> Found:
+def found_map() -> Swept:
     x = Sweep(SWEEPABLE["shaft_speed_hz"], np.array([10.0, 20.0, 30.0]))
     y = Sweep(SWEEPABLE["extent_deg"], np.array([12.9, 38.6]))
-    return Found(stability_map(RIG, x.in_si, y.in_si), x, y)
+    return Swept(stability_map(RIG, x.in_si, y.in_si), (x, y))

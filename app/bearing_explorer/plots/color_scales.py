@@ -57,3 +57,8 @@ def packed_colors(scale: np.ndarray) -> list[int]:
     """The colours as browsers keep pixels: red in the lowest byte, opaque."""
     red, green, blue = scale.T
     return [int(x) for x in 0xFF000000 + (blue << 16) + (green << 8) + red]
+
+
+def hex_colors(scale: np.ndarray) -> list[str]:
+    """The colours as "#rrggbb"."""
+    return ["#{:02x}{:02x}{:02x}".format(*rgb) for rgb in scale]

@@ -1,8 +1,7 @@
 """Heat maps: numbers on a grid as a picture, read under the pointer, clicked to go there.
 
 Every heat map of the page is read and clicked by the same scripts, `reading` and `goes_there`; what
-draws it may be HoloViews, a canvas of sixteen maps, or a `GridImage`, which comes in the packed
-source.
+draws it is a `GridImage`, or a canvas of sixteen maps.
 
 The packed source carries columns of floats, so a picture travels as one column: a head that says
 where the grid lies and which quantities its sides are, then the values of each layer, row by row
@@ -25,7 +24,9 @@ from bokeh.models import (
     CustomJSHover,
     GlyphRenderer,
     HoverTool,
+    LinearColorMapper,
     Plot,
+    Range1d,
 )
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -46,11 +47,11 @@ _HEAD = 9
 _PLACE = asset_text("heat_map_place.js")
 TOOLTIP = (
     f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; line-height: 1.45">'
-    "$x{custom}<br>$y{custom}<br><b>@image{custom}</b></div>"
+    "$x{custom}<br>$y{custom}<br><b>$sx{custom}</b></div>"
 )
 """Text under the pointer: both places and the value."""
-VALUE_FIELDS = {"$x": "x", "$y": "y", "@image": "value"}
-"""Meaning of the fields of TOOLTIP."""
+VALUE_FIELDS = {"$x": "x", "$y": "y", "$sx": "value"}
+"""Meaning of the fields of TOOLTIP. The value is none of Bokeh's own, which writes NaN itself."""
 
 
 @dataclass(frozen=True)
@@ -141,6 +142,15 @@ def sections(image: Any, **args: Any) -> CustomJS:
     return CustomJS(args={"image": image, **args}, code=_PLACE + asset_text("heat_map_sections.js"))
 
 
+def scale_by(shown: Range1d, mapper: LinearColorMapper) -> None:
+    """Have the ends of a range be those of a colour scale."""
+    mapper.update(low=shown.start, high=shown.end, syncable=False)
+    code = "mapper.setv({low: shown.start, high: shown.end})"
+    follow = CustomJS(args={"mapper": mapper, "shown": shown}, code=code)
+    shown.js_on_change("start", follow)
+    shown.js_on_change("end", follow)
+
+
 def reading(
     places: Places,
     renderers: Sequence[GlyphRenderer],
@@ -223,6 +233,15 @@ class GridImage:
     say
         JavaScript: body of a function of `cell`, the numbers of all layers under the pointer,
         which returns their meaning as text.
+    empty
+        look of what is seen through cells that are transparent.
+    known
+        models that `say` knows besides.
+
+    Attributes
+    ----------
+    source
+        Bokeh's source of the lowest layer: image, x, y, dw, dh.
     """
 
     def __init__(
@@ -233,6 +252,8 @@ class GridImage:
         mappers: Sequence[ColorMapper],
         sides: Sequence[Side],
         say: str,
+        empty: Mapping[str, Any] | None = None,
+        **known: Any,
     ) -> None:
         self.name = name
         self._sides = list(sides)
@@ -243,7 +264,10 @@ class GridImage:
             ColumnDataSource({"image": [np.zeros((1, 1), np.float32)], **blank}, syncable=False)
             for _ in mappers
         ]
-        self.renderers = [
+        self.source = layers[0]
+        if empty is not None:
+            plot.block("x", "y", "dw", "dh", source=self.source, level="image", **empty)
+        drawn = [
             plot.image(
                 "image", "x", "y", "dw", "dh", source=layer, color_mapper=mapper,
                 global_alpha="alpha", level="image",
@@ -255,13 +279,13 @@ class GridImage:
         for axis in axes.values():
             axis.syncable = False  # or the server would hear of each change of its label
         places = Places(layers[0], self._sides, stands=ColumnDataSource(_NO_SIDES, syncable=False))
-        known = {**axes, "layers": layers, "stands": places.stands, "head": _HEAD}
+        args = {**axes, "layers": layers, "stands": places.stands, "head": _HEAD}
         labels = [side.label for side in self._sides]
         cells.js_on_change(
-            "data", CustomJS(args={**known, "labels": labels}, code=asset_text("heat_map.js"))
+            "data", CustomJS(args={**args, "labels": labels}, code=asset_text("heat_map.js"))
         )
         goes_there(plot, places)
-        plot.add_tools(reading(places, self.renderers[:1], say, layers))
+        plot.add_tools(reading(places, drawn[:1], say, layers, **known))
 
     def columns(
         self,

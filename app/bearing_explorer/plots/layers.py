@@ -17,6 +17,7 @@ from bokeh.models import (
     CustomJS,
     GlyphRenderer,
     LinearColorMapper,
+    RadioButtonGroup,
     Range1d,
 )
 from bokeh.plotting import figure
@@ -235,3 +236,21 @@ def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> Checkb
     code = "for (const one of drawn) one.visible = cb_obj.active.length > 0"
     box.js_on_change("active", CustomJS(args={"drawn": list(drawn)}, code=code))
     return box
+
+
+_SWITCH = "plots.forEach((plot, which) => { plot.visible = which == cb_obj.active })"
+
+
+def switch(labels: Sequence[str], plots: Sequence[figure], active: int = 0) -> RadioButtonGroup:
+    """Buttons that show one of several figures, in the browser alone."""
+    for number, plot in enumerate(plots):
+        plot.visible = number == active
+    buttons = RadioButtonGroup(
+        labels=list(labels),
+        active=active,
+        syncable=False,
+        margin=(2, 5, 6, 5),
+        stylesheets=[style.BUTTONS],
+    )
+    buttons.js_on_change("active", CustomJS(args={"plots": list(plots)}, code=_SWITCH))
+    return buttons

@@ -1,14 +1,24 @@
-"""Where the 15 terms of the symmetric 5×5 stiffness matrix stand in a drawing, and their names."""
+"""The drawing of the symmetric 5×5 stiffness matrix: a cell for each of its 15 terms.
+
+One canvas instead of fifteen: column j and row i of the matrix are the unit square at (j, -i). That
+paints several times faster than a figure for each term, and shows where in the matrix each stands.
+Below the diagonal, where the matrix only repeats itself, is room for the number of loaded balls.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import panel as pn
+from bokeh.models import ColumnDataSource, Range1d
+from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
 from bearingcore.statics.equilibrium import TERM_SYMBOLS
@@ -22,6 +32,9 @@ PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
 """Row and column of each term."""
 SYMBOLS = list(TERM_SYMBOLS.values())
 """Symbols of the terms; all but the first letter is a subscript."""
+NAMES = [*SYMBOLS, "Loaded balls"]
+"""Names of the cells."""
+SIDES = ("left", "right", "bottom", "top")
 
 
 @dataclass(frozen=True)
@@ -41,6 +54,61 @@ class Cell:
         """Heights of values on an axis with these limits."""
         low, high = limits
         return self.bottom + (self.top - self.bottom) * (value - low) / (high - low)
+
+
+def sides_of(cells: Sequence[Cell]) -> dict[str, NDArray[np.float64]]:
+    """The sides of cells, as columns."""
+    return {side: np.array([getattr(cell, side) for cell in cells]) for side in SIDES}
+
+
+def matrix_figure(
+    x: tuple[float, float], y: tuple[float, float], looks: str = "", **options: Any
+) -> figure:
+    """A figure for cells, with further styles; on a phone `scrolled` lets it scroll in its card."""
+    plot = style.bare_figure(Range1d(*x), Range1d(*y), **options)
+    # as a property of the figure Panel would give the width to the whole card
+    plot.min_width = None
+    plot.stylesheets = [f":host {{ min-width: 760px; }} {looks}"]
+    return plot
+
+
+def scrolled(plot: figure) -> pn.Column:
+    """The figure in a frame that scrolls."""
+    scroll = ":host { overflow-x: auto; max-width: 100%; }"
+    return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
+
+
+def write(plot: figure, source: ColumnDataSource, text: Any, **look: Any) -> None:
+    """Small words at the places x, y of a source."""
+    usual = {
+        "x": "x",
+        "y": "y",
+        "text_font": {"value": style.FONT},
+        "text_font_size": style.SMALL_TEXT_SIZE,
+        "text_color": style.FAINT_INK,
+    }
+    plot.text(source=source, text=text, **{**usual, **look})
+
+
+def write_names(plot: figure, cells: Sequence[Cell]) -> None:
+    """The symbols of the terms above their cells, and the name of the last cell."""
+    *terms, balls = cells
+    source = ColumnDataSource(
+        {
+            "x": [cell.left for cell in terms],
+            "y": [cell.top for cell in terms],
+            "below": [symbol[1:] for symbol in SYMBOLS],
+        }
+    )
+    serif = {
+        "text_font": {"value": "Georgia, 'Times New Roman', serif"},
+        "text_color": style.INK,
+    }
+    write(plot, source, {"value": "k"}, y_offset=-6, text_font_size="15px", **serif)
+    write(plot, source, "below", x_offset=9, y_offset=-3, **serif)
+    name = ColumnDataSource({"x": [balls.left], "y": [balls.top]})
+    look = {"y_offset": -6, "text_font_size": style.TEXT_SIZE, "text_color": style.INK}
+    write(plot, name, {"value": NAMES[-1]}, **look)
 
 
 def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:

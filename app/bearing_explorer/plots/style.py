@@ -9,8 +9,9 @@ Colours have one meaning each on the whole page and stay apart for colour-blind 
 
 from __future__ import annotations
 
+import html
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +23,6 @@ from bokeh.models import (
     CustomJSExpr,
     CustomJSTickFormatter,
     FixedTicker,
-    GlyphRenderer,
     LinearAxis,
     Range1d,
 )
@@ -56,6 +56,7 @@ BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 """Colours of balls that are shown one by one, taken in turn."""
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+HTML_FONT = f"font:12.5px/1.45 {FONT}".replace('"', "'")
 TEXT_SIZE = "12px"
 WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
 """Style of rows that stand below one another where there is little room."""
@@ -384,11 +385,6 @@ def words_in_view(
     return fitting_words(plot, source, code, NARROW, _IN_VIEW, beside=beside, **known)
 
 
-def now_line(plot: figure, source: ColumnDataSource, column: str = "now") -> GlyphRenderer:
-    """The upright line at the current cage angle; the same look in every figure."""
-    return plot.vspan(x=column, source=source, line_color=INK, line_width=1.2, line_alpha=0.75)
-
-
 def in_degrees(angle: float, digits: int = 1) -> str:
     """`angle` [rad] for a sentence, between 0° and 360°."""
     turned = math.degrees(angle) % 360.0
@@ -411,3 +407,14 @@ def css_color(color: str) -> str:
 def list_words(words: Sequence[str]) -> str:
     """The words as a sentence lists them: "a", "a and b", "a, b and c"."""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
+
+
+def legend(items: Iterable[tuple[str, str, str]]) -> str:
+    """A legend as HTML: colour, sign and words of each item."""
+    spans = "".join(
+        f'<span><span style="color:{css_color(color)}" aria-hidden="true">{sign}</span>'
+        f" {html.escape(words)}</span>"
+        for color, sign, words in items
+    )
+    box = f"{HTML_FONT};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"
+    return f'<div style="{box}">{spans}</div>'

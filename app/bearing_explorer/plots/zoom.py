@@ -23,7 +23,8 @@ def zoomable(plot: Plot, equal_aspect: bool = False) -> None:
     box = BoxZoomTool(match_aspect=equal_aspect)
     wheel = WheelZoomTool(modifiers="ctrl")
     plot.add_tools(wheel, box, PanTool(), ResetTool())
-    plot.toolbar.active_drag = box
+    if plot.toolbar.active_drag == "auto":
+        plot.toolbar.active_drag = box
     plot.toolbar.active_scroll = wheel
     plot.js_on_event("doubletap", CustomJS(args={"plot": plot}, code="plot.reset.emit()"))
     plot.js_on_change("inner_width", CustomJS(args={"box": box}, code=_FINGERS))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
@@ -28,46 +29,29 @@ STIFF = ("scipy DOP853", "scipy Radau", "scipy BDF")
 
 @dataclass(frozen=True)
 class Trial:
-    """An experiment on offer: `label` for the form, `run` with a scene and a job."""
+    """An experiment on offer: its label in the form, its function, and how small it is here."""
 
     label: str
-    run: Callable[[Scene, Work], Experiment | StabilityChart]
+    experiment: Callable[..., Experiment | StabilityChart]
+    size: Mapping[str, Any]
+
+    def run(self, scene: Scene, job: Work) -> Experiment | StabilityChart:
+        """The experiment on a scene."""
+        if self.experiment is balls_experiment and not compiling.ready():
+            raise compiling.StillCompiling
+        return self.experiment(scene, **self.size, progress=job.progress, cancelled=job.cancelled)
 
 
+_QUICK = [name for name in METHODS if name not in STIFF]
 TRIALS = {
-    "motion": Trial(
-        "Motion: methods",
-        lambda scene, job: motion_experiment(
-            scene,
-            duration=0.1,
-            methods=[name for name in METHODS if name not in STIFF],
-            progress=job.progress,
-            cancelled=job.cancelled,
-        ),
+    "motion": Trial("Motion: methods", motion_experiment, {"duration": 0.1, "methods": _QUICK}),
+    "stability": Trial("Motion: stability", stability_chart, {"duration": 0.1}),
+    "balls": Trial(
+        "Motion: balls with mass", balls_experiment, {"duration": 0.25, "steps": (2, 3, 4, 8)}
     ),
-    "stability": Trial(
-        "Motion: stability",
-        lambda scene, job: stability_chart(
-            scene, duration=0.1, progress=job.progress, cancelled=job.cancelled
-        ),
-    ),
-    "balls": Trial("Motion: balls with mass", lambda scene, job: _balls(scene, job)),
-    "models": Trial(
-        "Models",
-        lambda scene, job: models_experiment(
-            scene, duration=0.2, progress=job.progress, cancelled=job.cancelled
-        ),
-    ),
-    "statics": Trial(
-        "Statics: solvers",
-        lambda scene, job: statics_experiment(
-            scene, n_angles=31, progress=job.progress, cancelled=job.cancelled
-        ),
-    ),
-    "angles": Trial(
-        "Cage angles",
-        lambda scene, job: angles_experiment(scene, progress=job.progress, cancelled=job.cancelled),
-    ),
+    "models": Trial("Models", models_experiment, {"duration": 0.2}),
+    "statics": Trial("Statics: solvers", statics_experiment, {"n_angles": 31}),
+    "angles": Trial("Cage angles", angles_experiment, {}),
 }
 """The experiments by name."""
 
@@ -78,18 +62,6 @@ class Found:
 
     scene: Scene
     result: Experiment | StabilityChart
-
-
-def _balls(scene: Scene, job: Work) -> Experiment:
-    if not compiling.ready():
-        raise compiling.StillCompiling
-    return balls_experiment(
-        scene,
-        duration=0.25,
-        steps=(2, 3, 4, 8),
-        progress=job.progress,
-        cancelled=job.cancelled,
-    )
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:

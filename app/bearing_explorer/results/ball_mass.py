@@ -5,13 +5,13 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
 from bearing_explorer.results.excerpt import Event, acceleration_columns, excerpt_of, why_ended
+from bearingcore import Motion, Scene, Spectrum
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_comparison import (
     QUIET,
@@ -24,9 +24,6 @@ from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, flights, strikes
 from bearingcore.scene.defect import RACES
 from bearingcore.statics.passes import path_kinks
-
-if TYPE_CHECKING:
-    from bearingcore import Motion, Scene, Spectrum
 
 Array = NDArray[np.float64]
 

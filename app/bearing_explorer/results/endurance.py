@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from bearing_explorer.results.cache import cached
 from bearing_explorer.state.sentences import sentence_of
-from bearingcore import contact_pressures, dynamic_load_rating, equilibrium, film, life
+from bearingcore import (
+    ContactPressures,
+    Equilibrium,
+    Film,
+    Life,
+    Limit,
+    Scene,
+    contact_pressures,
+    dynamic_load_rating,
+    equilibrium,
+    film,
+    life,
+)
 from bearingcore import limits as limits_of
 from bearingcore.bearings.drawing import GROOVES
 from bearingcore.errors import FieldError
 from bearingcore.statics.validity import looked_at
-
-if TYPE_CHECKING:
-    from bearingcore import ContactPressures, Equilibrium, Film, Life, Limit, Scene
-
 
 ASSUMED_VISCOSITY = 0.02
 """[Pa·s] assumed where no viscosity is given: a usual oil, warm."""

@@ -5,17 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import Scene, equilibrium
+from bearingcore import Motion, Scene, equilibrium
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.passes import Crossing, crossings, passing_rate
-
-if TYPE_CHECKING:
-    from bearingcore import Motion
 
 STATIC_POINTS = 241
 

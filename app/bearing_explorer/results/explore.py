@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import itertools
 import math
 import time
 from collections.abc import Iterator, Mapping
@@ -21,23 +22,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.results.cache import cached
-from bearing_explorer.results.motions import MOST_STEPS, step_rate_of
-from bearing_explorer.results.results import LONGEST_ORBIT
 from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
 from bearingcore.diagnosis.size.sizing_error import extent_error
-from bearingcore.dynamics.motion import MOST_STEPS as CORE_MOST_STEPS
-from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.scene.scene import WITH_MASS
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
     MASS,
     MODES,
     MOTION,
-    ORBIT,
     OUTPUTS,
     SECONDS,
     STATICS,
@@ -75,9 +71,6 @@ _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
 
 NOT_COMPUTED = "not computed"
-_TOO_LONG_MOTION = "the defect is passed so fast that the motion takes too many steps"
-_TOO_LONG_WITH_MASS = "balls swing so fast between their races that it takes too many steps"
-_TOO_LONG_ORBIT = f"the motion repeats only after more than {LONGEST_ORBIT} ball passes"
 
 
 @dataclass(frozen=True)
@@ -294,10 +287,6 @@ class Job(Protocol):
         """Hand over a result."""
 
 
-class _CancelledError(Exception):
-    pass
-
-
 class Survey:
     """All that is known of a map so far, on the finest grid."""
 
@@ -349,10 +338,7 @@ class Survey:
             if job is not None and job.cancelled():
                 return False
             started = time.perf_counter()
-            try:
-                self._find(at, job)
-            except _CancelledError:
-                return False
+            self._find(*at)
             self._seconds += time.perf_counter() - started
             self._computed += at[0].size * at[1].size
             if job is None:
@@ -395,36 +381,25 @@ class Survey:
     def _in_rows(self) -> bool:
         return bool(self.question.output.in_sweep) and self.question.grid.in_rows
 
-    def _find(self, at: tuple[NDArray[np.intp], NDArray[np.intp]], job: Job | None) -> None:
+    def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
         output = self.question.output
         if not output.in_sweep:
-            for j in at[0]:
-                for i in at[1]:
-                    self._put(j, i, *self._size(j, i, job))
+            for j, i in itertools.product(rows, columns):
+                self._put(j, i, *self._size(j, i))
             return
         grid = self.question.grid
-        rows, columns = at
-        if output.needs in (MOTION, ORBIT, MASS):
-            rows, columns = self._without_too_long(rows, columns)
-            if not rows.size * columns.size:
-                return
         x, y = grid.axes
-        part = dataclasses.replace(
-            grid, axes=(Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
-        )
-        status, numbers = part.compute()
+        axes = (Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
+        status, numbers = dataclasses.replace(grid, axes=axes).compute()
         found = numbers[output.in_sweep]
-        if output.mode:
-            found = (
-                found[..., grid.labels.index(output.mode)]
-                if output.mode in grid.labels
-                else np.full(status.shape, math.nan)
-            )
-        for b, j in enumerate(rows):
-            for a, i in enumerate(columns):
-                value = float(found[a, b]) / output.unit_si
-                why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
-                self._put(j, i, value, why)
+        if output.mode in grid.labels:
+            found = found[..., grid.labels.index(output.mode)]
+        elif output.mode:
+            found = np.full(status.shape, math.nan)
+        for (b, j), (a, i) in itertools.product(enumerate(rows), enumerate(columns)):
+            value = float(found[a, b]) / output.unit_si
+            why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
+            self._put(j, i, value, why)
 
     def _put(self, row: int, column: int, value: float, why: str) -> None:
         self._values[row, column] = value if not why else math.nan
@@ -443,43 +418,10 @@ class Survey:
                 return sentence_of(error)
         return status.sentence
 
-    def _without_too_long(
-        self, rows: NDArray[np.intp], columns: NDArray[np.intp]
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """A line of points without those that take too long, which get their reason."""
-        for j in rows:
-            for i in columns:
-                if why := self._too_long(j, i):
-                    self._put(j, i, math.nan, why)
-        left = ~self._known[np.ix_(rows, columns)]
-        return rows[left.any(axis=1)], columns[left.any(axis=0)]
-
-    def _too_long(self, row: int, column: int) -> str:
-        """Reason why a motion or an orbit is not begun; empty where it is."""
-        try:
-            scene = self._scene(row, column)
-            if self.question.output.needs == ORBIT:
-                return _TOO_LONG_ORBIT if (common_ball_passes(scene) or 0) > LONGEST_ORBIT else ""
-            if self.question.output.needs == MASS:
-                scene = scene.replace(balls=WITH_MASS)
-            rate = step_rate_of(scene, _SETTINGS.sample_rate)
-        except ValueError:
-            return ""  # its computation gives the reason
-        with_mass = scene.balls == WITH_MASS
-        most = CORE_MOST_STEPS if with_mass else MOST_STEPS
-        if rate is None or rate * _SETTINGS.duration <= most:
-            return ""
-        return _TOO_LONG_WITH_MASS if with_mass else _TOO_LONG_MOTION
-
-    def _size(self, row: int, column: int, job: Job | None) -> tuple[float, str]:
+    def _size(self, row: int, column: int) -> tuple[float, str]:
         """Error of a sizing, or why there is none."""
-
-        def go_on(_: float) -> None:
-            if job is not None and job.cancelled():
-                raise _CancelledError
-
         try:
-            found = extent_error(self._scene(row, column), progress=go_on)
+            found = extent_error(self._scene(row, column))
         except ValueError as error:
             return math.nan, sentence_of(error)
         missed = found.error / self.question.output.unit_si

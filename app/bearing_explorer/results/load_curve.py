@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import Equilibrium
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.equilibrium import has_long_period
-
-if TYPE_CHECKING:
-    from bearingcore import Equilibrium
 
 Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
 

@@ -10,7 +10,7 @@ import dataclasses
 import itertools
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,14 +20,12 @@ from bearing_explorer.results.ball_mass import BallMass, compare_motions
 from bearing_explorer.results.cache import Overtaken, cached
 from bearing_explorer.results.excerpt import Excerpt, excerpt_of
 from bearing_explorer.state.settings import Marching
+from bearingcore import Motion, Orbit, Scene, Spectrum
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.scene.packing import is_planar
 from bearingcore.scene.scene import MASSLESS, WITH_MASS
-
-if TYPE_CHECKING:
-    from bearingcore import Motion, Orbit, Scene, Spectrum
 
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is

@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Hashable
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,6 +33,7 @@ from bearing_explorer.results.profile import Profile, profile
 from bearing_explorer.state.field_values import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, Settings
+from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common.lazy import cached_property
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.status import OrbitStatus
@@ -46,8 +47,6 @@ from bearingcore.statics.equilibrium import (
 )
 from bearingcore.statics.passes import drops_now
 
-if TYPE_CHECKING:
-    from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 Answer = TypeVar("Answer")
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
@@ -85,33 +84,29 @@ def _load_curves(found: Equilibrium) -> list[Curve]:
 class Results:
     """What the views read. Attributes are computed when first asked for, in any thread.
 
-    scene: the Scene shown
-    cage_angle: the cage angle shown [rad]
-    focus: which of the scene's defects is looked at
-    equilibrium, healthy_equilibrium: over the stretch of the curves, with the defect and without
-    now, healthy_now: at `cage_angle` alone (arrays of length 1)
-    modes, healthy_modes: over the same cage angles
-    bands, healthy_bands: {label: (least, greatest)} of the natural frequencies [Hz]
-    extent: of the defect looked at [rad]
-    healthy_all_around: like healthy_equilibrium, over all that a pinned scene does
-    maps: over its extent and the same cage angles
-    drop: how far each ball has sunk into each race at `cage_angle`
-    profile: the race around the defect and a ball's path over it
-    motion: simulated motion
-    settled_since: [s] of the motion, when its start is forgotten
-    excerpt: some ball passes of the settled motion
-    spectra: {dof: Spectrum} of the housing's acceleration from rest on
-    late_spectra, healthy_late_spectra: the same of the settled motion
-    ball_mass: the motions without and with the balls' mass, compared
-    ball_passes: after how many of them the scene is as before; None where it never is
-    orbit: the motion that repeats itself; None where it takes too many ball passes to look for
-    orbit_spectra: {dof: Spectrum} of the housing's acceleration on it; empty without an orbit
-    contact_damping: of a loaded contact [N·s/m], given or from the stiffness
-    endurance: life, contact pressure and film, with the oil and steel of `life_inputs`
-    limits: what the model leaves out, each with its number and its limit
-    dof_comparison: what other free directions would change
-    chain: what the scene gives from the loads of the balls to the vibration, a few numbers a link
-    chain_before: the same of the scene before the last change, or of what is drawn in grey
+    Attributes that begin with ``healthy_`` are of the bearing without its defect, or of a pinned
+    scene.
+
+    Parameters
+    ----------
+    scene
+        the scene shown.
+    cage_angle
+        [rad] shown.
+    settings
+        how finely it is computed.
+    focus
+        number of the defect that is looked at.
+    moving
+        whether a slider moves: be quick.
+    pinned
+        a scene in the place of the bearing without its defect.
+    before
+        the scene before the last change, where there was one.
+    life_inputs
+        steel, oil and surfaces as entered on the Life tab.
+    give_up
+        called in long searches: whether the results are no longer wanted.
     """
 
     #: attributes that take long enough to be drawn after the others
@@ -158,13 +153,6 @@ class Results:
         life_inputs: LifeInputs | None = None,
         give_up: Callable[[], bool] | None = None,
     ) -> None:
-        """`moving`: a slider moves, be quick.
-
-        `pinned`: what the attributes that begin with ``healthy_`` are of, instead of the scene
-        without its defect. `before`: the scene before the last change, where there was one.
-        `life_inputs`: steel, oil and surfaces as entered on the Life tab. `give_up` is called in
-        long searches: whether the results are no longer wanted.
-        """
         self.scene = scene
         self.cage_angle = cage_angle
         self.settings = settings or Settings()
@@ -281,11 +269,6 @@ class Results:
         return statics.equilibrium_at(self.scene.replace(balls=MASSLESS), self.cage_angle)
 
     @cached_property
-    def healthy_now(self) -> Equilibrium:
-        """The same without the defect."""
-        return statics.equilibrium_at(self.reference, self.cage_angle)
-
-    @cached_property
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
         return self._modes(self.scene)
@@ -352,16 +335,6 @@ class Results:
         """The race around the defect and the path of a ball's centre over it."""
         return profile(self.scene, self.cage_angle, self.focus)
 
-    @cached_property
-    def coarse(self) -> bool:
-        """Whether the motion is marched coarsely, as a slider moves and it takes long."""
-        return self._is_coarse(self.scene)
-
-    @cached_property
-    def coarse_comparison(self) -> bool:
-        """The same of `dof_comparison`, whose motions are marched alike."""
-        return self.coarse or self._is_coarse(self.scene.replace(dofs=other_dofs(self.scene)))
-
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
@@ -371,11 +344,12 @@ class Results:
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
-        if "dof_comparison" in shown and self.coarse_comparison:
-            return True
-        if "ball_mass" in shown and self._ball_marching.coarse:
-            return True
-        return bool(shown & self.moving_ones) and self.coarse
+        scenes = [self.scene] if shown & self.moving_ones else []
+        if "dof_comparison" in shown:
+            scenes.append(self.scene.replace(dofs=other_dofs(self.scene)))
+        if "ball_mass" in shown:
+            scenes.append(self.scene.replace(balls=WITH_MASS))
+        return any(map(self._is_coarse, scenes))
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
         """Whether any of these attributes is computed more finely once the slider rests."""
@@ -405,9 +379,14 @@ class Results:
             and motions.is_costly(scene, settings.sample_rate, settings.duration)
         )
 
+    def _marching_of(self, *scenes: Scene) -> Marching:
+        """Settings of motions: coarse where one of them takes too long while a slider moves."""
+        coarse = any(map(self._is_coarse, scenes))
+        return self.settings.coarse_marching if coarse else self.settings.marching
+
     @cached_property
     def _marching(self) -> Marching:
-        return self.settings.coarse_marching if self.coarse else self.settings.marching
+        return self._marching_of(self.scene)
 
     @cached_property
     def motion(self) -> Motion:
@@ -449,16 +428,11 @@ class Results:
             words = f"the {self.pinned.words} cannot be shown: {error}"
             raise ValueError(words) from None
 
-    @property
-    def _ball_marching(self) -> Marching:
-        heavy = self.scene.replace(balls=WITH_MASS)
-        coarse = self._is_coarse(heavy)
-        return self.settings.coarse_marching if coarse else self.settings.marching
-
     @cached_property
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
-        return motions.ball_mass(self.scene.replace(balls=MASSLESS), self._ball_marching)
+        how = self._marching_of(self.scene.replace(balls=WITH_MASS))
+        return motions.ball_mass(self.scene.replace(balls=MASSLESS), how)
 
     @property
     def ball_passes(self) -> int | None:
@@ -549,9 +523,8 @@ class Results:
             self.scene.replace(dofs=other), self.cage_angle, self.settings, moving=self.moving
         )
         static = static_differences(self.equilibrium, against.equilibrium)
-        how = self.settings.marching
-        if self.coarse_comparison:  # two motions, one of them in five directions
-            how = self.settings.coarse_marching
+        how = self._marching_of(self.scene, against.scene)
+        if how.coarse:  # two motions, one of them in five directions
             how = dataclasses.replace(how, duration=0.5 * how.duration)
         try:
             pair = [motions.spectra(one, how) for one in (self.scene, against.scene)]

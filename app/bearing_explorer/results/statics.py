@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 import bearingcore as core
 from bearing_explorer.results.cache import cached
-
-if TYPE_CHECKING:
-    from bearingcore import Equilibrium, Maps, Modes, Scene
+from bearingcore import Equilibrium, Maps, Modes, Scene
 
 
 @cached

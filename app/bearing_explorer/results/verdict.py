@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from bearing_explorer.results.compiling import StillCompiling
+from bearing_explorer.results.results import Results
 from bearing_explorer.state.sentences import words_of
 from bearingcore.dynamics.status import OrbitStatus
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-
 
 ORBITS = frozenset({"orbit", "orbit_spectra"})
 """Attributes of the results that are of the steady orbit."""

@@ -30,7 +30,6 @@ from bokeh.protocol.message import Message
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server import session as bokeh_session
 from panel.models.esm import DataEvent
-from panel.viewable import Viewable
 
 PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
 """Whether all goes the public ways of Bokeh and Panel."""
@@ -234,13 +233,3 @@ def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
             _walk(made[name], visitor)
         elif unstable:
             _walk(getattr(value, name), visitor)
-
-
-# What is made outside of a server
-
-
-def before_showing(change: Callable[[Any, Any], None]) -> None:
-    """Have `change` see the roots of all that Panel shows; where it cannot, they stay as made."""
-    hooks = getattr(Viewable, "_preprocessing_hooks", None)
-    if hooks is not None and change not in hooks:
-        hooks.append(change)

@@ -41,22 +41,23 @@ from __future__ import annotations
 import difflib
 import html
 import json
-import math
 import re
-import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from itertools import islice
 from pathlib import Path
-from typing import Any
-from urllib.parse import parse_qsl, unquote
+from typing import Annotated, Any
+from urllib.parse import parse_qsl, unquote, urlencode
 
+import msgspec
+import tomli
 from latex2mathml.converter import convert_to_element
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
+from msgspec import Meta
 
 from bearing_explorer.assets import asset_path
 from bearing_explorer.state.address import FORMER_TABS
@@ -75,8 +76,6 @@ MOST_LESSONS = 60
 MOST_FILES = 5_000
 """Names that are looked at in a folder."""
 LONGEST_NAME = 60  # characters
-_LONGEST_TITLE = 90
-_LONGEST_QUESTION = 200
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
@@ -91,17 +90,6 @@ DRAGGED = (
 """Controls that can be shown with the words."""
 
 _FENCE = "+++"
-_HEAD = {
-    "title": str,
-    "tab": str,
-    "preset": str,
-    "drag": list,
-    "watch": list,
-    "scene": dict,
-    "predict": dict,
-}
-_NEEDED = ("title", "tab", "preset")
-_KINDS = {str: "a text in quotes", list: "a list of texts", dict: "a table"}
 _MATHML_ELEMENTS = (
     "math mrow mi mn mo mtext mspace msub msup msubsup mfrac msqrt mroot mover munder munderover "
     "mtable mtr mtd mstyle mpadded mphantom"
@@ -142,6 +130,32 @@ class Prediction:
     right: float
     unit: str = ""
     within: float = 0.0
+
+
+Text = Annotated[str, Meta(min_length=1, max_length=200)]
+Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
+
+
+class _PredictEntry(msgspec.Struct, forbid_unknown_fields=True):
+    """A prediction as a head has it; `right` counts choices from 1."""
+
+    ask: Text
+    right: Number
+    choose: Annotated[tuple[Text, ...], Meta(min_length=2, max_length=6)] = ()
+    unit: Annotated[str, Meta(max_length=20)] = ""
+    within: Annotated[float, Meta(ge=0.0, le=1e12)] = 0.0
+
+
+class _Head(msgspec.Struct, forbid_unknown_fields=True):
+    """The head of a lesson, as it is in the file."""
+
+    title: Annotated[str, Meta(min_length=1, max_length=90)]
+    tab: str
+    preset: str
+    drag: tuple[str, ...] = ()
+    watch: tuple[str, ...] = ()
+    scene: dict[str, str | int | float] = {}
+    predict: _PredictEntry | None = None
 
 
 @dataclass(frozen=True)
@@ -250,14 +264,14 @@ def _name_of(path: Path) -> str:
 def text_for_teachers(tabs: Tabs) -> str:
     """The page for teachers as safe HTML."""
     tokens = _markdown().parse(asset_path("docs/TEACHING.md").read_text(encoding="utf-8"))
-    head = _Head(['title = "-"', 'tab = "load"', f'preset = "{next(iter(presets))}"'], tabs)
+    preset = next(iter(presets))
+    checks = _Checks(['title = "-"', 'tab = "load"', f'preset = "{preset}"'], tabs)
     for token in tokens:
         if token.type in ("heading_open", "heading_close"):
-            _lower(token)
-            _lower(token)  # below the title of the list of lessons
+            _lower(token, by=2)  # below the title of the list of lessons
         if token.children:
             _without_links_to_files(token.children)
-            _mend(token.children, 1, head, tabs)
+            _mend(token.children, 1, checks)
     return str(_markdown().renderer.render(tokens, _markdown().options, {}))
 
 
@@ -265,11 +279,9 @@ def _without_links_to_files(tokens: list[Token]) -> None:
     """Links that lead somewhere in the repository only become their words."""
     inside = False
     for token in tokens:
-        if token.type == "link_open" and ":" not in str(token.attrGet("href") or ""):
-            inside = True
-            token.type, token.content, token.nesting = "text", "", 0
-        elif token.type == "link_close" and inside:
-            inside = False
+        opens = token.type == "link_open" and ":" not in str(token.attrGet("href") or "")
+        if opens or (token.type == "link_close" and inside):
+            inside = opens
             token.type, token.content, token.nesting = "text", "", 0
 
 
@@ -294,121 +306,99 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
     ends = [i for i, line in enumerate(lines) if i and line.strip() == _FENCE]
     if not ends:
         raise LessonError(len(lines), f"the head has no end: a second line {_FENCE} is missing")
-    head = _Head(lines[1 : ends[0]], tabs)
-    scene = head.scene()
-    parts = _parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, head, tabs)
+    checks = _Checks(lines[1 : ends[0]], tabs)
+    values, choices = checks.scene()
     return Lesson(
-        title=head.text["title"],
-        tab=head.text["tab"],
-        preset=head.text["preset"],
-        values=scene[0],
-        choices=scene[1],
-        drag=head.names("drag", DRAGGED, "a control of the page"),
-        watch=head.names("watch", dict(tabs)[head.text["tab"]], "a figure of this tab"),
-        parts=parts,
-        predict=head.prediction(),
+        title=checks.head.title,
+        tab=checks.head.tab,
+        preset=checks.head.preset,
+        values=values,
+        choices=choices,
+        drag=checks.head.drag,
+        watch=checks.head.watch,
+        parts=_parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, checks),
+        predict=checks.prediction(),
     )
 
 
-class _Head:
-    """The head of a lesson, checked."""
+class _Checks:
+    """The head of a lesson, and what its words are checked against.
+
+    Parameters
+    ----------
+    lines
+        of the head.
+    tabs
+        of the page.
+    """
 
     def __init__(self, lines: list[str], tabs: Tabs) -> None:
         self._lines = lines
-        self._begun: tuple[SceneEditor, Snapshot] | None = None
-        text = "\n".join(lines)
+        self.tabs = dict(tabs)
+        self.head = head = self._decoded()
+        head.title = " ".join(head.title.split())
+        head.tab = FORMER_TABS.get(head.tab, head.tab)
+        self._on_list("tab", [head.tab], list(self.tabs), "a tab")
+        self._on_list("preset", [head.preset], list(presets), "a preset")
+        self._on_list("drag", head.drag, DRAGGED, "a control of the page")
+        self._on_list("watch", head.watch, self.tabs[head.tab], "a figure of this tab")
+
+    def _decoded(self) -> _Head:
         try:
-            self._table = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise _of_toml(error, len(lines)) from None
+            return msgspec.convert(tomli.loads("\n".join(self._lines)), _Head)
+        except tomli.TOMLDecodeError as error:
+            raise LessonError(error.lineno + 1, f"the head is not TOML: {error.msg}") from None
         except RecursionError:
             raise LessonError(1, "the head is not TOML: its lists are too deep") from None
-        for name, value in self._table.items():
-            if name not in _HEAD:
-                known = ", ".join(_HEAD)
-                raise self.error(name, f"“{name}” is not known; a head holds {known}")
-            if not isinstance(value, _HEAD[name]):
-                raise self.error(name, f"{name} should be {_KINDS[_HEAD[name]]}")
-        missing = [name for name in _NEEDED if not str(self._table.get(name, "")).strip()]
-        if missing:
-            raise LessonError(1, f"the head has no {missing[0]}")
-        self.text = {name: " ".join(str(self._table[name]).split()) for name in _NEEDED}
-        self.text["tab"] = FORMER_TABS.get(self.text["tab"], self.text["tab"])
-        if len(self.text["title"]) > _LONGEST_TITLE:
-            raise self.error("title", f"the title is longer than {_LONGEST_TITLE} characters")
-        self._on_list("tab", self.text["tab"], list(dict(tabs)), "a tab")
-        self._on_list("preset", self.text["preset"], list(presets), "a preset")
+        except msgspec.ValidationError as error:
+            # “field `right`”, or a path such as “$.predict.right” at the end
+            named = re.search(r"field `(\w+)`|(\w+)[^.`]*`$", str(error))
+            name = (named[1] or named[2]) if named else ""
+            raise self.error(name, f"the head cannot be read: {error}") from None
 
     def error(self, name: str, words: str) -> LessonError:
         """A fault of the entry `name`, with its line."""
         begins = re.compile(rf"\s*[\[\"']*\s*{re.escape(name)}\b")
-        at = next((i for i, line in enumerate(self._lines) if begins.match(line)), 0)
-        return LessonError(at + 2, words)
+        at = next((i for i, line in enumerate(self._lines, 2) if begins.match(line)), 1)
+        return LessonError(at if name else 1, words)
 
-    def _on_list(self, entry: str, name: str, known: Sequence[str], what: str) -> None:
-        if name not in known:
-            raise self.error(entry, f"“{name[:40]}” is not {what}; {_near(name, known)}")
-
-    def names(self, entry: str, known: Sequence[str], what: str) -> tuple[str, ...]:
-        """A list of names that are all known."""
-        given = [str(name) for name in self._table.get(entry, [])]
-        for name in given:
-            self._on_list(entry, name, known, what)
-        return tuple(given)
+    def _on_list(self, entry: str, names: Sequence[str], known: Sequence[str], what: str) -> None:
+        for name in names:
+            if name not in known:
+                raise self.error(entry, f"“{name[:40]}” is not {what}; {_near(name, known)}")
 
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
         """The numbers and the choices that the scene is changed by."""
-        changes = {name: str(value) for name, value in self._table.get("scene", {}).items()}
+        changes = {name: str(value) for name, value in self.head.scene.items()}
         try:
-            return _changes(SceneEditor(self.text["preset"]), changes)
+            return _changes(SceneEditor(self.head.preset), changes)
         except _RefusedError as refused:
             raise self.error(refused.name, str(refused)) from None
 
     def prediction(self) -> Prediction | None:
-        """The prediction, checked."""
-        given = self._table.get("predict")
+        """The prediction; LessonError where none of its choices is right."""
+        given = self.head.predict
         if given is None:
             return None
-        kinds = {"ask": str, "choose": list, "right": (int, float), "unit": str,
-                 "within": (int, float)}  # fmt: skip
-        for name, value in given.items():
-            if name not in kinds:
-                raise self.error(name, f"“{name}” is not known; {_near(name, list(kinds))}")
-            if isinstance(value, bool) or not isinstance(value, kinds[name]):  # type: ignore[arg-type]
-                kind = {"choose": "a list of texts", "ask": "a text", "unit": "a text"}
-                raise self.error(name, f"{name} should be {kind.get(name, 'a number')}")
-        ask, right = " ".join(given.get("ask", "").split()), given.get("right")
-        if not ask or right is None or len(ask) > _LONGEST_QUESTION:
-            raise self.error("predict", f"a prediction has ask, of at most {_LONGEST_QUESTION} "
-                             "characters, and right")  # fmt: skip
-        if "choose" not in given:
-            unit, within = given.get("unit", ""), float(given.get("within", 0.0))
-            if len(unit) > 20 or not (math.isfinite(right) and 0.0 <= within < math.inf):
-                raise self.error("predict", "right and within are numbers, within not below 0")
-            return Prediction(ask, (), float(right), unit, within)
-        choices = tuple(str(text)[:_LONGEST_QUESTION] for text in given["choose"])
-        if not (2 <= len(choices) <= 6 and right in range(1, len(choices) + 1)):
-            raise self.error("right", "right counts the choices from 1, of which there are 2 to 6")
-        return Prediction(ask, choices, float(right) - 1.0)
+        if not given.choose:
+            return Prediction(given.ask, (), given.right, given.unit, given.within)
+        if given.right not in range(1, len(given.choose) + 1):
+            raise self.error("right", "right counts the choices from 1")
+        return Prediction(given.ask, given.choose, given.right - 1.0)
+
+    @cached_property
+    def _begun(self) -> tuple[SceneEditor, Snapshot]:
+        editor = SceneEditor(self.head.preset)
+        values, choices = self.scene()
+        editor.choose(choices)
+        editor.set(values)
+        return editor, editor.snapshot()
 
     def editor(self) -> SceneEditor:
         """The scene that the lesson begins with; the same editor each time, set back."""
-        if self._begun is None:
-            editor = SceneEditor(self.text["preset"])
-            values, choices = self.scene()
-            editor.choose(choices)
-            editor.set(values)
-            self._begun = editor, editor.snapshot()
         editor, at_first = self._begun
         editor.restore(at_first)
         return editor
-
-
-def _of_toml(error: tomllib.TOMLDecodeError, n_lines: int) -> LessonError:
-    words, _, place = str(error).partition(" (at ")
-    line = re.search(r"line (\d+)", place)
-    at = int(line[1]) if line else n_lines
-    return LessonError(at + 1, f"the head is not TOML: {words[:1].lower()}{words[1:]}")
 
 
 def _near(name: str, known: Sequence[str]) -> str:
@@ -457,7 +447,7 @@ def _markdown() -> MarkdownIt:
     return parser.use(dollarmath_plugin, allow_space=False, double_inline=True)
 
 
-def _parts(text: str, offset: int, head: _Head, tabs: Tabs) -> tuple[Part, ...]:
+def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
     """The parts of a body whose first line is line `offset` + 1 of the file."""
     parser = _markdown()
     tokens = parser.parse(text)
@@ -469,14 +459,12 @@ def _parts(text: str, offset: int, head: _Head, tabs: Tabs) -> tuple[Part, ...]:
     line = offset + 1
     for token in tokens:
         line = offset + 1 + token.map[0] if token.map else line
-        if token.type == "heading_open":
-            _lower(token)
-        if token.type == "heading_close":
+        if token.type in ("heading_open", "heading_close"):
             _lower(token)
         if token.type in ("math_block", "math_block_label"):
             token.type, token.content = "html_block", _formula(token.content, True, line)
         if token.children:
-            _mend(token.children, line, head, tabs)
+            _mend(token.children, line, checks)
     found = []
     for begin, end in zip(begins, [*begins[1:], len(tokens)], strict=True):
         words = tokens[begin + 1]
@@ -487,12 +475,12 @@ def _parts(text: str, offset: int, head: _Head, tabs: Tabs) -> tuple[Part, ...]:
     return tuple(found)
 
 
-def _lower(token: Token) -> None:
-    """Lower a heading by one level: the lesson's own title is above it."""
-    token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
+def _lower(token: Token, by: int = 1) -> None:
+    """Lower a heading: the lesson's own title is above it."""
+    token.tag = f"h{min(max(int(token.tag[1]) + by, 3), 6)}"
 
 
-def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
+def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:
     """Formulas to MathML, and links to buttons or to what may be linked to."""
     closing = ""
     for token in tokens:
@@ -500,41 +488,38 @@ def _mend(tokens: list[Token], line: int, head: _Head, tabs: Tabs) -> None:
             line += 1
         if token.type in ("math_inline", "math_inline_double"):
             double = token.type == "math_inline_double"
-            token.content = _formula(token.content, double, line)
-            token.type = "html_inline"
+            token.type, token.content = "html_inline", _formula(token.content, double, line)
         elif token.type == "link_open":
             address = str(token.attrGet("href") or "")
             scheme, _, rest = address.partition(":")
-            if scheme in ("set", "show", "simulate", "lesson"):
-                if scheme == "show":
-                    asks = _show(rest, line, tabs)
-                elif scheme == "lesson":
-                    asks = _ask({"lesson": unquote(rest)[:LONGEST_NAME]})
-                else:
-                    asks = (_set if scheme == "set" else _simulate)(rest, line, head)
+            if scheme in _BUTTONS:
+                message = html.escape(json.dumps(_BUTTONS[scheme](rest, line, checks)))
                 token.type, closing = "html_inline", "</button>"
-                token.content = f'<button type="button" class="do" {asks}>'
+                token.content = f'<button type="button" class="do" data-ask="{message}">'
             elif scheme in ("http", "https"):
                 token.attrSet("target", "_blank")
                 token.attrSet("rel", "noopener noreferrer")
             else:
-                raise LessonError(
-                    line,
-                    f"a link goes to “{address[:60]}”; "
-                    "links go to set:, show:, simulate:, lesson: or https:",
-                )
+                known = "links go to set:, show:, simulate:, lesson: or https:"
+                raise LessonError(line, f"a link goes to “{address[:60]}”; {known}")
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
 
 
-def _set(rest: str, line: int, head: _Head) -> str:
-    changes = dict(parse_qsl(rest, keep_blank_values=True))
-    if not changes:
+def _set(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
+    """The message of a button that changes the scene."""
+    if not rest:
         raise LessonError(line, "set: is followed by changes, as in set:extent_deg=64")
-    return _ask(_changed(changes, line, head))
+    try:
+        changes = dict(parse_qsl(rest, keep_blank_values=True))
+        values, choices = _changes(checks.editor(), changes)
+    except _RefusedError as refused:
+        raise LessonError(line, str(refused)) from None
+    return {"choose": choices, "typed": values}
 
 
-def _simulate(rest: str, line: int, head: _Head) -> str:
+def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
+    """The message of a button that simulates a measurement."""
     changes = dict(parse_qsl(rest, keep_blank_values=True))
     wish = {}
     for name, known, usual in (
@@ -545,27 +530,25 @@ def _simulate(rest: str, line: int, head: _Head) -> str:
         wish[name] = word = changes.pop(name, usual)
         if word not in known:
             raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
-    return _ask({**_changed(changes, line, head), "simulate": wish})
+    scene = _set(urlencode(changes), line, checks) if changes else {"choose": {}, "typed": {}}
+    return {**scene, "simulate": wish}
 
 
-def _changed(changes: Mapping[str, str], line: int, head: _Head) -> dict[str, Any]:
-    """The message of a button that changes the scene."""
-    try:
-        values, choices = _changes(head.editor(), changes)
-    except _RefusedError as refused:
-        raise LessonError(line, str(refused)) from None
-    return {"choose": choices, "typed": values}
-
-
-def _ask(message: Mapping[str, Any]) -> str:
-    return f'data-ask="{html.escape(json.dumps(message))}"'
-
-
-def _show(rest: str, line: int, tabs: Tabs) -> str:
+def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
+    """The message of a button that opens a tab."""
     name = FORMER_TABS.get(unquote(rest), unquote(rest))
-    if name not in dict(tabs):
-        raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(dict(tabs)))}")
-    return _ask({"show": name})
+    if name not in checks.tabs:
+        raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(checks.tabs))}")
+    return {"show": name}
+
+
+def _lesson(rest: str, _: int, __: _Checks) -> dict[str, Any]:
+    """The message of a button that opens a lesson."""
+    return {"lesson": unquote(rest)[:LONGEST_NAME]}
+
+
+_BUTTONS = {"set": _set, "simulate": _simulate, "show": _show, "lesson": _lesson}
+"""The message of a button for what is behind the colon of a link, by what is before it."""
 
 
 def _formula(latex: str, display: bool, line: int) -> str:

@@ -2,30 +2,40 @@
 
 from __future__ import annotations
 
-import html
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
 from bokeh.events import Tap
 from bokeh.models import (
-    CustomJS,
+    ColumnDataSource,
     CustomJSHover,
     CustomJSTickFormatter,
-    FixedTicker,
     HoverTool,
-    RadioButtonGroup,
     Range1d,
+    Scatter,
 )
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import (
+    Glyph,
+    Layer,
+    Words,
+    add_all,
+    curve,
+    draw,
+    nothing,
+    sources_of,
+    switch,
+)
 from bearing_explorer.results.accuracy import TRIALS, Found, compute
 from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
@@ -39,9 +49,6 @@ from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.models import MODELS
 from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
 from bearingcore.experiments.statics import PLACINGS, SOLVERS
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 HEIGHT = 430
 COSTS = ("seconds", "evaluations")
@@ -75,6 +82,134 @@ NEAR = 0.04
 """Part of the figure within which a click means a point."""
 
 
+_ERROR = "accuracy_error"
+_COLUMNS = (*COSTS, "error", "method")
+_KNOWN = f"const names = {json.dumps(NAMES, ensure_ascii=False)}\n"
+_FAILED_WORDS = f"""{_KNOWN}
+const why = row.named == 1 ? ' failed' : ' is off the scale'
+return row.named ? names[row.method] + why : ''
+"""
+_TOOLTIPS = [
+    ("method", "@method{custom}"),
+    ("error", "@error{custom}"),
+    ("time", "@seconds{custom}"),
+    ("evaluations", "@evaluations{0}"),
+]
+_READERS = {
+    "@method": f"{_KNOWN}return names[value]",
+    "@error": f"{style.JS_PREFIX}return rounded(Number(value), 2)",
+    "@seconds": f"{style.JS_PREFIX}return si(Number(value), 's')",
+}
+_STEPS = "Steps in a period of the highest natural frequency"
+
+
+def look(slot: int) -> tuple[str, str]:
+    """Colour and marker; after all colours the markers change, so that no two are alike."""
+    markers = list(MARKERS)
+    return COLORS[slot % len(COLORS)], markers[(slot + slot // len(COLORS)) % len(markers)]
+
+
+def layers(cost: str) -> list[Layer]:
+    """The points of each method over one kind of cost, and crosses for those that failed."""
+    drawn: list[Layer] = []
+    for slot in range(MOST_METHODS):
+        source, (color, marker) = f"accuracy_{slot}", look(slot)
+        point = {"marker": marker, "size": 8, "fill_color": color, "line_width": 0.6}
+        drawn += [
+            curve(source, cost, "error", color, 1.2),
+            Glyph("scatter", source, (cost, "error"), {**point, "line_color": "white"}, _COLUMNS),
+        ]
+    cross = {"marker": "x", "size": 10, "line_color": style.INK, "line_width": 1.8}
+    down = {"angle": -0.5 * math.pi, "x_offset": 3, "y_offset": 9}
+    return [
+        *drawn,
+        Glyph("scatter", "accuracy_failed", (cost, "error"), cross, _COLUMNS),
+        Words("accuracy_failed", cost, "error", _FAILED_WORDS, ("named", "method"), look=down),
+    ]
+
+
+VERDICTS_AND_LIMITS = [
+    *(
+        Glyph(
+            "scatter",
+            f"accuracy_verdict_{number}",
+            ("steps", "row"),
+            {"marker": sign, "size": 14, "fill_color": color, "line_color": color, "line_width": 2},
+        )
+        for number, (color, sign) in enumerate(VERDICT_LOOKS.values())
+    ),
+    Glyph(
+        "segment",
+        "accuracy_limits",
+        ("steps", "below", "steps", "above"),
+        {"line_color": style.INK, "line_width": 2.5},
+    ),
+]
+"""Layers of the chart of stability."""
+_EVERY_LAYER = [*layers(COSTS[0]), *VERDICTS_AND_LIMITS]
+
+
+def _log_figure(label: str, ticks: Sequence[float], *ranges: Range1d, **options: Any) -> figure:
+    """A figure over a logarithmic axis."""
+    nameless = style.AxisQuantity("", "", "")
+    plot = style.make_figure(nameless, nameless, *ranges, x_axis_type="log", **options)
+    plot.xaxis.axis_label = label
+    style.fixed_ticks(plot.xaxis[0], ticks)
+    return plot
+
+
+def _chart(
+    packed: PackedSource, cost: str, error: Range1d, sources: Mapping[str, ColumnDataSource]
+) -> figure:
+    """Error over one kind of cost."""
+    timed = cost == "seconds"
+    plot = _log_figure(
+        "Time" if timed else "Evaluations",
+        [m * 10.0**e for e in range(-9, 13) for m in (1, 3)],
+        packed.range(f"accuracy_{cost}", *((1e-4, 1.0) if timed else (1e2, 1e6))),
+        error,
+        height=HEIGHT,
+        name=f"accuracy_drawing_{cost}",
+        y_axis_type="log",
+    )
+    plot.stylesheets = [
+        ":host { cursor: crosshair; }"
+        ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+    ]
+    plot.yaxis.axis_label = "Error"
+    plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "", plot)
+    plot.yaxis.formatter = style.logarithmic_ticks()
+    drawn = add_all(plot, sources, layers(cost))
+    plot.add_tools(
+        HoverTool(
+            renderers=[one for one in drawn if isinstance(one.glyph, Scatter)],
+            visible=False,  # no button: it is always on
+            tooltips=_TOOLTIPS,
+            formatters={field: CustomJSHover(code=code) for field, code in _READERS.items()},
+        )
+    )
+    return plot
+
+
+def _verdicts(packed: PackedSource) -> figure:
+    """Methods down, steps across."""
+    plot = _log_figure(
+        _STEPS,
+        [1, 2, 5, 10, 20, 50],
+        packed.range("accuracy_steps", 0.8, 80.0),
+        Range1d(-0.6, len(FIXED_STEP) - 0.4),
+        height=300,
+        name="accuracy_drawing_stability",
+    )
+    plot.yaxis.axis_label = None
+    plot.xaxis.formatter = style.logarithmic_ticks()
+    style.fixed_ticks(plot.yaxis[0], range(len(FIXED_STEP)))
+    names = json.dumps(FIXED_STEP, ensure_ascii=False)
+    plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
+    draw(plot, packed, VERDICTS_AND_LIMITS)
+    return plot
+
+
 class Accuracy(JobView[Found]):
     """Error against cost, and where steps are too long."""
 
@@ -104,139 +239,16 @@ class Accuracy(JobView[Found]):
             plot.on_event(Tap, partial(self._clicked, cost))
 
     def build(self, packed: PackedSource) -> Any:
-        self._ranges: Ranges = {}
         error = packed.range("accuracy_error", 1e-6, 10.0)
-        self._sources = [
-            packed.source(f"accuracy_{slot}", *COSTS, "error", "method")
-            for slot in range(MOST_METHODS)
-        ]
-        self._failed = packed.source("accuracy_failed", *COSTS, "error", "method", "named")
-        self._plots = [self._chart(packed, cost, error) for cost in COSTS]
-        switch = RadioButtonGroup(
-            labels=["Cost as time", "Cost as evaluations"],
-            active=0,
-            syncable=False,
-            margin=(2, 5, 6, 5),
-            stylesheets=[style.BUTTONS],
-        )
-        switch.js_on_change(
-            "active",
-            CustomJS(
-                args={"plots": self._plots},
-                code="plots.forEach((plot, i) => { plot.visible = i == cb_obj.active })",
-            ),
-        )
+        sources = sources_of(packed, [layer for cost in COSTS for layer in layers(cost)])
+        self._plots = [_chart(packed, cost, error, sources) for cost in COSTS]
+        costs = switch(["Cost as time", "Cost as evaluations"], self._plots)
         whole = {"sizing_mode": "stretch_width", "margin": 0}
-        self._work = pn.Column(switch, *self._plots, **whole)
-        self._stability = pn.Column(self._verdicts(packed), visible=False, **whole)
+        self._work = pn.Column(costs, *self._plots, **whole)
+        self._stability = pn.Column(_verdicts(packed), visible=False, **whole)
         self._legend = pn.pane.HTML("", **whole)
         steps = self._step_controls()
-        return pn.Column(
-            self.job, self._work, self._stability, self._legend, steps, **whole
-        )  # fmt: skip
-
-    def _chart(self, packed: PackedSource, cost: str, error: Range1d) -> figure:
-        """Error over one kind of cost."""
-        timed = cost == "seconds"
-        plot = style.make_figure(
-            style.AxisQuantity("Time" if timed else "Evaluations", "", ""),
-            style.AxisQuantity("Error", "", ""),
-            packed.range(f"accuracy_{cost}", *((1e-4, 1.0) if timed else (1e2, 1e6))),
-            error,
-            height=HEIGHT,
-            name=f"accuracy_drawing_{cost}",
-            x_axis_type="log",
-            y_axis_type="log",
-        )
-        plot.stylesheets = [
-            ":host { cursor: crosshair; }"
-            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
-        ]
-        plot.visible = timed
-        plot.xaxis.axis_label = "Time" if timed else "Evaluations"
-        plot.yaxis.axis_label = "Error"
-        plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "", plot)
-        plot.yaxis.formatter = style.logarithmic_ticks()
-        plot.xaxis.ticker = FixedTicker(
-            ticks=[m * 10.0**e for e in range(-9, 13) for m in (1, 3)], minor_ticks=[]
-        )
-        points = []
-        for slot, source in enumerate(self._sources):
-            color, marker = look(slot)
-            plot.line(cost, "error", source=source, line_color=color, line_width=1.2)
-            points.append(
-                plot.scatter(
-                    cost, "error", source=source, marker=marker, size=8, fill_color=color,
-                    line_color="white", line_width=0.6,
-                )
-            )  # fmt: skip
-        failed = self._failed
-        points.append(
-            plot.scatter(
-                cost, "error", source=failed, marker="x", size=10, line_color=style.INK,
-                line_width=1.8,
-            )
-        )  # fmt: skip
-        known = json.dumps(NAMES, ensure_ascii=False)
-        plot.text(
-            cost, "error", source=failed, angle=-0.5 * math.pi, x_offset=3, y_offset=9,
-            text=style.words_of(
-                failed,
-                f"return row.named ? {known}[row.method] + "
-                "(row.named == 1 ? ' failed' : ' is off the scale') : ''",
-            ),
-            text_font={"value": style.FONT}, text_font_size=style.SMALL_TEXT_SIZE,
-            text_color=style.INK, text_baseline="middle",
-        )  # fmt: skip
-        readers = {
-            "@method": CustomJSHover(code=f"return {known}[value]"),
-            "@error": CustomJSHover(code=f"{style.JS_PREFIX}return rounded(Number(value), 2)"),
-            "@seconds": CustomJSHover(code=f"{style.JS_PREFIX}return si(Number(value), 's')"),
-        }
-        plot.add_tools(
-            HoverTool(
-                renderers=points,
-                visible=False,  # no button: it is always on
-                tooltips=[
-                    ("method", "@method{custom}"),
-                    ("error", "@error{custom}"),
-                    ("time", "@seconds{custom}"),
-                    ("evaluations", "@evaluations{0}"),
-                ],
-                formatters=readers,
-            )
-        )
-        return plot
-
-    def _verdicts(self, packed: PackedSource) -> figure:
-        """Methods down, steps across."""
-        plot = style.make_figure(
-            style.AxisQuantity("Steps in a period of the highest natural frequency", "", ""),
-            style.AxisQuantity("", "", ""),
-            packed.range("accuracy_steps", 0.8, 80.0),
-            Range1d(-0.6, len(FIXED_STEP) - 0.4),
-            height=300,
-            name="accuracy_drawing_stability",
-            x_axis_type="log",
-        )
-        plot.xaxis.axis_label = "Steps in a period of the highest natural frequency"
-        plot.yaxis.axis_label = None
-        plot.xaxis.formatter = style.logarithmic_ticks()
-        plot.xaxis.ticker = FixedTicker(ticks=[1, 2, 5, 10, 20, 50], minor_ticks=[])
-        plot.yaxis.ticker = FixedTicker(ticks=list(range(len(FIXED_STEP))), minor_ticks=[])
-        names = json.dumps(FIXED_STEP, ensure_ascii=False)
-        plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
-        for number, (color, marker) in enumerate(VERDICT_LOOKS.values()):
-            plot.scatter(
-                "steps", "row", source=packed.source(f"accuracy_verdict_{number}", "steps", "row"),
-                marker=marker, size=14, fill_color=color, line_color=color, line_width=2.0,
-            )  # fmt: skip
-        plot.segment(
-            "steps", "below", "steps", "above",
-            source=packed.source("accuracy_limits", "steps", "below", "above"),
-            line_color=style.INK, line_width=2.5,
-        )  # fmt: skip
-        return plot
+        return pn.Column(self.job, self._work, self._stability, self._legend, steps, **whole)
 
     # The job
 
@@ -294,27 +306,22 @@ class Accuracy(JobView[Found]):
 
     def nearest(self, cost: str, x: Any, y: Any) -> Point | None:
         """The drawn point that a click at x, y means, if there is one near."""
-        place = [x, y]
-        if not all(isinstance(v, int | float) and math.isfinite(v) and v > 0.0 for v in place):
+        if not all(isinstance(v, int | float) and math.isfinite(v) and v > 0.0 for v in (x, y)):
             return None
-        if self.found is None or not isinstance(self.found.result, Experiment):
+        if self.found is None or not isinstance(result := self.found.result, Experiment):
             return None
-        ranges = [self._ranges.get(f"accuracy_{side}") for side in (cost, "error")]
-        best, least = None, NEAR
-        for point in self.found.result.points:
-            at = [getattr(point, cost), drawn_error(self.found.result, point)]
+        shown = chart_ranges(result)
+        wide, high = (math.log(b / a) for a, b in (shown[f"accuracy_{cost}"], shown[_ERROR]))
+
+        def distance(point: Point) -> float:
+            """Share of the figure between the click and a point."""
+            at = getattr(point, cost), drawn_error(result, point)
             if not all(v > 0.0 and math.isfinite(v) for v in at):
-                continue
-            apart = math.hypot(
-                *(
-                    math.log(a / b) / math.log(r[1] / r[0])
-                    for a, b, r in zip(at, place, ranges, strict=True)
-                    if r is not None
-                )
-            )
-            if apart < least:
-                best, least = point, apart
-        return best
+                return math.inf
+            return math.hypot(math.log(at[0] / x) / wide, math.log(at[1] / y) / high)
+
+        nearest = min(result.points, key=distance)
+        return nearest if distance(nearest) < NEAR else None
 
     def _use(self, step_rate: float | None) -> None:
         self._note = ""
@@ -324,7 +331,7 @@ class Accuracy(JobView[Found]):
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        sources = _nothing()
+        sources = nothing(_EVERY_LAYER)
         if self.found is None:
             return sources, {}
         result = self.found.result
@@ -334,8 +341,7 @@ class Accuracy(JobView[Found]):
                                            for t in result.trials], 1.25)
             }  # fmt: skip
         ranges = chart_ranges(result)
-        self._ranges = ranges
-        bottom, top = ranges["accuracy_error"]
+        bottom, top = ranges[_ERROR]
         good = [p for p in result.points if math.isfinite(drawn_error(result, p))]
         for slot, method in enumerate(result.methods):
             own = [p for p in good if p.method == method]
@@ -397,12 +403,6 @@ class Accuracy(JobView[Found]):
         self._step_words.text = self._note or note
 
 
-def look(slot: int) -> tuple[str, str]:
-    """Colour and marker; after all colours the markers change, so that no two are alike."""
-    markers = list(MARKERS)
-    return COLORS[slot % len(COLORS)], markers[(slot + slot // len(COLORS)) % len(markers)]
-
-
 def _usable(point: Point) -> bool:
     """True where the scene's motion can be computed with the steps of a point."""
     return point.method == "RK4" and "step_rate" in point.settings and not point.failed
@@ -432,7 +432,7 @@ def _around(values: list[float], room: float) -> tuple[float, float]:
 def chart_ranges(result: Experiment) -> Ranges:
     """Ranges that hold every point, with an edge above for those that failed."""
     low, high = _around([drawn_error(result, p) for p in result.points], 2.0)
-    ranges: Ranges = {"accuracy_error": (low, high * 8.0)}
+    ranges: Ranges = {_ERROR: (low, high * 8.0)}
     for cost in COSTS:
         ranges[f"accuracy_{cost}"] = _around([getattr(p, cost) for p in result.points], 1.6)
     return ranges
@@ -445,16 +445,6 @@ def _columns(points: list[Point], errors: list[float]) -> dict[str, np.ndarray]:
         "error": np.array(errors, dtype=float),
         "method": np.array([NAMES.index(p.method) for p in points], dtype=float),
     }
-
-
-def _nothing() -> Sources:
-    empty = _columns([], [])
-    sources: Sources = {f"accuracy_{slot}": empty for slot in range(MOST_METHODS)}
-    sources["accuracy_failed"] = empty | {"named": np.zeros(0)}
-    for number in range(len(VERDICTS)):
-        sources[f"accuracy_verdict_{number}"] = {"steps": np.zeros(0), "row": np.zeros(0)}
-    limits = dict.fromkeys(("steps", "below", "above"), np.zeros(0))
-    return sources | {"accuracy_limits": limits}
 
 
 def _stability_sources(chart: StabilityChart) -> Sources:
@@ -546,11 +536,4 @@ def legend(result: Experiment | StabilityChart | None) -> str:
             color, marker = look(slot)
             why = next((p.status for p in result.of(method) if p.failed), "")
             items.append((color, MARKERS[marker], f"{method}: {why}" if why else method))
-    font = f"font:12.5px/1.45 {style.FONT}".replace('"', "'")
-    spans = "".join(
-        f'<span><span style="color:{style.css_color(color)}" aria-hidden="true">{sign}</span>'
-        f" {html.escape(words)}</span>"
-        for color, sign, words in items
-    )
-    box = f"{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"
-    return f'<div style="{box}">{spans}</div>'
+    return style.legend(items)

@@ -6,7 +6,7 @@ import html
 import math
 import time
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -15,6 +15,7 @@ from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.sentences import sentence_of
@@ -23,9 +24,6 @@ from bearing_explorer.views.job_view import JobView
 from bearing_explorer.widgets.form import FieldSpec
 from bearingcore.common.numbers import decibels, percent
 from bearingcore.experiments.alternatives import SPECTRUM, Alternative, Alternatives, alternatives
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 HEADS = ("Model", "Error", "of the", "Time", "Scene's own", "Remark")
 

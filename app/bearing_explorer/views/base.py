@@ -21,11 +21,10 @@ The grey reference is ``{grey}`` in `about`: the healthy bearing, or a scene tha
 
 from __future__ import annotations
 
-import asyncio
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import panel as pn
@@ -33,33 +32,25 @@ import param
 from bokeh.models import LayoutDOM, Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
+from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots.element_words import with_elements_of
 from bearing_explorer.plots.zoom import zoomable
+from bearing_explorer.results.endurance import LifeInputs
+from bearing_explorer.results.jobs import Jobs
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.reference import WITHOUT_DEFECT
+from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.python_lines import lines_of
+from bearing_explorer.widgets.controls import Rows
+from bearingcore import Scene
 from bearingcore.common.table import as_csv
-
-if TYPE_CHECKING:
-    from bearing_explorer.measurement.session import Measurement
-    from bearing_explorer.results.endurance import LifeInputs
-    from bearing_explorer.results.jobs import Jobs
-    from bearing_explorer.results.results import Results
-    from bearing_explorer.state.scene_editor import SceneEditor
-    from bearing_explorer.widgets.controls import Rows
-    from bearingcore import Scene
 
 #: {source: {column: array}}
 Sources = dict[str, dict[str, np.ndarray]]
 #: {range: (start, end)}
 Ranges = dict[str, tuple[float, float]]
-
-
-#: puts a new viewable into a layout and then acts, turn after turn of the event loop
-Fill = Callable[
-    [pn.Column, Callable[[], pn.viewable.Viewable], Callable[[], None]], asyncio.Task[None]
-]
 
 
 class Caption(LiveComponent):
@@ -119,9 +110,6 @@ class SessionParts:
         has a panel of controls follow the scene.
     take_steps
         sets the step rate [Hz] of time integration; None: the program's own.
-    fill
-        puts a new viewable into a layout as its only child and then acts, in several
-        turns of the event loop: for figures that are large and not made before they are needed.
     set_life_inputs
         sets the data of steel, oil and surfaces.
     """
@@ -133,7 +121,6 @@ class SessionParts:
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
-    fill: Fill
     set_life_inputs: Callable[[LifeInputs], None]
 
 

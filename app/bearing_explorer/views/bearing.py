@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from bokeh.models import CustomJS, LinearColorMapper, Range1d
@@ -17,14 +17,12 @@ from bearing_explorer.plots.heat_map import color_bar
 from bearing_explorer.plots.layers import Glyph, Layer, Words, draw, filled, segments
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.defect_shape import race_angles, race_depth, spans
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore import Bearing, Load, Scene
 from bearingcore.common.table import table_of
 from bearingcore.scene.packing import ball_angles
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-    from bearingcore import Bearing, Load, Scene
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
 HALF_WIDTH = 1.62

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,11 +11,9 @@ from bearing_explorer.plots.defect_words import extent_words
 from bearing_explorer.plots.element_words import row_words
 from bearing_explorer.plots.layers import ball_dots, curve, draw
 from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
 EDGE_WORDS = {

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
+from bearing_explorer.results.dof_comparison import DofComparison
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
@@ -19,10 +21,6 @@ from bearingcore import DOF_NAMES
 from bearingcore.common.numbers import decibels as in_decibels
 from bearingcore.common.numbers import percent, scientific
 from bearingcore.scene.scene import DOF_SYMBOLS
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.dof_comparison import DofComparison
-    from bearing_explorer.results.results import Results
 
 _WORDS = {
     "x": "x, sideways",

@@ -1,31 +1,27 @@
 """Any output over the plane of any two quantities: coarse at once, refined while one waits.
 
 The first, coarse level follows the sliders like any other view. When the sliders rest, a job
-refines it level by level. The figures are HoloViews, and made when there is something to draw in
-them: the library is imported then, too, off the event loop.
+refines it level by level.
 """
 
 from __future__ import annotations
 
 import asyncio
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import CustomJS, LayoutDOM, Plot, Spacer
 
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import Places, Side, goes_there, ring_at
-from bearing_explorer.plots.style import AxisQuantity
+from bearing_explorer.plots.heat_map import Side
+from bearing_explorer.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
 from bearing_explorer.results.explore import (
     BUDGET,
     MAP_OUTPUTS,
     SIZES,
-    Job,
     MapOutput,
     Plane,
     Question,
@@ -33,24 +29,25 @@ from bearing_explorer.results.explore import (
     refine,
 )
 from bearing_explorer.results.jobs import JobState, Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.sentences import sentence_of
-from bearing_explorer.state.value_range import Sweep, focused, value_of
-from bearing_explorer.views.base import Fill, Ranges, SessionParts, Sources
+from bearing_explorer.state.value_range import (
+    SWEEPABLE,
+    Sweep,
+    focused,
+    table_of_places,
+    value_of,
+)
+from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView, last_shown
 from bearing_explorer.views.still_figure import editor_of
 from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 
-if TYPE_CHECKING:
-    from bearing_explorer.plots.plane import Field
-    from bearing_explorer.results.results import Results
-
 REST = 0.2
 """[s] that sliders must rest before a map is refined."""
-PAUSE = 2.0
-"""Between two drawings while sliders move, in drawing times: the event loop is everybody's."""
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
 _WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
@@ -62,7 +59,7 @@ _FIRST_BAND = dict(
     )
 )
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
-_FADED = 0.65
+_FADED = 0.35
 
 
 @dataclass(frozen=True)
@@ -78,18 +75,6 @@ class MapRequest:
     def of(self, results: Results) -> Question:
         """The question for the scene shown."""
         return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
-
-
-class _CancelWhenStale:
-    """A job that also ends when its map is no longer wanted."""
-
-    def __init__(self, job: Work, wanted: Callable[[], bool]) -> None:
-        self._job, self._wanted = job, wanted
-        self.progress = job.progress
-        self.show = job.show
-
-    def cancelled(self) -> bool:
-        return self._job.cancelled() or not self._wanted()
 
 
 class ExplorePlane(JobView[Plane]):
@@ -111,27 +96,14 @@ class ExplorePlane(JobView[Plane]):
     _question: Question | None = None
     _refining: tuple[Question, int] | None = None
     _timer: asyncio.TimerHandle | None = None
-    _at: tuple[float, float] = (0.0, 0.0)
-    _news: Any = None
-    _next_show = 0.0
-    _fill: Fill
-    _filling: asyncio.Task[None] | None = None
-    _drawn: Plane | None = None  # in the figures on the page
-    _making: Plane | None = None  # in figures that are being made
 
     def build(self, packed: PackedSource) -> Any:
-        self._mark = packed.source("explore_mark", "x", "y")
-        self._old = packed.source("explore_old", "left", "right", "bottom", "top", "alpha")
-        # the browser must know the sources before there is a figure that draws them
-        anchor = Spacer(width=0, height=0, visible=False, tags=[self._mark, self._old])
-        self._figures = pn.Column(min_height=460, sizing_mode="stretch_width", margin=0)
-        return pn.Column(
-            self.job,
-            self._figures,
-            pn.pane.Bokeh(anchor, margin=0),
-            sizing_mode="stretch_width",
-            margin=0,
-        )
+        sides = [Side.of(field) for field in SWEEPABLE.values()]
+        self._plane = PlaneFigures(packed, "explore", sides)
+        whole = {"sizing_mode": "stretch_width", "margin": 0}
+        style = {"stylesheets": [SIDE_BY_SIDE], **whole}
+        self._maps = pn.Column(*self._plane.plots, visible=False, **style)
+        return pn.Column(self.job, self._maps, **whole)
 
     # The form
 
@@ -186,10 +158,6 @@ class ExplorePlane(JobView[Plane]):
         self._wait_no_more()
         super().cancel_job()
 
-    def attach(self, parts: SessionParts) -> None:
-        super().attach(parts)
-        self._fill = parts.fill
-
     # Outside of the page
 
     def choices(self) -> dict[str, Any]:
@@ -201,14 +169,6 @@ class ExplorePlane(JobView[Plane]):
         question = request.of(results)
         self.found = last_shown(lambda job: refine(job, question, request.stride))
 
-    def still_figures(self) -> Sequence[LayoutDOM]:
-        import holoviews as hv
-
-        from bearing_explorer.plots.plane import plane as linked_figures
-
-        assert self.found is not None
-        return [hv.render(linked_figures(field_of(self.found, self._at)), backend="bokeh")]
-
     def end(self) -> None:
         super().end()
         self._wait_no_more()
@@ -216,33 +176,18 @@ class ExplorePlane(JobView[Plane]):
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        import bearing_explorer.plots.plane  # noqa: F401 - takes a second, once, and this is not the event loop
-
-        none = np.zeros(0)
-        sources: Sources = {
-            "explore_mark": {"x": none, "y": none},
-            "explore_old": dict.fromkeys(("left", "right", "bottom", "top", "alpha"), none),
-        }
-        if self._request is None:
-            return sources, {}
-        question = self._request.of(results)
+        plane = self._newest(results)[0]
+        shown = plane or self.found
+        if shown is None:
+            return self._plane.nothing(), {}
         scene = focused(results.scene, results.focus)
-        x, y = (value_of(scene, axis.field) for axis in (question.x, question.y))
-        sources["explore_mark"] = {"x": np.array([x]), "y": np.array([y])}
-        if self.found is not None and self._plane(question)[0] is None:
-            ends = [float(v) for s in (self.found.question.x, self.found.question.y)
-                    for v in (s.values[0], s.values[-1])]  # fmt: skip
-            names = ("left", "right", "bottom", "top", "alpha")
-            sources["explore_old"] = {
-                name: np.array([value]) for name, value in zip(names, [*ends, _FADED], strict=True)
-            }
-        return sources, {}
+        x, y = (value_of(scene, sweep.field) for sweep in (shown.x, shown.y))
+        return self._plane.data(field_of(shown), (x, y), _FADED if plane is None else 1.0)
 
     def sentence(self, results: Results) -> str:
         if self._request is None:
             return "There is no map yet."
-        question = self._request.of(results)
-        plane, why = self._plane(question)
+        plane, why = self._newest(results)
         if plane is None:
             faint = "Faint: an earlier map. " if self.found is not None else ""
             return faint + (why or "This output takes a while: the map is being computed.")
@@ -253,37 +198,39 @@ class ExplorePlane(JobView[Plane]):
         if results is None or self._request is None:
             return
         self._question = question = self._request.of(results)
-        scene = focused(results.scene, results.focus)
-        x, y = (value_of(scene, axis.field) for axis in (question.x, question.y))
-        self._at = x, y
-        plane, why = self._plane(question)
-        if plane is not None and time.perf_counter() > self._next_show:
-            self._show(plane)
+        plane, why = self._newest(results)
+        self.found = plane or self.found
+        if self.found is not None:
+            self._plane.write(field_of(self.found))
+        self._maps.visible = self.found is not None
         if self._refining == (question, self._request.stride):
             return
         self._wait_no_more()
+        if self._jobs is None:
+            return
+        if self._refining is not None:
+            self._jobs.cancel()  # its map is no longer wanted
         self._refining = None
         if why:
             self.job.show(JobState("failed", 0.0, why))
-        elif self._jobs is not None:
+        else:
             loop = asyncio.get_running_loop()
             self._timer = loop.call_later(REST, self._refine, question, plane)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        if self.found is None:
+        if (found := self.found) is None:
             return {}
-        found = self.found
-        y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
-        question = found.question
         return {
-            question.x.field.key: x,
-            question.y.field.key: y,
-            question.output.column: found.values,
-            "no_answer_because": found.reasons,
+            **table_of_places(found.x, found.y),
+            found.question.output.column: found.values.ravel(),
+            "no_answer_because": found.reasons.ravel(),
         }
 
-    def _plane(self, question: Question) -> tuple[Plane | None, str]:
+    def _newest(self, results: Results) -> tuple[Plane | None, str]:
         """The map as far as it is computed, or the reason why there can be none."""
+        if self._request is None:
+            return None, ""
+        question = self._request.of(results)
         if self.found is not None and self.found.question == question:
             return self.found, ""
         if not question.at_once:
@@ -293,61 +240,6 @@ class ExplorePlane(JobView[Plane]):
         except ValueError as error:
             return None, sentence_of(error)
 
-    def _show(self, plane: Plane) -> None:
-        """Draw a map; its figures are made anew where it is one of something else."""
-        if plane is self.found:
-            return
-        self.found = plane
-        if self._filling is not None and not self._filling.done():
-            return  # its turn comes when there are figures
-        if self._drawn is None or self._drawn.question.figure != plane.question.figure:
-            self._filling = self._fill(self._figures, self._linked_figures, self._filled)
-            return
-        started = time.perf_counter()
-        self._drawn = plane
-        self._news.send(field_of(plane, self._at))
-        now = time.perf_counter()
-        self._next_show = now + PAUSE * (now - started)
-
-    def _linked_figures(self) -> pn.viewable.Viewable:
-        """Figures of the newest map; Bokeh's come with their models.
-
-        They change nothing that is on the page yet: callbacks of the place are attached later.
-        """
-        import holoviews as hv
-        from holoviews.plotting.util import initialize_dynamic
-
-        from bearing_explorer.plots.plane import plane as linked_figures
-
-        assert self.found is not None
-        self._making = plane = self.found
-        field = field_of(plane, self._at)
-        self._news = hv.streams.Pipe(data=field)
-        sides = [Side.of(sweep.field) for sweep in (plane.x, plane.y)]
-        self._plots: list[Plot] = []
-        self._followers: list[CustomJS] = []
-        layout = linked_figures(
-            field,
-            news=self._news,
-            mark=self._mark,
-            hooks=[_Marks(sides, self._mark, self._old)],
-            listen=self._followers.append,
-            each=lambda plot, _: self._plots.append(plot.handles["plot"]),
-            responsive=True,
-        )
-        initialize_dynamic(layout)  # now, and not in the turn in which the models are made
-        return pn.pane.HoloViews(layout, sizing_mode="stretch_width", margin=0)
-
-    def _filled(self) -> None:
-        """The figures are on the page; there may be a newer map than theirs."""
-        self._mark.js_property_callbacks = {}  # those of figures that are gone
-        self._mark.js_on_change("data", *self._followers)
-        self._caption.figures = [plot.id for plot in self._plots]
-        self._filling, self._drawn = None, self._making
-        newest, self.found = self.found, self._drawn
-        if newest is not None:
-            self._show(newest)
-
     # Refining
 
     def _refine(self, question: Question, start: Plane | None) -> None:
@@ -356,14 +248,11 @@ class ExplorePlane(JobView[Plane]):
         if self._jobs is None or self._request is None or question != self._question:
             return
         stride = self._request.stride
-        self._refining = wanted = (question, stride)
+        self._refining = question, stride
 
         def work(job: Work) -> str:
-            going: Job = _CancelWhenStale(job, lambda: self._refining == wanted)
-            if start is not None:
-                job.show(start)  # it may have been passed over while the slider moved
             try:
-                return refine(going, question, stride, start)
+                return refine(job, question, stride, start)
             except ValueError as error:
                 raise ValueError(sentence_of(error)) from error
 
@@ -371,7 +260,7 @@ class ExplorePlane(JobView[Plane]):
 
     def _take(self, found: Plane) -> None:
         if found.question == self._question:
-            self._show(found)
+            self.found = found
             self._draw()
 
     def _wait_no_more(self) -> None:
@@ -380,45 +269,12 @@ class ExplorePlane(JobView[Plane]):
             self._timer = None
 
 
-class _Marks:
-    """A hook: the ring at this scene, the veil over a map of another, and the click to go there."""
-
-    def __init__(self, sides: list[Side], mark: Any, old: Any) -> None:
-        self._sides, self._mark, self._old = sides, mark, old
-
-    def __call__(self, plot: Any, _: Any) -> None:
-        if "marks" in plot.handles:
-            return
-        plot.handles["marks"] = True
-        figure = plot.handles["plot"]
-        figure.name = "explore_map"
-        figure.stylesheets = [*figure.stylesheets, ":host { cursor: crosshair; }"]
-        figure.quad(
-            "left", "right", "top", "bottom", source=self._old, fill_color=style.PAPER,
-            fill_alpha="alpha", line_color=None, level="overlay",
-        )  # fmt: skip
-        for ring in ring_at(""):
-            ring.add(figure, self._mark).level = "overlay"
-        goes_there(figure, Places(plot.handles["source"], self._sides))
-
-
-def field_of(plane: Plane, at: tuple[float, float]) -> Field:
-    """A map as the figures take it, with lines drawn across it at a place."""
-    from bearing_explorer.plots.plane import Field
-
-    question = plane.question
-    sides = [Side.of(sweep.field) for sweep in (plane.x, plane.y)]
-    output = question.output
+def field_of(plane: Plane) -> Field:
+    """A map as the figures take it."""
+    output = plane.question.output
     words = output.label[0].upper() + output.label[1:] if output.label[0] != "k" else output.label
-    value = AxisQuantity(words, "", output.unit, prefixed=output.unit not in ("", "°"))
-    return Field(
-        (sides[0].name, sides[0].quantity, plane.x.values),
-        (sides[1].name, sides[1].quantity, plane.y.values),
-        (output.name.replace(":", "_"), value),
-        plane.values,
-        plane.reasons,
-        at,
-    )
+    x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))
+    return Field(x, y, words, output.unit, plane.values, plane.reasons)
 
 
 def summary(plane: Plane) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import panel as pn
@@ -15,12 +15,7 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
-from bearing_explorer.plots.ranges import StickyRange
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, of_rows
-from bearing_explorer.views.measured_view import MEASURED, MeasuredView
-from bearing_explorer.views.vibration_spectrum import (
+from bearing_explorer.plots.levels import (
     DEPTH_OF_VIEW,
     FREQUENCY,
     HIGHEST,
@@ -28,11 +23,14 @@ from bearing_explorer.views.vibration_spectrum import (
     SHOWN,
     decibels,
 )
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, of_rows
+from bearing_explorer.views.measured_view import MEASURED, MeasuredView
 from bearing_explorer.widgets.look import LookField, LookPanel
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-    from bearingcore import Spectrum
+from bearingcore import Spectrum
 
 FRAME = 236.0  # [px] height of the frame of a figure
 HEIGHT = 300

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import panel as pn
 
 from bearing_explorer.results.jobs import Jobs, JobState, Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import Sentence, SessionParts, View
 from bearing_explorer.views.still_figure import editor_of
@@ -23,10 +24,7 @@ from bearing_explorer.widgets.form import (
     row,
     select,
 )
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-    from bearingcore import Scene
+from bearingcore import Scene
 
 Found = TypeVar("Found")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import reduce
 from operator import or_
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bokeh.models import HoverTool, Range1d
@@ -14,17 +14,13 @@ from bearing_explorer.plots.element_words import elements
 from bearing_explorer.plots.layers import Words, ball_dots, curve, draw, strips
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.defect_shape import pieces, spans
-from bearing_explorer.results.load_curve import curves_table, load_curve, row_name
+from bearing_explorer.results.load_curve import Curve, curves_table, load_curve, row_name
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore import Equilibrium, Scene
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.ball_positions import EquilibriumWithMass
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.load_curve import Curve
-    from bearing_explorer.results.results import Results
-    from bearingcore import Equilibrium, Scene
-
 
 OTHER_ROWS = style.DIRECTION_COLORS[1]
 """Colour of the rows after the first."""

@@ -1,10 +1,8 @@
 """The 15 stiffness terms and the loaded balls over extent and cage angle (Figs. 5 and 6).
 
-One canvas for all sixteen maps, laid out like the matrix: column j and row i of it are the unit
-square at (j, -i), and below the diagonal, where it only repeats itself, stands the map of the
-loaded balls. To the browser go whole numbers of 16 bits, two to a float of the packed source; there
-they are coloured, read under the pointer, and a click asks for the extent and the cage angle
-clicked at.
+One canvas for all sixteen maps. To the browser go whole numbers of 16 bits, two to a float of the
+packed source; there they are coloured, read under the pointer, and a click asks for the extent and
+the cage angle clicked at.
 """
 
 from __future__ import annotations
@@ -13,44 +11,18 @@ import math
 from typing import Any
 
 import numpy as np
-import panel as pn
-from bokeh.models import ColumnDataSource, CustomJS, Range1d
+from bokeh.models import ColumnDataSource, CustomJS
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
+from bearing_explorer.plots import color_scales, matrix_cells, style
 from bearing_explorer.plots.cell_axes import axes_when_zoomed
-from bearing_explorer.plots.color_scales import (
-    DIVERGING,
-    DIVERGING_DARK,
-    SEQUENTIAL,
-    packed_colors,
-)
 from bearing_explorer.plots.element_words import elements
-from bearing_explorer.plots.heat_map import Places, Side, goes_there, reading
-from bearing_explorer.plots.matrix_cells import (
-    NEGLIGIBLE,
-    PLACES,
-    SYMBOLS,
-    UNITS,
-    Cell,
-    term_sizes,
-)
+from bearing_explorer.plots.heat_map import Places, Side, ends, goes_there, reading
+from bearing_explorer.plots.matrix_cells import NEGLIGIBLE, PLACES, SIDES, UNITS, Cell, write
 from bearing_explorer.plots.ranges import StickyRange
-from bearing_explorer.plots.style import (
-    DEFECT,
-    FAINT_INK,
-    FONT,
-    INK,
-    LIGHT,
-    SHADE,
-    STEEL_EDGE,
-    bare_figure,
-    in_degrees,
-    number,
-    with_prefix,
-    words_of,
-)
+from bearing_explorer.plots.style import in_degrees, number, with_prefix, words_of
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.field_values import CAGE_ANGLE
@@ -124,19 +96,17 @@ class StiffnessMaps(View):
         self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
         self._two = [False] * len(PLACES)
         self._balls = StickyRange(0.0, 1.0, shrink_below=0.0)
-        plot = bare_figure(
-            Range1d(-0.03, 5.23), Range1d(-5.1, 0.0), height=HEIGHT, name="maps_drawing"
-        )
-        # Fifteen maps need some width; on a phone they scroll inside their card.
-        plot.min_width = None
-        plot.stylesheets = [
-            ":host { min-width: 760px; } .bk-events.bk-events { cursor: crosshair; }"
+        looks = (
+            ".bk-events.bk-events { cursor: crosshair; }"
             ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
-        ]
-        cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_SIDES)
+        )
+        plot = matrix_cells.matrix_figure(
+            (-0.03, 5.23), (-5.1, 0.0), looks, height=HEIGHT, name="maps_drawing"
+        )
+        cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)
         ticks = packed.source("maps_ticks", "x", "y", "value", "at")
-        now = packed.source("maps_now", "x", "y", *_SIDES)
+        now = packed.source("maps_now", "x", "y", *SIDES)
         points = packed.source("maps_points", "bits")
         frames = _frames(plot)
         images = _images(plot, points)
@@ -147,14 +117,13 @@ class StiffnessMaps(View):
         _crosshair(plot, now)
         _hover(plot, frames, cells, places, points)
         goes_there(plot, places)
-        axes_when_zoomed(plot, _CELLS, [*SYMBOLS, "Loaded balls"], _SCALE_OF, [grid])
-        scroll = ":host { overflow-x: auto; max-width: 100%; }"
-        return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
+        axes_when_zoomed(plot, _CELLS, matrix_cells.NAMES, _SCALE_OF, [grid])
+        return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Points as whole numbers, their scales, and where the sliders stand."""
         maps, now = results.maps, results.massless_now
-        sizes = term_sizes(maps.term)
+        sizes = matrix_cells.term_sizes(maps.term)
         cells: list[tuple[float, ...]] = []
         points = [np.empty(0, np.uint16)]
         for i, term in enumerate(STIFFNESS_TERMS):
@@ -177,7 +146,7 @@ class StiffnessMaps(View):
         grid = _grid(results)
         levels = high - low + 1
         sources: Sources = {
-            "maps_cells": {**columns, **_SIDE_COLUMNS},
+            "maps_cells": {**columns, **_PLACES_OF_CELLS},
             "maps_grid": {name: np.array([value]) for name, value in grid.items()},
             "maps_ticks": _tick_rows(grid, low, high),
             "maps_now": {**_marks(results, grid), **_SIDE_COLUMNS},
@@ -279,8 +248,9 @@ _SIDES_OF = (
     Side(CAGE_ANGLE, "Shaft angle", "", "°"),
 )
 _ACROSS, _UP = (0, 2), 1
-_SIDES = ("left", "right", "bottom", "top")
-_SIDE_COLUMNS = {side: np.array([getattr(cell, side) for cell in _CELLS]) for side in _SIDES}
+_SIDE_COLUMNS = matrix_cells.sides_of(_CELLS)
+_MIDDLES = 0.5 * (_SIDE_COLUMNS["bottom"] + _SIDE_COLUMNS["top"])
+_PLACES_OF_CELLS = {**_SIDE_COLUMNS, "middle": _MIDDLES}
 
 
 def _grid(results: Results) -> dict[str, float]:
@@ -290,10 +260,6 @@ def _grid(results: Results) -> dict[str, float]:
     shaft's where a defect turns with the shaft. `start` is the cage angle where it is zero.
     """
     maps = results.maps
-
-    def ends(angles: NDArray[np.float64]) -> tuple[float, float]:
-        half = 0.5 * float(angles[1] - angles[0])
-        return float(angles[0]) - half, float(angles[-1]) + half
 
     angles = results.along(np.array([maps.cage_angles[0], maps.cage_angles[-1]]))
     first, last = ends(np.linspace(float(angles[0]), float(angles[1]), maps.cage_angles.size))
@@ -362,41 +328,32 @@ def _round_numbers(first: float, last: float, parts: int) -> list[float]:
 # ------------------------------------------------------------------------ the drawing, made once
 
 
-def _text(plot: figure, source: ColumnDataSource, **options: Any) -> Any:
-    style = {"text_font": {"value": FONT}, "text_font_size": "11px", "text_color": FAINT_INK}
-    return plot.text(source=source, **{"x": "x", "y": "y", **style, **options})
-
-
 def _frames(plot: figure) -> Any:
     """Hatching, seen where a map has no answer."""
-    names = [*SYMBOLS, "Loaded balls"]
     return plot.quad(
-        **{side: side for side in _SIDES},
-        source=ColumnDataSource({**_SIDE_COLUMNS, "name": names}),
+        **{side: side for side in SIDES},
+        source=ColumnDataSource({**_SIDE_COLUMNS, "name": matrix_cells.NAMES}),
         fill_color="#F3F4F6",
         hatch_pattern="right_diagonal_line",
         hatch_color="#D5DAE0",
         hatch_scale=7,
         hatch_weight=1,
-        line_color=STEEL_EDGE,
+        line_color=style.STEEL_EDGE,
     )
 
 
 def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
     """The maps and their colour scales, coloured in the browser."""
     places = [*_CELLS, *_BARS]
+    left, right, bottom, top = matrix_cells.sides_of(places).values()
+    blank = [np.zeros((1, 1), np.uint32) for _ in places]
     images = ColumnDataSource(
-        {
-            "image": [np.zeros((1, 1), np.uint32) for _ in places],
-            "x": [place.left for place in places],
-            "y": [place.bottom for place in places],
-            "dw": [place.right - place.left for place in places],
-            "dh": [place.top - place.bottom for place in places],
-        },
+        {"image": blank, "x": left, "y": bottom, "dw": right - left, "dh": top - bottom},
         syncable=False,
     )
     plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
-    one, *both = (packed_colors(scale) for scale in (SEQUENTIAL, DIVERGING, DIVERGING_DARK))
+    kinds = (color_scales.SEQUENTIAL, color_scales.DIVERGING, color_scales.DIVERGING_DARK)
+    one, *both = map(color_scales.packed_colors, kinds)
     scales = {
         theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
     }
@@ -408,104 +365,79 @@ def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
     return images
 
 
+_LEGEND = (
+    "Stiffness k of each displacement (column)",
+    "against each load (row), as in the matrix.",
+    "Cross: current extent and cage angle.",
+    "Hatched: no answer.",
+)
+
+
 def _names(plot: figure, grid: ColumnDataSource) -> None:
     """Symbols over the maps, words on the axes, and the legend."""
-    serif = {"text_font": {"value": "Georgia, 'Times New Roman', serif"}, "text_color": INK}
-    cells = _CELLS[:-1]
-    source = ColumnDataSource(
-        {
-            "x": [cell.left for cell in cells],
-            "y": [cell.top for cell in cells],
-            "k": ["k"] * len(cells),
-            "below": [symbol[1:] for symbol in SYMBOLS],
-        }
-    )
-    _text(plot, source, text="k", y_offset=-6, text_font_size="15px", **serif)
-    _text(plot, source, text="below", x_offset=9, y_offset=-3, **serif)
-    large = ColumnDataSource({"x": [_BALLS.left], "y": [_BALLS.top], "text": ["Loaded balls"]})
-    _text(plot, large, text="text", y_offset=-6, text_font_size="13px", text_color=INK)
-    centered = {"text_align": "center", "text_color": INK, "text_font_size": "12px"}
+    matrix_cells.write_names(plot, _CELLS)
+    centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
     extent = {"value": "Extent Δφf (°)"}
-    small = {**centered, "text_font_size": "11px"}  # whole also where the canvas is narrowest
-    _text(plot, up, text=extent, angle=0.5 * math.pi, x_offset=-31, **small)
-    words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
-    _text(
-        plot, grid, x=0.5 * (_BALLS.left + _BALLS.right), y=_BALLS.bottom, y_offset=36,
-        text=words_of(grid, words), **centered,
-    )  # fmt: skip
-    lines = [
-        "Stiffness k of each displacement (column)",
-        "against each load (row), as in the matrix.",
-        "Cross: current extent and cage angle.",
-        "Hatched: no answer.",
-    ]
-    legend = ColumnDataSource(
-        {"x": [0.26] * len(lines), "y": [-2.3 - 0.13 * i for i in range(len(lines))], "text": lines}
-    )
-    _text(plot, legend, text="text", text_font_size="11px")
+    write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
+    words = words_of(grid, "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'")
+    at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
+    write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
+    lines = range(len(_LEGEND))
+    legend = {"x": [0.26 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
+    write(plot, ColumnDataSource(legend), "text")
+
+
+_UNIT = f"""
+const unit = {[*UNITS, ""]}[row.unit]
+const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
+"""
+_END = f"""{_UNIT}
+if (!unit || row.kind == 3 || isNaN(row.low)) return ''
+return minus(String(Number((row.%s/10**e).toPrecision(4))))
+"""
+_NOW = f"""{_UNIT}
+if (isNaN(row.now)) return 'no value'
+if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'
+return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
+"""
+_ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
+_FLAT = "return row.kind == 3 ? 'zero everywhere' : ''"
+_ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
 
 
 def _scales(plot: figure, cells: ColumnDataSource) -> None:
     """Numbers at the colour scales, the value at the crosshair, zero where all is zero."""
-    units = f"const unit = {[*UNITS, '']}[row.unit]\n"
-    top = "const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))\n"
-    end = (
-        "if (!unit || row.kind == 3 || isNaN(row.low)) return ''\n"
-        + top
-        + "return minus(String(Number((row.%s/10**e).toPrecision(4))))"
-    )
-    now = (
-        "if (isNaN(row.now)) return 'no value'\n"
-        "if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'\n"
-        + top
-        + "return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit"
-    )
-    at_scale = {"x": "right", "x_offset": 14}
-    low, high = (words_of(cells, units + end % name) for name in ("low", "high"))
-    zero = words_of(cells, units + "return unit && row.kind == 1 ? '0' : ''")
-    middle = {"expr": _between(cells)}
-    _text(plot, cells, **at_scale, y="bottom", text=low, text_baseline="bottom")
-    _text(plot, cells, **at_scale, y="top", text=high, text_baseline="top")
-    _text(plot, cells, **at_scale, y=middle, text=zero, text_baseline="middle")
-    _text(
-        plot, cells, x="right", y="top", x_offset=30, y_offset=-6, text_align="right",
-        text=words_of(cells, units + now),
-    )  # fmt: skip
-    flat = words_of(cells, "return row.kind == 3 ? 'zero everywhere' : ''")
-    _text(
-        plot, cells, x="left", y="top", x_offset=8, y_offset=8, text=flat, text_baseline="top",
-    )  # fmt: skip
-
-
-def _between(cells: ColumnDataSource) -> Any:
-    from bokeh.models import CustomJSExpr
-
-    return CustomJSExpr(
-        args={"source": cells},
-        code="const d = source.data; return Array.from(d.top, (y, i) => 0.5*(y + d.bottom[i]))",
-    )
+    for code, y, baseline in (
+        (_END % "low", "bottom", "bottom"),
+        (_END % "high", "top", "top"),
+        (_ZERO, "middle", "middle"),
+    ):
+        at = {"x": "right", "y": y, "x_offset": 14}
+        write(plot, cells, words_of(cells, code), text_baseline=baseline, **at)
+    above = {"x": "right", "y": "top", "x_offset": 30, "y_offset": -6}
+    write(plot, cells, words_of(cells, _NOW), text_align="right", **above)
+    inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
+    write(plot, cells, words_of(cells, _FLAT), text_baseline="top", **inside)
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
     """Numbers of the axes and of the scale of loaded balls."""
-    only = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
-    kinds = (
+    for side, unit, look in (
         (_LEFT, "°", {"x_offset": -5, "text_align": "right", "text_baseline": "middle"}),
         (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
         (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
-    )
-    for side, unit, options in kinds:
-        _text(plot, ticks, text=words_of(ticks, only % (side, unit)), **options)
+    ):
+        write(plot, ticks, words_of(ticks, _ONLY % (side, unit)), **look)
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:
     """Where the sliders stand: dark on light, so that it shows on every colour."""
-    for color, width, alpha in ((LIGHT, 3.0, 0.75), (SHADE, 1.0, 0.9)):
-        style = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
-        plot.segment("x", "bottom", "x", "top", **style)
-        plot.segment("left", "y", "right", "y", **style)
-    plot.scatter("x", "y", source=now, size=8, fill_color=DEFECT, line_color=SHADE)
+    for color, width, alpha in ((style.LIGHT, 3.0, 0.75), (style.SHADE, 1.0, 0.9)):
+        look = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
+        plot.segment("x", "bottom", "x", "top", **look)
+        plot.segment("left", "y", "right", "y", **look)
+    plot.scatter("x", "y", source=now, size=8, fill_color=style.DEFECT, line_color=style.SHADE)
 
 
 def _hover(plot: figure, frames: Any, cells: ColumnDataSource, places: Places, points: Any) -> None:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
 
 from bearing_explorer.plots import style
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.mass_time import MASSLESS
 from bearing_explorer.views.wide_spectrum import WideSpectra
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 
 class MassInSpectrum(View):

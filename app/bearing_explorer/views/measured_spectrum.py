@@ -9,6 +9,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
+from bearing_explorer.plots.levels import HIGHEST, SHOWN, decibels
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.base import Sources
@@ -23,7 +24,6 @@ from bearing_explorer.views.frequency_view import (
 )
 from bearing_explorer.views.measured_view import write_over
 from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
-from bearing_explorer.views.vibration_spectrum import HIGHEST, SHOWN, decibels
 from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
+from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.excerpt import least_and_greatest
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView, column_name, write_over
-from bearing_explorer.views.vibration_spectrum import SHOWN
 from bearing_explorer.widgets.measurement_form import MeasurementForm
 
 if TYPE_CHECKING:

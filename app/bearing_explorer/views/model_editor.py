@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import param
 
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.plots import style
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.field_values import MODEL_GROUPS, SHOWN_FIELDS, values_of
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 
 class ModelRows(Rows):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bokeh.models import CustomJS
@@ -12,13 +12,11 @@ from numpy.typing import NDArray
 from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips, uprights
 from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore.common.numbers import span
 from bearingcore.sweep.outputs import mode_symbol
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440

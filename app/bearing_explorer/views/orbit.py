@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -13,11 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import Glyph, curve, draw, filled
-from bearing_explorer.plots.ranges import ROOM, StickyRange
-from bearing_explorer.results.verdict import of_orbit
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.vibration_spectrum import (
+from bearing_explorer.plots.levels import (
     FREQUENCY,
     HIGHEST,
     SHOWN,
@@ -26,14 +22,16 @@ from bearing_explorer.views.vibration_spectrum import (
     drawn_levels,
     seen_levels,
 )
+from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.results.results import Results
+from bearing_explorer.results.verdict import of_orbit
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore.common.numbers import count, scientific
 from bearingcore.common.table import table_of
 from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene.scene import MASSLESS
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 HEIGHT = 280
 ORBIT_POINTS = 600

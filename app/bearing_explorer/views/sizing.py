@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
+from bearing_explorer.plots.levels import DEPTH_OF_VIEW, FREQUENCY, LEVEL_FLOOR, SHOWN, decibels
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.serve.packed_source import PackedSource
@@ -29,13 +30,6 @@ from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
-from bearing_explorer.views.vibration_spectrum import (
-    DEPTH_OF_VIEW,
-    FREQUENCY,
-    LEVEL_FLOOR,
-    SHOWN,
-    decibels,
-)
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
 from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.status import StatusLine

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import math
-import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import CustomJS, GlyphRenderer, LinearColorMapper, RadioButtonGroup
+from bokeh.models import GlyphRenderer, LinearColorMapper
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends
+from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
 from bearing_explorer.plots.layers import (
     Glyph,
     Layer,
@@ -27,31 +25,30 @@ from bearing_explorer.plots.layers import (
     nothing,
     sources_of,
     strips,
+    switch,
     toggle,
 )
+from bearing_explorer.plots.levels import FREQUENCY, HIGHEST, SHOWN, decibels
 from bearing_explorer.plots.ranges import nice_range
 from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
-    alike_but_for,
     focused,
     sweep,
     usual_range,
     value_of,
 )
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
-from bearing_explorer.views.vibration_spectrum import FREQUENCY, HIGHEST, SHOWN, decibels
+from bearing_explorer.views.swept_view import Swept, SweptView, compute_in_levels
 from bearing_explorer.widgets.form import FieldSpec
+from bearingcore import Scene
+from bearingcore.common.progress import Progress
 from bearingcore.dynamics.speed_run import SpeedRun, speed_run
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 SPEED = "shaft_speed_hz"
 COUNTS = (25, 49, 97, 193)
@@ -67,7 +64,6 @@ _SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABL
 _SAY = "return isNaN(cell[0]) ? 'not computed' : `${cell[0].toFixed(1).replace('-', '\\u2212')} dB`"
 _HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
 _HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
-_SWITCH = "plots.forEach((plot, which) => { plot.visible = which == cb_obj.active })"
 _ON_PICTURE = {
     "text_align": "center",
     "text_color": style.LIGHT,
@@ -124,15 +120,7 @@ SCENE: list[Layer] = [
 ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
 
 
-@dataclass(frozen=True)
-class Found:
-    """A run with its shaft speeds as the page has them."""
-
-    run: SpeedRun
-    speeds: Sweep
-
-
-class SpeedRunSpectra(JobView[Found]):
+class SpeedRunSpectra(SweptView):
     """Power spectral density of the housing's acceleration over frequency and shaft speed."""
 
     name = "speed-run"
@@ -143,7 +131,7 @@ class SpeedRunSpectra(JobView[Found]):
         "ball-pass frequency and its harmonics; where they cross a band vibration is strong. "
         "Horizontal line: current speed. Click to go to a speed."
     )
-    needs = frozenset()
+    nothing_yet = "There is no run yet."
     start = "Run up"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 
@@ -167,36 +155,21 @@ class SpeedRunSpectra(JobView[Found]):
             )
             plot.grid.visible = False
             plot.stylesheets = [":host { cursor: crosshair; }"]
-            plot.visible = dof == SHOWN[1]
             plot.syncable = False  # which of them is seen is the browser's business
             self._add_map(plot, packed, dof)
             marks += add_all(plot, sources, expected(dof))
             add_all(plot, sources, SCENE)
             plots.append(plot)
-        switch = RadioButtonGroup(
-            labels=[f"Along {dof}" for dof in SHOWN],
-            active=1,
-            syncable=False,
-            margin=(2, 5, 6, 5),
-            stylesheets=[style.BUTTONS],
-        )
-        switch.js_on_change("active", CustomJS(args={"plots": plots}, code=_SWITCH))
+        along = switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
         box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
-        choices = pn.Row(switch, box, margin=0, stylesheets=[style.WRAPPED])
+        choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
         return pn.Column(self.job, choices, *plots, sizing_mode="stretch_width", margin=0)
 
     def _add_map(self, plot: figure, packed: PackedSource, dof: str) -> None:
         """The spectra as colours, with their scale."""
         shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
-        mapper = LinearColorMapper(
-            palette=list(Viridis256), low=-80.0, high=-20.0, nan_color=CLEAR, syncable=False
-        )
-        follow = CustomJS(
-            args={"mapper": mapper, "shown": shown},
-            code="mapper.setv({low: shown.start, high: shown.end})",
-        )
-        for end in ("start", "end"):
-            shown.js_on_change(end, follow)
+        mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
+        scale_by(shown, mapper)
         self._images[dof] = GridImage(
             plot, packed, f"speed_run_cells_{dof}", [mapper], list(_SIDES.values()), _SAY
         )
@@ -222,22 +195,16 @@ class SpeedRunSpectra(JobView[Found]):
             raise ValueError(f"A run has {counts} or at most {COUNTS[-1]} speeds.")
         speeds = sweep(SPEED, given["from"], given["to"], int(given["count"]), editor.limits)
         scene = focused(editor.scene, editor.selected)
-
-        def work(job: Work) -> str:
-            return compute(job, scene, speeds)
-
-        return work
+        return lambda job: compute(job, scene, speeds)
 
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found = self.found
-        if found is None:
+        if (found := self.found) is None:
             images = {image.name: image.nothing() for image in self._images.values()}
             return {**images, **nothing(ALL_LAYERS)}, {}
-        run, speeds = found.run, found.speeds
-        scene = focused(results.scene, results.focus)
-        alpha = 1.0 if alike_but_for(scene, run.scene, (speeds,)) else 0.35
+        run, (speeds,) = found.result, found.sweeps
+        alpha = self.opacity(results, found)
         seen = run.frequency <= top_frequency(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
@@ -253,7 +220,7 @@ class SpeedRunSpectra(JobView[Found]):
         limits = ends(speeds.values)
         sources |= harmonics(run, speeds, top)
         not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).all(axis=(1, 2))]
-        sources["speed_run_now"] = {"speed": np.array([value_of(scene, speeds.field)])}
+        sources["speed_run_now"] = {"speed": np.array([value_of(results.scene, speeds.field)])}
         sources["speed_run_marched"] = {
             "frequency": np.full(not_proven.size, 0.006 * top),
             "speed": not_proven,
@@ -264,11 +231,8 @@ class SpeedRunSpectra(JobView[Found]):
             **level_ranges,
         }
 
-    def sentence(self, results: Results) -> str:
-        found = self.found
-        if found is None:
-            return "There is no run yet."
-        run = found.run
+    def words_of(self, results: Results, found: Swept) -> str:
+        run, (speeds,) = found.result, found.sweeps
         words = []
         for dof in SHOWN:
             level = levels_of(run, dof)
@@ -277,7 +241,7 @@ class SpeedRunSpectra(JobView[Found]):
                 i, k = np.unravel_index(np.nanargmax(level), level.shape)
                 words.append(
                     f"along {dof} at {run.frequency[k]:.0f} Hz when the shaft turns at "
-                    f"{style.number(found.speeds.values[i])} Hz"
+                    f"{style.number(speeds.values[i])} Hz"
                 )
         text = f"Loudest {style.list_words(words)}." if words else "Nothing moves."
         marched = int(np.sum(~run.from_orbit))
@@ -286,9 +250,6 @@ class SpeedRunSpectra(JobView[Found]):
                 f" At {marched} of {run.shaft_speed.size} speeds (triangles) no stable orbit was "
                 "found; their motion was integrated in time."
             )
-        scene = focused(results.scene, results.focus)
-        if not alike_but_for(scene, run.scene, (found.speeds,)):
-            text = f"Faint, as the scene has changed since this was computed. Then: {text}"
         return text
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -305,45 +266,30 @@ class SpeedRunSpectra(JobView[Found]):
             self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        found = self.found
-        if found is None:
+        if self.found is None:
             return {}
-        run = found.run
+        run = self.found.result
         orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
-def compute(job: Work, scene: Any, speeds: Sweep) -> str:
+def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
     """A coarse run and then the full one. Runs in a job's thread."""
-    started = time.perf_counter()
     n = speeds.values.size
-    levels = [speeds.every((n - 1) // (FIRST_COUNT - 1)), speeds] if n > FIRST_COUNT else [speeds]
-    total = sum(level.values.size for level in levels)
-    done = 0
-    shown = "Nothing is shown yet."
-    for level in levels:
-        size = level.values.size
-        try:
-            run = speed_run(
-                scene,
-                level.in_si[1],
-                resolution=RESOLUTION,
-                progress=job.within(done / total, (done + size) / total),
-                cancelled=job.cancelled,
-            )
-            if run.cost and not done:
-                raise ValueError(run.cost)
-        except ValueError as error:
-            raise ValueError(sentence_of(error)) from error
-        if run.cost:
-            return f"{shown} Finer was not begun, {run.cost}."
-        if run.completed or not done:
-            job.show(Found(run, level))
-            shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
-        if not run.completed:
-            break
-        done += size
-    return shown
+    levels = [(speeds,)]
+    if n > FIRST_COUNT:
+        levels.insert(0, (speeds.every((n - 1) // (FIRST_COUNT - 1)),))
+
+    def one_level(level: tuple[Sweep, ...], progress: Progress) -> SpeedRun:
+        return speed_run(
+            scene,
+            level[0].in_si[1],
+            resolution=RESOLUTION,
+            progress=progress,
+            cancelled=job.cancelled,
+        )
+
+    return compute_in_levels(job, levels, one_level, "speeds")
 
 
 def top_frequency(run: SpeedRun) -> float:

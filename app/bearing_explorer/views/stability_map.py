@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -14,29 +13,27 @@ from bokeh.palettes import Blues256
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import (
-    CLEAR,
-    GridImage,
-    Side,
-    color_bar,
-    ends,
-    ring_at,
-)
+from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, ring_at
 from bearing_explorer.plots.layers import draw, nothing, segments
 from bearing_explorer.results.jobs import LONGEST, Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.sentences import sentence_of
-from bearing_explorer.state.value_range import SWEEPABLE, Sweep, alike_but_for, focused, value_of
+from bearing_explorer.state.value_range import (
+    SWEEPABLE,
+    Sweep,
+    focused,
+    table_of_places,
+    value_of,
+)
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.job_view import JobView
+from bearing_explorer.views.swept_view import Swept, SweptView, compute_in_levels
 from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
+from bearingcore import Scene
+from bearingcore.common.progress import Progress
 from bearingcore.dynamics.stability_map import OUTCOMES, StabilityMap, regions, stability_map
 from bearingcore.scene.scene import MASSLESS
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 GRIDS = (13, 25, 49, 97)
 """Points along each side that can be chosen; each holds the points of those before."""
@@ -85,16 +82,7 @@ LAYERS = [segments("stability_border", style.SHADE, 1.6), *ring_at("stability_ma
 """Over the map: |μ| = 1, and this scene."""
 
 
-@dataclass(frozen=True)
-class Found:
-    """A map with the quantities of its sides."""
-
-    map: StabilityMap
-    x: Sweep
-    y: Sweep
-
-
-class OrbitStability(JobView[Found]):
+class OrbitStability(SweptView):
     """Largest Floquet multiplier over two quantities."""
 
     name = "stability-map"
@@ -103,7 +91,6 @@ class OrbitStability(JobView[Found]):
         "Blue: the largest multiplier |μ| of a stable orbit. Other colours: kinds of instability; "
         "the dark line is |μ| = 1. Ring: this scene. Click to go there."
     )
-    needs = frozenset()
     start = "Compute the map"
     bounds = (
         f"At most {GRIDS[-1]} × {GRIDS[-1]} points and {LONGEST / 60.0:.0f} minutes; coarse "
@@ -166,91 +153,52 @@ class OrbitStability(JobView[Found]):
         n = int(given["grid"])
         x, y = plane_sweeps(given, (n, n), editor.limits)
         scene = focused(editor.scene, editor.selected)
-
-        def work(job: Work) -> str:
-            return compute(job, scene, x, y, n)
-
-        return work
+        return lambda job: compute(job, scene, x, y, n)
 
     # The picture
 
+    def scene_of(self, results: Results) -> Scene:
+        return super().scene_of(results).replace(balls=MASSLESS)
+
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found = self.found
-        if found is None:
+        if (found := self.found) is None:
             return {"stability_cells": self._image.nothing(), **nothing(LAYERS)}, {}
-        x, y = found.x, found.y
-        sides = self._sides[x.field.key], self._sides[y.field.key]
-        scene = focused(results.scene.replace(balls=MASSLESS), results.focus)
-        codes = codes_of(found.map)
-        own = alike_but_for(scene, found.map.scene, (x, y))
+        x, y = found.sweeps
+        right, up = ((self._sides[sweep.field.key], sweep.values) for sweep in (x, y))
+        codes = codes_of(found.result)
+        layers = [found.result.multiplier, codes]
+        mark = (np.array([value_of(self.scene_of(results), sweep.field)]) for sweep in (x, y))
         sources: Sources = {
-            "stability_cells": self._image.columns(
-                (sides[0], x.values),
-                (sides[1], y.values),
-                [found.map.multiplier, codes],
-                1.0 if own else 0.35,
-            ),
+            "stability_cells": self._image.columns(right, up, layers, self.opacity(results, found)),
             "stability_border": border(x.values, y.values, codes),
-            "stability_mark": {
-                "x": np.array([value_of(scene, x.field)]),
-                "y": np.array([value_of(scene, y.field)]),
-            },
+            "stability_mark": dict(zip(("x", "y"), mark, strict=True)),
         }
         return sources, {"stability_x": ends(x.values), "stability_y": ends(y.values)}
 
-    def sentence(self, results: Results) -> str:
-        found = self.found
-        if found is None:
-            return "There is no map yet."
-        words = " ".join(regions(found.map))
-        scene = focused(results.scene.replace(balls=MASSLESS), results.focus)
-        if not alike_but_for(scene, found.map.scene, (found.x, found.y)):
-            return f"Faint, as the scene has changed since this was computed. Then: {words}"
-        missing = found.map.count("not computed")
-        return f"{words} {missing} were not computed." if missing else words
+    def words_of(self, results: Results, found: Swept) -> str:
+        words = " ".join(regions(found.result))
+        missing = found.result.count("not computed")
+        own = self.opacity(results, found) == 1.0
+        return f"{words} {missing} were not computed." if missing and own else words
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        found = self.found
-        if found is None:
+        if (found := self.found) is None:
             return {}
-        y, x = np.meshgrid(found.y.values, found.x.values, indexing="ij")
-        return {
-            found.x.field.key: x.ravel(),
-            found.y.field.key: y.ravel(),
-            **found.map.table().only("largest_multiplier", "outcome", "through").named(),
-        }
+        columns = ("largest_multiplier", "outcome", "through")
+        return table_of_places(*found.sweeps) | found.result.table().only(*columns).named()
 
 
-def compute(job: Work, scene: Any, x: Sweep, y: Sweep, n: int) -> str:
+def compute(job: Work, scene: Scene, x: Sweep, y: Sweep, n: int) -> str:
     """The map on coarse grids and then on finer ones, shown each time. Runs in a job's thread."""
-    started = time.perf_counter()
-    levels = [(x.every((n - 1) // (g - 1)), y.every((n - 1) // (g - 1))) for g in GRIDS if g <= n]
-    sizes = [a.values.size * b.values.size for a, b in levels]
-    done = 0
-    shown = "Nothing is shown yet."
-    for (x_level, y_level), size in zip(levels, sizes, strict=True):
-        try:
-            found = stability_map(
-                scene.replace(balls=MASSLESS),  # only they have orbits that can be looked for
-                x_level.in_si,
-                y_level.in_si,
-                progress=job.within(done / sum(sizes), (done + size) / sum(sizes)),
-                cancelled=job.cancelled,
-            )
-            if found.cost and not done:
-                raise ValueError(found.cost)
-        except ValueError as error:
-            raise ValueError(sentence_of(error)) from error
-        if found.cost:
-            return f"{shown} Finer was not begun, {found.cost}."
-        if found.completed or not done:
-            job.show(Found(found, x_level, y_level))
-            spent = time.perf_counter() - started
-            shown = f"{x_level.values.size} × {y_level.values.size} points after {spent:.1f} s."
-        if not found.completed:
-            break
-        done += size
-    return shown
+    massless = scene.replace(balls=MASSLESS)  # only they have orbits that can be looked for
+
+    def one_level(level: tuple[Sweep, ...], progress: Progress) -> StabilityMap:
+        sides = [sweep.in_si for sweep in level]
+        return stability_map(massless, *sides, progress=progress, cancelled=job.cancelled)
+
+    strides = [(n - 1) // (grid - 1) for grid in GRIDS if grid <= n]
+    levels = [(x.every(stride), y.every(stride)) for stride in strides]
+    return compute_in_levels(job, levels, one_level, "points")
 
 
 def codes_of(found: StabilityMap) -> NDArray[np.float64]:
@@ -283,14 +231,5 @@ def border(
 
 def legend() -> str:
     """Meaning of the colours of unstable regions, and of period doubling."""
-    swatch = "display:inline-block;width:11px;height:11px;border-radius:2px;margin-right:6px"
-    items = "".join(
-        f'<span style="white-space:nowrap"><i style="{swatch};background:{kind.color}"></i>'
-        f"{kind.words}</span>"
-        for kind in KINDS[1:]
-    )
-    font = f"font:12.5px/1.45 {style.FONT}".replace('"', "'")
-    return (
-        f'<div style="{font};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px">{items}'
-        f'</div><p style="{font};margin:6px 2px 0">{PERIOD_DOUBLING}</p>'
-    )
+    items = style.legend((kind.color, "■", kind.words) for kind in KINDS[1:])
+    return f'{items}<p style="{style.HTML_FONT};margin:6px 2px 0">{PERIOD_DOUBLING}</p>'

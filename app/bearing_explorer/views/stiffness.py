@@ -1,10 +1,7 @@
 """All 15 stiffness traces over cage angle in one light drawing, and the number of loaded balls.
 
-One canvas instead of sixteen: the cells of the upper triangle of the symmetric 5×5 matrix are
-drawn in one plane, where column j and row i of the matrix are the unit square at (j, -i). A line
-of all traces is one line with gaps. That paints several times faster than a figure for each
-trace, and shows where in the matrix each term stands. Below the diagonal, where the matrix only
-repeats itself, stand the legend and the number of loaded balls.
+The line of all traces is one line with gaps. Below the diagonal are the legend and the number of
+loaded balls.
 """
 
 from __future__ import annotations
@@ -13,37 +10,15 @@ import math
 from typing import Any
 
 import numpy as np
-import panel as pn
-from bokeh.core.properties import value
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
+from bearing_explorer.plots import matrix_cells, style
 from bearing_explorer.plots.cell_axes import axes_when_zoomed
 from bearing_explorer.plots.element_words import elements
-from bearing_explorer.plots.matrix_cells import (
-    PLACES,
-    SYMBOLS,
-    UNITS,
-    Cell,
-    cleaned,
-    term_sizes,
-    trace_limits,
-)
+from bearing_explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
 from bearing_explorer.plots.ranges import ROOM, StickyRange
-from bearing_explorer.plots.style import (
-    DEFECTIVE,
-    FAINT_INK,
-    FONT,
-    GRID,
-    HEALTHY,
-    INK,
-    STEEL_EDGE,
-    bare_figure,
-    fitting_words,
-    in_degrees,
-    with_prefix,
-    words_of,
-)
+from bearing_explorer.plots.style import in_degrees, with_prefix, words_of
 from bearing_explorer.results.chain import over_turn
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -64,10 +39,7 @@ _BALLS = Cell(0.215, 2.6, -4.86, -3.5)
 _FRAMES = [*_CELLS, _BALLS]
 _IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest of its column
 _PLACE_COLUMNS = {
-    **{
-        side: np.array([getattr(cell, side) for cell in _FRAMES])
-        for side in ("left", "right", "bottom", "top")
-    },
+    **matrix_cells.sides_of(_FRAMES),
     "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
 }
 _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
@@ -89,36 +61,21 @@ class Stiffness(View):
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
-        plot = bare_figure(Range1d(-0.05, 5.03), Range1d(-5.08, 0.0), height=524)
-        # Fifteen cells need some width; on a phone they scroll inside their card. (As a
-        # property of the figure, Panel would give the width to the whole card.)
-        plot.min_width = None
-        plot.stylesheets = [":host { min-width: 760px; }"]
+        plot = matrix_cells.matrix_figure((-0.05, 5.03), (-5.08, 0.0), height=524)
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
         healthy = packed.source("stiffness_healthy", "x", "y")
         defective = packed.source("stiffness_defective", "x", "y")
         now = packed.source("stiffness_now", "x", "y", "low", "high")
-        _moving_parts(plot, cells)
         axis = packed.source("stiffness_axis", "shaft")
-        _text(
-            plot,
-            axis,
-            x=0.5 * (_BALLS.left + _BALLS.right),
-            y=_BALLS.bottom,
-            y_offset=4,
-            text=words_of(axis, _AXIS_WORDS),
-            text_align="center",
-            text_baseline="top",
-        )
-        plot.segment("x", "low", "x", "high", source=now, line_color=INK, line_alpha=0.45)
-        plot.line("x", "y", source=healthy, line_color=HEALTHY, line_width=1.6)
-        plot.line("x", "y", source=defective, line_color=DEFECTIVE, line_width=1.8)
-        plot.scatter("x", "y", source=now, size=6, color=DEFECTIVE, line_color="white")
-        names = [*SYMBOLS, "Loaded balls"]
+        _moving_parts(plot, cells, axis)
+        plot.segment("x", "low", "x", "high", source=now, line_color=style.INK, line_alpha=0.45)
+        plot.line("x", "y", source=healthy, line_color=style.HEALTHY, line_width=1.6)
+        plot.line("x", "y", source=defective, line_color=style.DEFECTIVE, line_width=1.8)
+        plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
+        names = matrix_cells.NAMES
         axes_when_zoomed(plot, _FRAMES, names, _SCALE_OF, [cells, axis], units=[*UNITS, ""])
-        scroll = ":host { overflow-x: auto; max-width: 100%; }"
-        return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
+        return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
@@ -126,7 +83,9 @@ class Stiffness(View):
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in (found, healthy)]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
-        scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
+        scales = matrix_cells.term_sizes(
+            lambda term: np.concatenate([found.term(term), healthy.term(term)])
+        )
         lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
         heads: list[tuple[float, float, float, float]] = []
@@ -143,7 +102,7 @@ class Stiffness(View):
         ):
             a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
             at_now = float(cleaned(now.term(term), scale)[0])
-            limits = trace_limits(sticky, scale, a, b)
+            limits = matrix_cells.trace_limits(sticky, scale, a, b)
             put(cell, limits, shares, a, b)
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
@@ -247,39 +206,18 @@ def _stepped(share: np.ndarray) -> np.ndarray:
     return np.concatenate([share[:1], np.repeat(middles, 2), share[-1:]])
 
 
-def _text(plot: figure, source: ColumnDataSource, **options: Any) -> None:
-    style = {"text_font": value(FONT), "text_font_size": "11px", "text_color": FAINT_INK}
-    plot.text(source=source, **{"x": "x", "y": "y", **style, **options})
-
-
 def _static_parts(plot: figure) -> ColumnDataSource:
     """Frames, names and legend: painted from the page's own numbers; returns the legend's."""
-    plot.quad(
-        left=[cell.left for cell in _FRAMES],
-        right=[cell.right for cell in _FRAMES],
-        bottom=[cell.bottom for cell in _FRAMES],
-        top=[cell.top for cell in _FRAMES],
-        fill_color="#FAFBFC",
-        line_color=GRID,
-    )
-    names = {
-        "x": [cell.left for cell in _CELLS],
-        "y": [cell.top for cell in _CELLS],
-        "text": ["k"] * len(_CELLS),
-        "below": [symbol[1:] for symbol in SYMBOLS],
-    }
-    source = ColumnDataSource(names)
-    serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": INK}
-    _text(plot, source, text="text", y_offset=-6, text_font_size="15px", **serif)
-    _text(plot, source, text="below", x_offset=9, y_offset=-3, text_font_size="11px", **serif)
-    balls = ColumnDataSource({"x": [_BALLS.left], "y": [_BALLS.top], "text": ["Loaded balls"]})
-    _text(plot, balls, text="text", y_offset=-6, text_font_size="12px", text_color=INK)
-
+    frames = ColumnDataSource(matrix_cells.sides_of(_FRAMES))
+    sides = {side: side for side in matrix_cells.SIDES}
+    plot.quad(**sides, source=frames, fill_color="#FAFBFC", line_color=style.GRID)
+    matrix_cells.write_names(plot, _FRAMES)
     y = [-2.36, -2.52, -2.68]
-    colors, widths = [DEFECTIVE, HEALTHY, INK], [2.4, 2.0, 1.2]
+    colors, widths = [style.DEFECTIVE, style.HEALTHY, style.INK], [2.4, 2.0, 1.2]
     plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
     legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": ["", "", "now"]})
-    _text(plot, legend, text="text", text_baseline="middle", text_font_size="12px", text_color=INK)
+    look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
+    write(plot, legend, "text", text_baseline="middle", **look)
     return legend
 
 
@@ -290,43 +228,33 @@ def _legend_words(results: Results) -> list[str]:
     return [own, reference if len(reference) <= 40 else reference[:39] + "…", "now"]
 
 
-def _moving_parts(plot: figure, cells: ColumnDataSource) -> None:
-    """Zero lines, limits and values of the cells, and the ends of their cage angles."""
-    plot.segment("left", "zero", "right", "zero", source=cells, line_color=STEEL_EDGE)
-    names = f"const unit = {[*UNITS, '']}[row.unit]\n"
-    limit = """
+_UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"
+_LIMIT = f"""{_UNIT}
 if (isNaN(row.low)) return ''
 const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
 return minus(String(Number((row.%s/10**e).toPrecision(4))))
 """
-    now = """
+_NOW = f"""{_UNIT}
 if (narrow) return ''  // it would lie on the symbol
 if (isNaN(row.now)) return 'no value'
 if (!unit) return rounded(row.now, 3)
 const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 """
-    words = {end: words_of(cells, names + limit % end) for end in ("low", "high")}
-    at_left = {"x": "left", "x_offset": -5, "text_align": "right"}
-    _text(plot, cells, **at_left, y="bottom", text=words["low"], text_baseline="bottom")
-    _text(plot, cells, **at_left, y="top", text=words["high"], text_baseline="top")
-    _text(
-        plot,
-        cells,
-        x="right",
-        y="top",
-        text=fitting_words(plot, cells, names + now, NARROWEST),
-        y_offset=-6,
-        text_align="right",
-    )
-    foot = "return row.foot ? rounded(%s, 4) + '°' : ''"
+_FOOT = "return row.foot ? rounded(%s, 4) + '°' : ''"
+
+
+def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
+    """Zero lines, limits and values of the cells, and the ends of their cage angles."""
+    plot.segment("left", "zero", "right", "zero", source=cells, line_color=style.STEEL_EDGE)
+    left = {"x": "left", "x_offset": -5, "text_align": "right"}
+    write(plot, cells, words_of(cells, _LIMIT % "low"), y="bottom", text_baseline="bottom", **left)
+    write(plot, cells, words_of(cells, _LIMIT % "high"), y="top", text_baseline="top", **left)
+    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
+    write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
-    _text(plot, cells, x="left", **below, text=words_of(cells, foot % "0*row.foot"))
-    _text(
-        plot,
-        cells,
-        x="right",
-        **below,
-        text=words_of(cells, foot % "row.foot"),
-        text_align="right",
-    )
+    write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
+    last = words_of(cells, _FOOT % "row.foot")
+    write(plot, cells, last, x="right", text_align="right", **below)
+    middle = {"x": 0.5 * (_BALLS.left + _BALLS.right), "text_align": "center"}
+    write(plot, axis, words_of(axis, _AXIS_WORDS), **{**below, **middle, "y": _BALLS.bottom})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -23,25 +23,26 @@ from bearing_explorer.plots.layers import (
     toggle,
     uprights,
 )
+from bearing_explorer.plots.levels import (
+    FREQUENCY,
+    HIGHEST,
+    SHOWN,
+    decibels,
+    density_axis,
+    drawn_levels,
+    seen_levels,
+)
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import why_ended
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.widgets.look import LookField, LookPanel
+from bearingcore import Scene
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.scene import WITH_MASS
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-    from bearingcore import Scene
-
-FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz")
-SHOWN = ("x", "y")
-HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
-DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
-LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 
 AXIS: LookField = {
     "kind": "one",
@@ -239,47 +240,6 @@ def loudest_words(results: Results) -> str:
         return f"{text}."
     start = style.with_prefix(results.settled_since, "s")
     return f"{text}. It is of a motion integrated in time, without its first {start}."
-
-
-def density_axis(symbol: str) -> style.AxisQuantity:
-    """Axis of a power spectral density."""
-    return style.AxisQuantity("Density", symbol, "dB re 1 (m/s²)²/Hz")
-
-
-def seen_levels(room: float, *spectra: dict[str, np.ndarray]) -> tuple[NDArray[np.float64], float]:
-    """Levels [dB] for which an axis makes room, and `room` above the loudest.
-
-    Far below the loudest line is silence, for which no axis has to make room.
-    """
-    levels = np.concatenate([spectrum[dof] for spectrum in spectra for dof in SHOWN])
-    loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))
-    return np.maximum(levels, loudest - DEPTH_OF_VIEW), loudest + room
-
-
-def decibels(density: Any) -> Any:
-    """Level of a density [(m/s²)²/Hz] in dB re 1 (m/s²)²/Hz; silence is `LEVEL_FLOOR`."""
-    return 10.0 * np.log10(np.maximum(density, 10.0 ** (LEVEL_FLOOR / 10.0)))
-
-
-def levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]]:
-    """Levels [dB] of the directions shown up to `top` [Hz]; NaN for one that is not free."""
-    frequency = next(iter(spectra.values())).frequency
-    shown = frequency <= top
-    missing = np.full(int(shown.sum()), np.nan)
-    return {
-        "frequency": frequency[shown],
-        **{
-            dof: decibels(spectra[dof].density[shown]) if dof in spectra else missing
-            for dof in SHOWN
-        },
-    }
-
-
-def drawn_levels(spectra: dict[str, Any], top: float) -> dict[str, NDArray[np.float64]]:
-    """The same; empty without spectra."""
-    if not spectra:
-        return {name: np.zeros(0) for name in ("frequency", *SHOWN)}
-    return levels(spectra, top)
 
 
 def passed(scene: Scene) -> list[tuple[str, int, float]]:

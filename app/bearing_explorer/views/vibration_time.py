@@ -2,98 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
 
 import numpy as np
-import panel as pn
-from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import element_name
-from bearing_explorer.plots.layers import (
-    ON_PAPER,
-    Layer,
-    Words,
-    add_all,
-    by_number,
-    curve,
-    sources_of,
-    uprights,
+from bearing_explorer.plots.layers import Layer, curve
+from bearing_explorer.plots.levels import SHOWN
+from bearing_explorer.results.excerpt import Event, Excerpt
+from bearing_explorer.results.results import Results
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.passage_view import (
+    BALL,
+    SLOTS,
+    PassageView,
+    ball_names,
+    named,
+    places_of_labels,
+    traces,
 )
-from bearing_explorer.plots.ranges import StickyRange
-from bearing_explorer.results.excerpt import Event, Excerpt, least_and_greatest
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, Sources, View
+from bearingcore import Bearing
 
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-    from bearingcore import Bearing
-
-TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 ACCELERATION = style.AxisQuantity("Housing acceleration", "a", "m/s²", prefixed=True)
-
-NAMED = ("ball", "row", "roller")  # columns that name a ball
-PIXELS = 500  # stretches of a line that are kept apart
-SHOWN = ("x", "y")
-SLOTS = len(style.BALL_COLORS)
-LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
-NAME_WIDTH = 0.17
-ROW_HEIGHT = 0.065  # of its height
-EVENT_ROWS = 3
 NARROW = 270  # [px] of the frame: with larger type there is room for less
 
-_BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.row}` : ''}"
 _EVENT_WORDS = f"""
 const does = row.enters ? 'enters' : 'leaves'
-return narrow ? `${{row.ball}} ${{does}}` : `{_BALL} ${{does}}`
+return narrow ? `${{row.ball}} ${{does}}` : `{BALL} ${{does}}`
 """
 
 
-EVENTS = uprights("vibration_events", "time", style.FAINT_INK, 1.0, 0.55)
-
-
-def layers_above() -> list[Layer]:
-    """Acceleration, with the names of the events."""
-    colors = dict(zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True))
-    return [
-        EVENTS,
-        *(curve("vibration_motion", "time", dof, colors[dof], 1.4) for dof in reversed(SHOWN)),
-        Words(
-            "vibration_events",
-            "label_from",
-            "label_at",
-            _EVENT_WORDS,
-            reads=(*NAMED, "enters"),
-            y_share=True,
-            fitting=NARROW,
-            look={"x_offset": 4, **ON_PAPER},
-        ),
-    ]
-
-
-def layers_below() -> list[Layer]:
-    """Loads of the balls, moving and at rest, with their names."""
-    return [
-        EVENTS,
-        curve("vibration_static_loads", "time", "load", style.INK, 1.0),
-        *(
-            curve("vibration_loads", "time", f"load{i}", color, alpha=0.9)
-            for i, color in enumerate(style.BALL_COLORS)
-        ),
-        Words(
-            "vibration_ball_names",
-            "from",
-            "at",
-            f"return `{_BALL}`",
-            reads=(*NAMED, "slot"),
-            x_share=True,
-            y_share=True,
-            look={"text_color": by_number("slot", style.BALL_COLORS)},
-        ),
-    ]
-
-
-class VibrationInTime(View):
+class VibrationInTime(PassageView):
     """Acceleration of the housing, and the loads of the balls meanwhile."""
 
     name = "vibration-time"
@@ -103,64 +43,40 @@ class VibrationInTime(View):
         "or leave the defect; thin: their static loads."
     )
     needs = frozenset({"excerpt"})
+    prefix = "vibration"
 
-    def build(self, packed: PackedSource) -> Any:
-        self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
-        self._load = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
-        time = packed.range("vibration_time", 0.0, 0.04)
-        above = style.make_figure(
-            TIME,
-            ACCELERATION,
-            time,
-            packed.range("vibration_acceleration", -5.0, 5.0),
-            height=270,
-        )
-        below = style.make_figure(
-            TIME,
-            style.BALL_LOAD,
-            time,
-            packed.range("vibration_load", 0.0, 100.0),
-            height=230,
-        )
-        over, under = layers_above(), layers_below()
-        sources = sources_of(packed, [*over, *under])
-        add_all(above, sources, over)
-        add_all(below, sources, under)
-        return pn.Column(above, below, sizing_mode="stretch_width", margin=0)
+    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
+        lines = [
+            curve("vibration_motion", "time", dof, style.color_along(dof), 1.4)
+            for dof in reversed(SHOWN)
+        ]
+        names = self.names_of_events(_EVENT_WORDS, ("enters",), NARROW)
+        return [(ACCELERATION, 270, [self.events(), *lines, names])]
+
+    def lower_figure(self) -> tuple[int, Sequence[Layer]]:
+        lines = [
+            curve("vibration_loads", "time", f"load{i}", color, alpha=0.9)
+            for i, color in enumerate(style.BALL_COLORS)
+        ]
+        static = curve("vibration_static_loads", "time", "load", style.INK, 1.0)
+        return 230, [self.events(), static, *lines, self.names_of_balls()]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        shown = results.excerpt
+        shown, bearing = results.excerpt, results.scene.bearing
         missing = np.full(shown.time.size, np.nan)
-        signals = np.stack([shown.acceleration.get(dof, missing) for dof in SHOWN], axis=1)
-        rows, signals_drawn = least_and_greatest(signals, PIXELS)
-        loads = np.full((shown.time.size, SLOTS), np.nan)
-        loads[:, : shown.balls.size] = shown.ball_load[:, :SLOTS]
-        load_rows, loads_drawn = least_and_greatest(loads, PIXELS)
+        signals = {dof: shown.acceleration.get(dof, missing) for dof in SHOWN}
+        loads = dict.fromkeys((f"load{i}" for i in range(SLOTS)), missing)
+        loads |= {f"load{i}": load for i, load in enumerate(shown.ball_load.T[:SLOTS])}
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources: Sources = {
-            "vibration_motion": {
-                "time": shown.time[rows],
-                **{dof: signals_drawn[:, i] for i, dof in enumerate(SHOWN)},
-            },
-            "vibration_loads": {
-                "time": shown.time[load_rows],
-                **{f"load{i}": loads_drawn[:, i] for i in range(SLOTS)},
-            },
+            "vibration_motion": traces(shown.time, signals),
+            "vibration_loads": traces(shown.time, loads),
             "vibration_static_loads": static_lines(shown),
-            "vibration_events": event_rows(shown.events, start, end, results.scene.bearing),
-            "vibration_ball_names": ball_names(shown, results.scene.bearing),
+            "vibration_events": event_rows(shown.events, start, end, bearing),
+            "vibration_ball_names": ball_names(shown.balls[:SLOTS], bearing),
         }
-        # room above the signal for the labels of the events
-        room = 1.0 + 2.2 * ROW_HEIGHT * EVENT_ROWS
-        greatest = np.nanmax(np.abs(signals), initial=0.0)
-        ranges = {
-            "vibration_time": (start, end),
-            "vibration_acceleration": self._acceleration.fit(greatest * room),
-            "vibration_load": self._load.fit(
-                1.2 * np.append(shown.ball_load.ravel(), shown.greatest_static_load)
-            ),
-        }
-        return sources, ranges
+        carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
+        return sources, self.ranges(shown.time, np.stack(list(signals.values())), carried)
 
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
@@ -205,51 +121,14 @@ def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
     }
 
 
-def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
-    """Columns that name balls, counted from 0 row after row; row 0 is the only one."""
-    row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
-    return {
-        "ball": number + 1.0,
-        "row": row + 1.0 if bearing.rows else np.zeros(balls.size),
-        "roller": np.full(balls.size, float(bearing.kind.line_contact)),
-    }
-
-
-def ball_names(shown: Excerpt, bearing: Bearing) -> dict[str, np.ndarray]:
-    """The names of the balls in a row, shares of the figure's width and height."""
-    balls = shown.balls[:SLOTS]
-    slots = np.arange(float(balls.size))
-    return {
-        "from": 0.02 + NAME_WIDTH * slots,
-        "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
-        **named(bearing, balls),
-        "slot": slots,
-    }
-
-
 def event_rows(
     events: tuple[Event, ...], start: float, end: float, bearing: Bearing
 ) -> dict[str, np.ndarray]:
-    """Events as columns; a label stands right of its line, in the first row where it has room.
-
-    At the end of the stretch it moves left as far as it needs. An event whose label has room in no
-    row keeps its line and loses its label.
-    """
-    width = LABEL_WIDTH * (end - start)
-    free_from = [start] * EVENT_ROWS
-    lefts = [min(event.time, end - width) for event in events]
-    places: list[float] = []
-    for left in lefts:
-        row = next((r for r in range(EVENT_ROWS) if left >= free_from[r]), None)
-        if row is None:
-            places.append(np.nan)
-            continue
-        free_from[row] = left + width
-        places.append(1.0 - ROW_HEIGHT * (row + 0.7))
+    """Events as columns, with the places of their labels."""
+    times = [event.time for event in events]
     return {
-        "time": np.array([event.time for event in events]),
+        "time": np.array(times),
         **named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
         "enters": np.array([float(event.enters) for event in events]),
-        "label_from": np.array(lefts),
-        "label_at": np.array(places),
+        **places_of_labels(times, start, end),
     }

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import math
+from typing import Any
 
 import numpy as np
 from bokeh.plotting import figure
@@ -17,19 +18,16 @@ from bearing_explorer.plots.layers import (
     sources_of,
     strips,
 )
+from bearing_explorer.plots.levels import SHOWN, density_axis, drawn_levels, seen_levels
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
-
-if TYPE_CHECKING:
-    from bearingcore import Spectrum
+from bearingcore import Spectrum
 
 FREQUENCY = style.AxisQuantity("Frequency", "f", "")
 TICKS = [m * 10.0**e for e in range(1, 6) for m in (1, 3)]  # [Hz]
-SHOWN = ("x", "y")
 LOWEST = 100.0  # [Hz]
 DEPTH_OF_VIEW = 90.0  # [dB] below the loudest line
-LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 HEIGHT = 286  # [px]: the label of the axis is whole in large type too
 
 _BAND_WORDS = (
@@ -62,7 +60,7 @@ class WideSpectra:
         for dof in SHOWN:
             plot = style.make_figure(
                 FREQUENCY,
-                style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
+                density_axis(f"S{dof}"),
                 frequency,
                 level,
                 height=HEIGHT,
@@ -112,8 +110,10 @@ class WideSpectra:
         top = 0.5 * sample_rate
         sources = self.nothing()
         name = self._name
-        sources[f"{name}_lines"] = wide_levels(spectra, top)
-        sources[f"{name}_others"] = wide_levels(others, top)
+        # the last line is that of half the sample rate, of which a spectrum has half
+        last = math.nextafter(top, 0.0)
+        drawn = [drawn_levels(one, last, LOWEST) for one in (spectra, others)]
+        sources[f"{name}_lines"], sources[f"{name}_others"] = drawn
         low, high = resonances
         if high > 0.0:
             above = low >= top
@@ -123,10 +123,7 @@ class WideSpectra:
                 "above": np.array([float(above)]),
                 "label_at": np.array([0.97 * min(low, top)]),
             }
-        drawn = [sources[f"{name}_{which}"] for which in ("lines", "others")]
-        levels = np.concatenate([lines[dof] for lines in drawn for dof in SHOWN])
-        loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))
-        fitted = self._levels.fit(np.maximum(levels, loudest - DEPTH_OF_VIEW), loudest + 6.0)
+        fitted = self._levels.fit(*seen_levels(6.0, *drawn, depth=DEPTH_OF_VIEW))
         return sources, {f"{name}_frequency": (LOWEST, top), f"{name}_level": fitted}
 
 
@@ -135,22 +132,3 @@ def in_hertz(plot: figure) -> None:
     plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
     style.fixed_ticks(plot.xaxis[0], TICKS)
     plot.xgrid[0].ticker = plot.xaxis[0].ticker
-
-
-def wide_levels(spectra: dict[str, Spectrum], top: float) -> dict[str, np.ndarray]:
-    """Levels [dB] of the directions from LOWEST to `top` [Hz]; NaN for one that is not free."""
-    if not spectra:
-        return {name: np.zeros(0) for name in ("frequency", *SHOWN)}
-    frequency = next(iter(spectra.values())).frequency
-    # the last line is that of half the sample rate, of which a spectrum has half
-    kept = (frequency >= LOWEST) & (frequency < top)
-    missing = np.full(int(kept.sum()), np.nan)
-    return {
-        "frequency": frequency[kept],
-        **{
-            dof: 10.0 * np.log10(np.maximum(spectra[dof].density[kept], 1e-20))
-            if dof in spectra
-            else missing
-            for dof in SHOWN
-        },
-    }

@@ -6,63 +6,46 @@ import math
 import re
 from pathlib import Path
 
-import holoviews as hv
 import numpy as np
 import pytest
-from bearing_explorer.plots.plane import NO_ANSWER, Field, Section, color_scale, plane
-from bearing_explorer.plots.style import AxisQuantity
-from bokeh.models import LayoutDOM
-from holoviews.plotting.util import get_nested_streams
+from bearing_explorer import figures
+from bearing_explorer.plots.heat_map import Side
+from bearing_explorer.plots.plane import Field, PlaneFigures, color_limits
+from bearing_explorer.serve.packed_source import PackedSource
 
-
-def drawn(figure: object) -> LayoutDOM:
-    """The Bokeh model that HoloViews makes of it."""
-    return hv.render(figure, backend="bokeh")
-
-
+X, Y = Side("extent_deg", "Extent", "Δφf", "°"), Side("fy_n", "Force, up", "Fy", "N")
 FIELD = Field(
-    ("extent_deg", AxisQuantity("Extent", "Δφf", "°"), np.array([10.0, 20.0, 30.0])),
-    ("fy_n", AxisQuantity("Force, up", "Fy", "N"), np.array([-200.0, -100.0])),
-    ("k_yy_mean", AxisQuantity("kyy, mean", "", "N/m", prefixed=True)),
+    (X, np.array([10.0, 20.0, 30.0])),
+    (Y, np.array([-200.0, -100.0])),
+    "kyy, mean",
+    "N/m",
     np.array([[1e6, 2e6, 3e6], [4e6, math.nan, 6e6]]),
     np.array([["", "", ""], ["", "nothing touches", ""]], dtype=object),
-    (12.0, -110.0),
 )
 
 
-def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_the_gaps() -> None:
-    news = hv.streams.Pipe(data=FIELD)
-    figure = plane(FIELD, news=news)
-    made = drawn(figure)
-    assert isinstance(made, LayoutDOM)
-    overlay, up, across, histogram = (part[()] for part in figure)
-    image, gaps, veil = overlay
-    assert image[30.0, -200.0] == 3e6
-    assert image.bounds.lbrt() == (5.0, -250.0, 35.0, -50.0)
-    assert gaps.data.values.tolist() == [[15.0, -150.0, 25.0, -50.0, "nothing touches"]]
-    assert NO_ANSWER in str(hv.Store.lookup_options("bokeh", gaps, "style").kwargs)
-    assert veil.dimension_values("not_selected").tolist() == [0.0] * 6
-    # through the place that is nearest to `at`
-    assert across["k_yy_mean"].tolist()[0::2] == [4e6, 6e6]
-    assert up["k_yy_mean"].tolist() == [1e6, 4e6]
-    assert histogram["points"].sum() == 5
-    assert [d.unit for d in image.dimensions()] == ["°", "N", "N/m"]
-    assert any(isinstance(link, Section) for links in Section.registry.values() for link in links)
+def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_reasons() -> None:
+    plane = PlaneFigures(packed := PackedSource(), "plane", [X, Y])
+    sources, ranges = plane.data(FIELD, (12.0, -110.0))
+    assert packed.pack(sources, ranges).size > 6
+    cells = sources["plane_cells"]["packed"][9:].reshape(2, 2, 3)
+    np.testing.assert_array_equal(cells[0], FIELD.values / 1e6)
+    assert cells[1, 1, 1] not in cells[1, 0]
+    assert sources["plane_counts"]["top"].sum() == 5
+    assert ranges["plane_x"] == (5.0, 35.0)
+    assert ranges["plane_y"] == (-250.0, -50.0)
+    assert ranges["plane_colors"] == (1.0, 6.0)
+    plane.write(FIELD)
+    labels = [(p.xaxis[0].axis_label, p.yaxis[0].axis_label) for p in plane.plots[1:]]
+    assert labels == [
+        ("Force, up Fy (N)", "(MN/m)"),
+        ("Extent Δφf (°)", "(MN/m)"),
+        ("kyy, mean (MN/m)", "Points"),
+    ]
+    assert packed.pack(plane.nothing(), {}).size > 6
 
 
-def test_a_selection_of_values_leaves_those_bright() -> None:
-    figure = plane(FIELD)
-    overlay = figure.values()[0]
-    streams = get_nested_streams(overlay)
-    selection = next(s for s in streams if isinstance(s, hv.streams.BoundsX))
-    selection.event(boundsx=(1.5e6, 4.5e6))
-    veil = overlay[()].get(2)
-    covered = veil.dimension_values("not_selected", flat=False)
-    # the lower row first; what has no answer is not selected either
-    assert covered.tolist() == [[1.0, 0.0, 0.0], [0.0, 1.0, 1.0]]
-
-
-def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:
+def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page(tmp_path: Path) -> None:
     xarray = pytest.importorskip("xarray")
     swept = xarray.DataArray(
         np.arange(6.0).reshape(2, 3),
@@ -75,28 +58,22 @@ def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:
         name="acceleration_rms_y",
     )
     field = Field.of_sweep(swept)
-    assert field.x[0] == "extent_deg"
-    assert field.x[2] == pytest.approx([10.0, 20.0, 30.0])
-    assert field.y[1].unit == "N"
-    drawn(plane(swept))
+    assert field.x[0].label == "Extent (°)"
+    assert field.x[1] == pytest.approx([10.0, 20.0, 30.0])
+    assert field.y[0].unit == "N"
+    figures.of_sweep(swept).save(tmp_path / "figure.html")
+    text = (tmp_path / "figure.html").read_text(encoding="utf-8")
+    assert "Acceleration rms y" in text
+    # it needs nothing from outside, nor style sheets
+    assert re.findall(r"https?://[^\s\"\\\\]+\.css", text) == []
+    assert re.findall(r"<script[^>]+src=|<link[^>]+stylesheet", text) == []
     with pytest.raises(ValueError, match="two"):
-        plane(swept.isel(fy=0))
+        figures.of_sweep(swept.isel(fy=0))
 
 
 def test_colours_are_light_at_zero_where_numbers_have_both_signs() -> None:
-    palette, limits = color_scale(np.array([-1.0, np.nan, 3.0]))
-    assert limits == (-3.0, 3.0)
-    assert sum(int(palette[128][i : i + 2], 16) for i in (1, 3, 5)) > 700
-    assert color_scale(np.array([2.0, 5.0]))[1] == (2.0, 5.0)
-    low, high = color_scale(np.zeros(4))[1]
+    assert color_limits(np.array([-1.0, np.nan, 3.0])) == (-3.0, 3.0)
+    assert color_limits(np.array([2.0, 5.0])) == (2.0, 5.0)
+    low, high = color_limits(np.zeros(4))
     assert low < 0.0 < high
-    assert color_scale(np.full(3, np.nan))[1] == (0.0, 1.0)
-
-
-def test_a_saved_map_needs_nothing_from_outside(tmp_path: Path) -> None:
-    """Nor style sheets: each that it names by an address would be asked for."""
-    file = tmp_path / "figure.html"
-    hv.save(plane(FIELD), str(file), resources="inline")
-    text = file.read_text(encoding="utf-8")
-    assert re.findall(r"https?://[^\s\"\\\\]+\.css", text) == []
-    assert re.findall(r"<script[^>]+src=|<link[^>]+stylesheet", text) == []
+    assert color_limits(np.full(3, np.nan)) == (0.0, 1.0)

@@ -67,7 +67,6 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
     assert (failed["error"] < high).all()
     assert np.isfinite(failed["seconds"]).all()
     assert set(sources) == set(view.data(Results(RIG.healthy()))[0])
-    assert view._sources[0].name != view._sources[1].name
 
 
 def test_words_and_numbers_name_the_reference_and_what_failed() -> None:

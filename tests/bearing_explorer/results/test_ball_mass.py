@@ -72,8 +72,8 @@ def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: st
     """Counted, not timed: contacts that are stepped; a general one costs four flat ones."""
     scene = presets[name].replace(balls="with mass")
     moving = Results(scene, moving=True)
-    how = moving._ball_marching
-    if how.coarse:
+    how = moving.settings.coarse_marching
+    if moving.is_coarse(frozenset({"ball_mass"})):
         duration = quick_duration(scene, how)
         found = moving.ball_mass
         assert found.samples == round(duration * how.sample_rate)

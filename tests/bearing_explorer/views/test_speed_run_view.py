@@ -18,12 +18,12 @@ from bearing_explorer.views.modes import bands_along
 from bearing_explorer.views.speed_run import (
     COUNTS,
     SPEED,
-    Found,
     SpeedRunSpectra,
     compute,
     harmonics,
     levels_of,
 )
+from bearing_explorer.views.swept_view import Swept
 
 from bearingcore import presets
 from bearingcore.dynamics.speed_run import speed_run
@@ -33,11 +33,11 @@ SPEEDS = Sweep(SWEEPABLE[SPEED], np.array([20.0, 30.0, 40.0]))
 
 
 @pytest.fixture(scope="module")
-def found() -> Found:
-    return Found(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), SPEEDS)
+def found() -> Swept:
+    return Swept(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), (SPEEDS,))
 
 
-def test_rows_are_speeds_and_columns_frequencies(found: Found) -> None:
+def test_rows_are_speeds_and_columns_frequencies(found: Swept) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.found = found
     sources, ranges = view.data(Results(RIG))
@@ -45,17 +45,17 @@ def test_rows_are_speeds_and_columns_frequencies(found: Found) -> None:
     n, m = int(packed[1]), int(packed[0])
     assert n == 3
     drawn = packed[9:].reshape(n, m)
-    np.testing.assert_allclose(drawn, levels_of(found.run, "y")[:, :m])
+    np.testing.assert_allclose(drawn, levels_of(found.result, "y")[:, :m])
     assert packed[2:6].tolist() == pytest.approx([-8.0, 16.0 * m, 15.0, 30.0])
     assert ranges["speed_run_speed"] == (15.0, 45.0)
     low, high = ranges["speed_run_level_y"]
-    loudest = np.nanmax(drawn[:, found.run.frequency[:m] >= 100.0])
+    loudest = np.nanmax(drawn[:, found.result.frequency[:m] >= 100.0])
     assert low < loudest <= high
     assert sources["speed_run_now"]["speed"] == pytest.approx([7.0])
 
 
-def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Found) -> None:
-    lines = harmonics(found.run, SPEEDS, 2500.0)["speed_run_harmonics"]
+def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Swept) -> None:
+    lines = harmonics(found.result, SPEEDS, 2500.0)["speed_run_harmonics"]
     ends = np.column_stack([lines["frequency"], lines["speed"]]).reshape(-1, 3, 2)
     for k, (start, end, gap) in enumerate(ends, start=1):
         for frequency, speed in (start, end):
@@ -65,17 +65,17 @@ def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Found) -> Non
         assert np.isnan(gap).all()
 
 
-def test_bands_are_those_of_the_modes(found: Found) -> None:
+def test_bands_are_those_of_the_modes(found: Swept) -> None:
     for dof in ("x", "y"):
-        columns = bands_along(found.run.bands, dof, 2500.0)
-        bands = [band for label, band in found.run.bands.items() if label[0] == dof]
+        columns = bands_along(found.result.bands, dof, 2500.0)
+        bands = [band for label, band in found.result.bands.items() if label[0] == dof]
         assert sorted(zip(columns["low"], columns["high"], strict=True)) == sorted(bands)
 
 
-def test_marched_speeds_are_marked_and_told(found: Found) -> None:
+def test_marched_speeds_are_marked_and_told(found: Swept) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.found = found
-    assert found.run.from_orbit.tolist() == [True, False, True]
+    assert found.result.from_orbit.tolist() == [True, False, True]
     results = Results(RIG)
     assert view.data(results)[0]["speed_run_marched"]["speed"].tolist() == [30.0]
     assert "At 1 of 3 speeds" in view.sentence(results)
@@ -96,10 +96,10 @@ def test_without_a_run_there_is_nothing_and_it_is_said() -> None:
 def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
     job = Work()
     job.started = time.monotonic()
-    shown: list[Found] = []
+    shown: list[Swept] = []
     job.show = shown.append  # type: ignore[method-assign]
     words = compute(job, RIG, sweep(SPEED, "30", "60", 49, limits_of(RIG)))
-    assert [one.speeds.values.size for one in shown] == [25, 49]
+    assert [one.sweeps[0].values.size for one in shown] == [25, 49]
     assert words.startswith("49 speeds after")
     view, editor = SpeedRunSpectra(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=f"at most {COUNTS[-1]}"):

@@ -17,13 +17,13 @@ from bearing_explorer.state.value_range import SWEEPABLE, sweep
 from bearing_explorer.views.stability_map import (
     GRIDS,
     KINDS,
-    Found,
     OrbitStability,
     border,
     codes_of,
     compute,
     legend,
 )
+from bearing_explorer.views.swept_view import Swept
 
 from bearingcore import orbit, presets
 from bearingcore.dynamics.stability_map import OUTCOMES
@@ -42,9 +42,9 @@ FORM = {
 
 def test_each_point_has_the_kind_of_its_orbit() -> None:
     found = found_map()
-    codes = codes_of(found.map)
-    for j, extent in enumerate(found.y.values):
-        for i, speed in enumerate(found.x.values):
+    codes = codes_of(found.result)
+    for j, extent in enumerate(found.sweeps[1].values):
+        for i, speed in enumerate(found.sweeps[0].values):
             single = orbit(
                 RIG.replace(shaft_speed=2.0 * math.pi * speed, extent=math.radians(extent))
             )
@@ -84,8 +84,8 @@ def test_the_picture_carries_values_and_place() -> None:
     sources, ranges = view.data(Results(RIG))
     sent = sources["stability_cells"]["packed"]
     assert sent[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
-    np.testing.assert_array_equal(sent[9 : 9 + 6].reshape(2, 3), found.map.multiplier)
-    np.testing.assert_array_equal(sent[15:].reshape(2, 3), codes_of(found.map))
+    np.testing.assert_array_equal(sent[9 : 9 + 6].reshape(2, 3), found.result.multiplier)
+    np.testing.assert_array_equal(sent[15:].reshape(2, 3), codes_of(found.result))
     assert sent[6] == 1.0
     assert sources["stability_mark"]["x"] == pytest.approx([7.0])
     assert sources["stability_mark"]["y"] == pytest.approx([12.9])
@@ -109,25 +109,25 @@ def test_a_map_of_another_scene_is_faint_and_says_so() -> None:
 def test_coarse_pictures_come_before_fine_ones() -> None:
     job = Work()
     job.started = time.monotonic()
-    shown: list[Found] = []
+    shown: list[Swept] = []
     job.show = shown.append  # type: ignore[method-assign]
     limits = limits_of(RIG)
     x = sweep("shaft_speed_hz", "20", "40", 25, limits)
     y = sweep("extent_deg", "5", "15", 25, limits)
     words = compute(job, RIG, x, y, 25)
-    assert [found.map.outcome.shape for found in shown] == [(13, 13), (25, 25)]
+    assert [found.result.outcome.shape for found in shown] == [(13, 13), (25, 25)]
     assert words.startswith("25 × 25 points after")
     assert job.part == 1.0
-    coarse, fine = (codes_of(found.map) for found in shown)
+    coarse, fine = (codes_of(found.result) for found in shown)
     assert np.mean(coarse == fine[::2, ::2]) > 0.9  # begun from other neighbours
 
 
 def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
     job = Work()
     job.started = time.monotonic()
-    shown: list[Found] = []
+    shown: list[Swept] = []
 
-    def show(found: Found) -> None:
+    def show(found: Swept) -> None:
         shown.append(found)
         job.stop()
 
@@ -138,7 +138,7 @@ def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
     words = compute(job, RIG, x, y, 97)
     assert words.startswith("13 × 13")
     assert len(shown) == 1
-    assert shown[0].map.completed
+    assert shown[0].result.completed
 
 
 @pytest.mark.parametrize(

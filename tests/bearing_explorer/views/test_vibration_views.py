@@ -5,22 +5,14 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.plots.levels import decibels
 from bearing_explorer.results.excerpt import Event
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.frequency_lines import FrequencyLines, of_rows
-from bearing_explorer.views.vibration_spectrum import (
-    VibrationSpectra,
-    decibels,
-    pass_frequencies,
-    passed,
-)
-from bearing_explorer.views.vibration_time import (
-    EVENT_ROWS,
-    LABEL_WIDTH,
-    VibrationInTime,
-    event_rows,
-)
+from bearing_explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH
+from bearing_explorer.views.vibration_spectrum import VibrationSpectra, pass_frequencies, passed
+from bearing_explorer.views.vibration_time import VibrationInTime, event_rows
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -9,20 +9,19 @@ from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips
+from bearing_explorer.plots.levels import (
+    FREQUENCY,
+    HIGHEST,
+    SHOWN,
+    density_axis,
+    drawn_levels,
+    seen_levels,
+)
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_NAME, BAND_SPAN, band_rows, highest
-from bearing_explorer.views.vibration_spectrum import (
-    FREQUENCY,
-    HIGHEST,
-    SHOWN,
-    VibrationSpectra,
-    density_axis,
-    drawn_levels,
-    loudest_words,
-    seen_levels,
-)
+from bearing_explorer.views.vibration_spectrum import VibrationSpectra, loudest_words
 from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:

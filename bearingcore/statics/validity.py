@@ -280,13 +280,15 @@ def _shoulder_of(
     worst = int(np.argmax(reach))
     value = float(reach[worst])
     at = math.degrees(angles[worst])
-    made_of = f"a contact angle of {at:.1f}°"
+    load = with_prefix(float(loads[carries][worst]), "N")
+    made_of = f"with a contact angle of {at:.1f}°"
     if known:
         made_of += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
     else:
         made_of += " (half the contact ellipse comes on top, not known without groove radii)"
     fact = (
-        f"The contact reaches {math.degrees(value):.1f}° from the bottom of the groove, "
+        f"A {bearing.kind.element} that carries {load} touches up to {math.degrees(value):.1f}° "
+        "from the bottom of the groove, "
         f"{made_of}; a shoulder {number(height, 2)} ball diameters high is at "
         f"{math.degrees(limit):.1f}°"
     )

@@ -20,10 +20,16 @@ from bearingcore import (
     life,
 )
 from bearingcore import limits as limits_of
+from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.drawing import GROOVES
+from bearingcore.bearings.line_contact import STEEL_MODULUS, STEEL_POISSON
 from bearingcore.errors import FieldError
 from bearingcore.statics.validity import looked_at
 
+ASSUMED_GROOVES = (
+    f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
+    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. The Bearing tab takes yours."
+)
 ASSUMED_VISCOSITY = 0.02
 """[Pa·s] assumed where no viscosity is given: a usual oil, warm."""
 
@@ -53,6 +59,10 @@ class Endurance:
 
     life, pressures, film
         the core's answers.
+    healthy
+        the life without the defects.
+    assumed
+        what these answers assume of a bearing whose groove radii are not known; empty otherwise.
     rating [N], rating_words
         the dynamic load rating that was used, and where it comes from.
     no_life, no_pressures, no_film
@@ -60,6 +70,7 @@ class Endurance:
     """
 
     life: Life | None
+    healthy: Life | None
     no_life: str
     rating: float | None
     rating_words: str
@@ -67,11 +78,15 @@ class Endurance:
     no_pressures: str
     film: Film | None
     no_film: str
+    assumed: str
 
 
 @cached
 def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
+    with_grooves = with_usual_grooves(scene)
+    assumed = "" if with_grooves is None else ASSUMED_GROOVES
+    scene = with_grooves or scene
     rating, rating_words = inputs.dynamic_load_rating, "given"
     no_life = ""
     if rating is None:
@@ -84,10 +99,11 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
                 "The standard's rating of this kind of bearing is not computed here: enter that of "
                 "the catalogue."
             )
-    lasting = None
+    lasting = healthy = None
     if rating is not None:
         try:
             lasting = life(scene, rating, positions="all")
+            healthy = life(scene.healthy(), rating, positions="all")
         except ValueError as error:
             no_life = _why(error)
     state = equilibrium(scene, looked_at(scene))
@@ -101,7 +117,33 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
         oil = film_of(scene, inputs, state)
     except ValueError as error:
         no_film = _why(error)
-    return Endurance(lasting, no_life, rating, rating_words, pressures, no_pressures, oil, no_film)
+    return Endurance(
+        *(lasting, healthy, no_life, rating, rating_words),
+        *(pressures, no_pressures, oil, no_film, assumed),
+    )
+
+
+def with_usual_grooves(scene: Scene) -> Scene | None:
+    """The scene with usual groove radii, where its own are not known and its loads stay the same.
+
+    That is so for a row of balls without contact angle under a radial load: the distance of the
+    groove centres has no effect there. None otherwise.
+    """
+    bearing, load = scene.bearing, scene.load
+    if bearing.knows_contacts or bearing.rows or bearing.kind.line_contact:
+        return None
+    if bearing.contact_angle != 0.0 or (load.fz, load.mx, load.my) != (0.0, 0.0, 0.0):
+        return None
+    ball = bearing.ball_diameter
+    return scene.replace(
+        bearing=bearing.replace(
+            inner_groove_radius=USUAL_GROOVES["inner"] * ball,
+            outer_groove_radius=USUAL_GROOVES["outer"] * ball,
+            groove_center_distance=(sum(USUAL_GROOVES.values()) - 1.0) * ball,
+            youngs_modulus=STEEL_MODULUS,
+            poisson=STEEL_POISSON,
+        )
+    )
 
 
 def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium) -> Film:

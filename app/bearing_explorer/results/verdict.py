@@ -20,9 +20,9 @@ BALLS = frozenset({"ball_mass"})
 """Attributes that compare motions without and with the mass of balls."""
 
 LOST = {
-    "-1": "Unstable: the period doubles",
-    "pair": "Unstable: a second frequency is added",
-    "+1": "Unstable: the motion goes to another orbit",
+    "-1": "Unstable: period doubling (flip)",
+    "pair": "Unstable: second frequency (Neimark–Sacker)",
+    "+1": "Unstable: jump to another orbit (fold)",
 }
 """Losses of stability, by the place where the largest multiplier leaves the unit circle."""
 

@@ -64,8 +64,8 @@ def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
     spacings = (now - before) * field.factor / scene.bearing.ball_spacing
     count = round(abs(spacings))
     if count and abs(abs(spacings) - count) < WHOLE:
-        many = "A ball spacing" if count == 1 else f"{count} ball spacings"
-        return f"{many} {'longer' if spacings > 0 else 'shorter'} {numbers}"
+        many = "one ball spacing" if count == 1 else f"{count} ball spacings"
+        return f"Defect {'longer' if spacings > 0 else 'shorter'} by {many} {numbers}"
     return f"{field.label} {numbers}"
 
 

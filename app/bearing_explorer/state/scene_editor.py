@@ -235,10 +235,7 @@ class SceneEditor:
             return preset_notes.get(self.preset, "")
         if self.origin is not None and not self._begun_from:
             return self.origin.words
-        return (
-            f"Begun from “{self._begun_from or self.preset}”; its numbers have been changed since, "
-            "so that the sources of that bearing do not stand for this one."
-        )
+        return f"Edited from “{self._begun_from or self.preset}”; its sources no longer apply."
 
     @property
     def _begun_from(self) -> str:

@@ -86,7 +86,7 @@ _ERROR = "accuracy_error"
 _COLUMNS = (*COSTS, "error", "method")
 _KNOWN = f"const names = {json.dumps(NAMES, ensure_ascii=False)}\n"
 _FAILED_WORDS = f"""{_KNOWN}
-const why = row.named == 1 ? ' failed' : ' is off the scale'
+const why = row.named == 1 ? ' failed' : ': error beyond this axis'
 return row.named ? names[row.method] + why : ''
 """
 _TOOLTIPS = [
@@ -216,7 +216,7 @@ class Accuracy(JobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "What each method costs and how wrong it is. Low is exact, left is cheap. Each is "
+        "Run time against error for each method. Low is exact, left is cheap. Each is "
         "compared with a reference on this scene that two families of methods agree on. Crosses "
         "on the upper edge failed. Click a point of “RK4” to march the scene's motion with its "
         "steps."
@@ -470,9 +470,10 @@ def _agreement(result: Experiment | StabilityChart) -> str:
     )
     worst = max(references, key=lambda r: (not r.trusted, r.agreement[name]))
     unit = _unit(result, name)
-    verdict = "agree" if worst.trusted else "do not agree, so small errors mean little"
-    words = f"Reference: {worst.families[0]} and {worst.families[1]} {verdict}"
-    words += f"; their {_said(name)} is apart by {scientific(worst.agreement[name])}{unit}."
+    apart = f"{scientific(worst.agreement[name])}{unit} in {_said(name)}"
+    families = ", ".join(worst.families)
+    words = f"Two independent references ({families}) differ by {apart}"
+    words += "." if worst.trusted else ", so smaller errors mean little."
     return f"{words} {worst.note}." if worst.note else words
 
 
@@ -492,11 +493,11 @@ def _work_words(result: Experiment) -> str:
     if frontier := result.frontier():
         first, last = frontier[0], frontier[-1]
         unit = _unit(result, _drawn(result))
-        words += ", ".join(
+        words += ". ".join(
             f"{kind}: {p.method} with {p.setting} "
             f"({style.with_prefix(p.seconds, 's')}, error {_short(drawn_error(result, p))}"
             f"{unit})"
-            for kind, p in (("Cheapest", first), ("most exact of the best", last))
+            for kind, p in (("Fastest", first), ("Most accurate", last))
         )
         words += ". "
     failed = {p.method: p.status for p in result.points if p.failed}

@@ -16,7 +16,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.widgets.form import Fields, entry, row
-from bearingcore.common.numbers import thousands
+from bearingcore.common.numbers import percent, thousands
 from bearingcore.statics.film import TOUCHING
 from bearingcore.statics.life import LEFT_OUT
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bearing_explorer.results.results import Results
+    from bearingcore import Life
 
 
 @dataclasses.dataclass(frozen=True)
@@ -141,7 +142,10 @@ class LifeOfBearing(View):
         found = results.endurance
         if len(groups_of(results)) == 1:
             return "Enter the groove radii (Bearing tab) to compute life, pressure and film."
-        return found.no_life if found.life is None else found.life.sentence
+        if found.healthy is None:
+            return found.no_life
+        words = f"Without the defect: {found.healthy.sentence}" if results.scene.defects else ""
+        return f"{words or found.healthy.sentence} {found.assumed}".strip()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -197,10 +201,10 @@ def groups_of(results: Results) -> list[FactGroup]:
 
 
 def _life(results: Results, found: Endurance) -> FactGroup:
-    title = "Life"
-    if found.life is None or found.rating is None:
+    title = "Life of the healthy bearing" if results.scene.defects else "Life"
+    if found.life is None or found.healthy is None or found.rating is None:
         return FactGroup(title, found.no_life, [])
-    lasts, known = found.life, found.life.known
+    lasts, known = found.healthy, found.healthy.known
     facts = [
         Fact(
             "Dynamic load rating C<sub>r</sub>",
@@ -235,15 +239,20 @@ def _life(results: Results, found: Endurance) -> FactGroup:
                 "Of each row under what it carries: the bearing fails with the first.",
             )
         )
-    if results.scene.defects and known:
-        facts.append(
-            Fact(
-                "without the defect",
-                _million(lasts.healthy_million_revolutions),
-                "Of the healthy bearing under the same load.",
-            )
-        )
-    return FactGroup(title, LEFT_OUT if results.scene.defects else "", facts)
+    words = _damaged_words(found.life) if results.scene.defects else ""
+    return FactGroup(title, f"{words} {found.assumed}".strip(), facts)
+
+
+def _damaged_words(damaged: Life) -> str:
+    """The effect of the loads that a defect changes, and why it is no life of a damaged bearing."""
+    if not damaged.known:
+        return damaged.sentence
+    share = damaged.share_of_healthy
+    why = ", as the defect takes load off the balls that carry most" if share > 1.0 else ""
+    return (
+        f"With the loads as the defect changes them the same formula gives {percent(share)} of "
+        f"that{why}. {LEFT_OUT}"
+    )
 
 
 def _million(value: float) -> str:

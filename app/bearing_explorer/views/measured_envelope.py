@@ -21,10 +21,10 @@ class MeasuredEnvelope(FrequencyView):
 
     name = "measured-envelope"
     prefix = "measured_envelope"
-    title = "Beside the model: the envelope"
+    title = "Envelope spectrum, measured and simulated"
     about = (
-        "How often the ringing swells. Knocks make something ring, and the ringing swells with "
-        "each of them: lines at BPFO speak for the outer race, at BPFI for the inner race, at "
+        "How often impacts repeat. Each makes something ring, and the envelope of that rises: "
+        "lines at BPFO speak for the outer race, at BPFI for the inner race, at "
         "twice BSF for a ball. Unless you give a band, it is the octave in which knocks stand "
         "out most."
     )

@@ -36,7 +36,7 @@ class MeasuredSpectrum(FrequencyView):
 
     name = "measured-spectrum"
     prefix = "measured_spectrum"
-    title = "Beside the model: the spectrum"
+    title = "Spectrum, measured and simulated"
     about = (
         "Measured (thin), and what the scene gives (coloured). Shaded: the bands of the scene's "
         "natural frequencies. Where measured resonances lie in the bands, the scene is like the "

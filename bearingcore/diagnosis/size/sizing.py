@@ -584,8 +584,8 @@ def _no_size(found: Diagnosis) -> str:
     words = found.status
     if found.fault == INNER:
         words += (
-            " Its size is not looked for: a defect of the inner race turns through the load zone, "
-            "and no ball pass is like the next."
+            " The defect of an inner race turns with the shaft, so its size cannot be estimated "
+            "this way."
         )
     return words
 

@@ -196,7 +196,7 @@ def test_a_bearing_has_the_name_that_was_typed() -> None:
     assert editor.name == "6205, deep groove bearing"
     editor.set({"n_balls": 8})
     assert editor.name == "6205, deep groove bearing, changed"
-    assert "do not stand for this one" in editor.note
+    assert "its sources no longer apply" in editor.note
     kept = editor.snapshot()
     editor.choose({"name": "  Pump \n 3, drive end "})
     assert editor.state()["bearing"]["own"] == "Pump 3, drive end"

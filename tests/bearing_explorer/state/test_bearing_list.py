@@ -42,10 +42,10 @@ def test_a_bearing_of_a_list_that_was_changed_says_so() -> None:
     kept = editor.snapshot()
     editor.set({"n_balls": 8})
     assert editor.name == "209, Harris, changed"
-    assert editor.note.startswith("Begun from “209, Harris”; its numbers have been changed since")
+    assert editor.note.startswith("Edited from “209, Harris”")
     editor.choose({"name": "My own"})
     assert editor.name == "My own"
-    assert "Harris" not in editor.note.split("Begun from “209, Harris”")[1]
+    assert "Harris" not in editor.note.split("Edited from “209, Harris”")[1]
     editor.restore(kept)
     assert editor.name == "209, Harris"
     assert "Harris, Rolling Bearing Analysis" in editor.note

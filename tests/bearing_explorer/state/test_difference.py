@@ -15,9 +15,9 @@ TWO = SCENE.replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
     ("now", "before", "words"),
     [
         (SCENE.replace(extent=SCENE.defect.extent + SPACING), SCENE,
-         "A ball spacing longer (12.9 → 38.61°)"),
+         "Defect longer by one ball spacing (12.9 → 38.61°)"),
         (SCENE, SCENE.replace(extent=SCENE.defect.extent + 2 * SPACING),
-         "2 ball spacings shorter (64.33 → 12.9°)"),
+         "Defect shorter by 2 ball spacings (64.33 → 12.9°)"),
         (SCENE.replace(extent=0.4), SCENE, "Extent (12.9 → 22.92°)"),
         (SCENE.replace(fy=-120.0), SCENE, "Force, up (−100 → −120 N)"),
         (SCENE.replace(fy=-100.01), SCENE, "Force, up (−100 → −100.01 N)"),

@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import math
 
+import numpy as np
 import pytest
-from bearing_explorer.results.endurance import LifeInputs, endurance
+from bearing_explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import facts_of
@@ -36,17 +37,40 @@ def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, st
 def test_the_numbers_are_those_of_the_core() -> None:
     scene = presets["6205"]
     said = facts("6205")
-    lasts = life(scene, dynamic_load_rating(scene.bearing), positions="all")
-    rating = said["Life"]["Dynamic load rating C<sub>r</sub>"]
-    assert "computed from the dimensions by ISO 281" in rating
-    turns = number(said["Life"]["Life L<sub>10</sub>"])
+    lasts = life(scene.healthy(), dynamic_load_rating(scene.bearing), positions="all")
+    healthy = said["Life of the healthy bearing"]
+    assert "computed from the dimensions by ISO 281" in healthy["Dynamic load rating C<sub>r</sub>"]
+    turns = number(healthy["Life L<sub>10</sub>"])
     assert turns == pytest.approx(lasts.million_revolutions, rel=5e-3)
-    hours = number(said["Life"]["at the speed of the scene"])
+    hours = number(healthy["at the speed of the scene"])
     assert hours == pytest.approx(1e6 * lasts.million_revolutions / (1797.0 * 60.0), rel=5e-3)
     inner = float(said["Greatest contact pressure"]["Inner race"].split()[0])
     expected = contact_pressures(scene).inner.greatest_pressure
     assert inner == pytest.approx(expected / 1e9, rel=1e-2)
-    assert "not a promise" in said["Life"]["words"], "what the standard leaves out is said"
+    assert "upper limit" in healthy["words"], "what the standard leaves out is said"
+    damaged = life(scene, dynamic_load_rating(scene.bearing), positions="all")
+    assert f"{100.0 * damaged.share_of_healthy:.0f} % of that" in healthy["words"]
+
+
+def test_a_life_that_seems_longer_with_a_defect_says_why() -> None:
+    scene = presets["6205"].replace(extent=math.radians(3.0))
+    longer = life(scene, dynamic_load_rating(scene.bearing), positions="all").share_of_healthy
+    words = groups_of(Results(scene))[0].words
+    assert ("takes load off" in words) == (longer > 1.0)
+
+
+def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
+    scene = presets["fan-rig"]
+    assert not scene.bearing.knows_contacts
+    found = endurance(scene, LifeInputs())
+    assert found.healthy is not None
+    assert found.pressures is not None
+    assert "Assumed" in facts("fan-rig")["Life of the healthy bearing"]["words"]
+    usual = with_usual_grooves(scene)
+    assert usual is not None
+    loads = [equilibrium(one, looked_at(scene)).ball_load for one in (scene, usual)]
+    np.testing.assert_allclose(loads[1], loads[0], atol=1e-9)
+    assert with_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
 
 
 def number(text: str) -> float:
@@ -59,12 +83,14 @@ def test_lives_are_told_to_three_digits_and_what_is_not_known_once() -> None:
     told = next(row.value for row in rows if row.name.startswith("Life"))
     assert number(told) > 1e6
     assert number(told) == float(f"{number(told):.3g}")
-    assert list(facts("fan-rig")) == ["Life, greatest contact pressure and oil film"]
+    assert list(facts("liew-lim")) == ["Life, greatest contact pressure and oil film"]
 
 
 def test_a_given_rating_is_taken_and_said() -> None:
     said = facts("6205", LifeInputs(dynamic_load_rating=14_000.0))
-    assert said["Life"]["Dynamic load rating C<sub>r</sub>"] == "14 kN, given"
+    assert (
+        said["Life of the healthy bearing"]["Dynamic load rating C<sub>r</sub>"] == "14 kN, given"
+    )
 
 
 def test_thin_oil_lets_surfaces_touch_and_thick_oil_does_not() -> None:
@@ -170,7 +196,7 @@ def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_thei
         assert found.film is not None
     passes = next(fact["value"] for fact in facts_of(scene) if fact["symbol"] == "BPFO")
     assert passes.count("Hz") == 2, "one for each row"
-    (title,) = [group for group in groups_of(Results(scene)) if group.title == "Life"]
+    (title,) = [group for group in groups_of(Results(scene)) if group.title.startswith("Life")]
     told = {fact.name: fact.value for fact in title.facts}
     assert " and " in told["of rows 1 to 2 on their own"]
     assert facts_of(pair)[0]["value"].count("Hz") == 1

@@ -63,7 +63,7 @@ def test_the_status_says_what_kind_it_is() -> None:
     good, bad = orbit_status(Results(RIG)), orbit_status(Results(DOUBLED))
     assert (good["mood"], good["words"]) == ("good", "Stable orbit")
     assert any("24.8 ms: 1 ball pass" in detail for detail in good["details"])
-    assert (bad["mood"], bad["words"]) == ("bad", "Unstable: the period doubles")
+    assert (bad["mood"], bad["words"]) == ("bad", "Unstable: period doubling (flip)")
     assert "half the ball-pass frequency" in SteadyOrbit(PackedSource()).sentence(Results(DOUBLED))
 
 

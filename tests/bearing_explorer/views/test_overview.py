@@ -52,7 +52,8 @@ def below(scene: Scene) -> float:
 def test_a_ball_spacing_longer() -> None:
     (xx, yy, band, peak), (xx0, yy0, band0, peak0) = numbers(LONGER), numbers(FAN_RIG)
     assert told(LONGER, FAN_RIG) == (
-        "A ball spacing longer (12.9 → 38.61°): load shifts to balls farther from the load line, "
+        "Defect longer by one ball spacing (12.9 → 38.61°): load shifts to balls farther from the "
+        "load line, "
         f"k_yy falls by {100 * (1 - yy / yy0):.0f} %, k_xx rises by {100 * (xx / xx0 - 1):.0f} %, "
         f"the y₁ band sinks from {band0[0]:.0f}–{band0[1]:.0f} to {band[0]:.0f}–{band[1]:.0f} Hz "
         f"and the spectrum's peak with it, from {peak0:.0f} to {peak:.0f} Hz."

@@ -35,7 +35,7 @@ def test_the_status_line_says_what_happened() -> None:
 
 @pytest.mark.parametrize(
     ("hertz", "mood", "words"),
-    [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: the period doubles")],
+    [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: period doubling (flip)")],
 )
 def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words: str) -> None:
     """An orbit that no machine stays on is not "Converged", though its static states are."""

@@ -72,7 +72,7 @@ def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> Non
 def test_words_and_numbers_name_the_reference_and_what_failed() -> None:
     view = measured()
     words = view.sentence(Results(RIG))
-    assert "LSODA and DOP853 agree" in words
+    assert "(LSODA, DOP853) differ by" in words
     assert "2·10⁻⁷ dB" in words
     assert "scipy RK45 failed: diverged" in words
     assert view.sentence(Results(RIG.healthy())).startswith("The scene has changed")

@@ -16,12 +16,12 @@ import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.results.cache import cached
+from bearing_explorer.results.jobs import Work
 from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import Sweep
 from bearingcore import DOF_NAMES, Scene
@@ -216,16 +216,22 @@ class Question:
         """Whether the first level is quick enough to follow a slider."""
         return self.count(self.first_stride) * self.seconds <= AT_ONCE
 
+    def sides(self, stride: int) -> tuple[Sweep, Sweep]:
+        """The values of a level on both sides."""
+        return self.x.every(stride), self.y.every(stride)
+
     def level(self, stride: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Indices of the finest columns and rows that belong to a level."""
-        columns = self.x.every(stride).values.size
-        rows = self.y.every(stride).values.size
-        return (
-            np.arange(self.x.values.size) if columns == self.x.values.size
-            else np.arange(0, self.x.values.size, stride),
-            np.arange(self.y.values.size) if rows == self.y.values.size
-            else np.arange(0, self.y.values.size, stride),
-        )  # fmt: skip
+        columns, rows = (
+            np.arange(0, whole.values.size, 1 if part is whole else stride)
+            for whole, part in zip((self.x, self.y), self.sides(stride), strict=True)
+        )
+        return columns, rows
+
+    def size_words(self, stride: int) -> str:
+        """The points of a level, in words."""
+        x, y = self.sides(stride)
+        return f"{x.values.size} × {y.values.size} points"
 
     def count(self, stride: int) -> int:
         """Points of a level."""
@@ -259,32 +265,9 @@ class Plane:
     reasons: NDArray[np.object_]
 
     @property
-    def scene(self) -> Scene:
-        """The scene whose fields vary."""
-        return self.question.scene
-
-    @property
-    def shape_words(self) -> str:
-        """Its number of points, in words."""
-        return f"{self.x.values.size} × {self.y.values.size} points"
-
-    @property
     def missing(self) -> int:
         """Points without a number."""
         return int(np.isnan(self.values).sum())
-
-
-class Job(Protocol):
-    """Progress and cancellation of a computation, as `bearing_explorer.results.jobs.Work` does."""
-
-    def progress(self, part: float, _: str = "") -> None:
-        """Report how much is done, 0 to 1."""
-
-    def cancelled(self) -> bool:
-        """Whether to end soon, with what is found."""
-
-    def show(self, found: Plane) -> None:
-        """Hand over a result."""
 
 
 class Survey:
@@ -296,7 +279,7 @@ class Survey:
         self._values = np.full(shape, math.nan)
         self._reasons = np.full(shape, NOT_COMPUTED, dtype=object)
         self._known = np.zeros(shape, dtype=bool)
-        self._seconds = 0.0
+        self.spent = 0.0  # [s] so far
         self._computed = 0
         if start is not None:
             columns, rows = question.level(start.stride)
@@ -307,14 +290,7 @@ class Survey:
     @property
     def seconds(self) -> float:
         """Cost of a scene [s]: measured where something was computed, or else guessed."""
-        if self._computed < 6:
-            return self.question.seconds
-        return self._seconds / self._computed
-
-    @property
-    def spent(self) -> float:
-        """[s] so far."""
-        return self._seconds
+        return self.spent / self._computed if self._computed >= 6 else self.question.seconds
 
     def affordable(self, stride: int) -> bool:
         """Whether the map may be found on this level too."""
@@ -325,7 +301,7 @@ class Survey:
         columns, rows = self.question.level(stride)
         return int((~self._known[np.ix_(rows, columns)]).sum())
 
-    def compute(self, stride: int, job: Job | None = None, last: int | None = None) -> bool:
+    def compute(self, stride: int, job: Work | None = None, last: int | None = None) -> bool:
         """Find what is missing of a level; False where it was cancelled.
 
         The level `last` is where the work is to end, for the progress. Where there is no picture
@@ -339,7 +315,7 @@ class Survey:
                 return False
             started = time.perf_counter()
             self._find(*at)
-            self._seconds += time.perf_counter() - started
+            self.spent += time.perf_counter() - started
             self._computed += at[0].size * at[1].size
             if job is None:
                 continue
@@ -353,13 +329,9 @@ class Survey:
         """The map on a level."""
         columns, rows = self.question.level(stride)
         at = np.ix_(rows, columns)
+        sides = self.question.sides(stride)
         return Plane(
-            self.question,
-            stride,
-            Sweep(self.question.x.field, self.question.x.values[columns]),
-            Sweep(self.question.y.field, self.question.y.values[rows]),
-            self._values[at].copy(),
-            self._reasons[at].copy(),
+            self.question, stride, *sides, self._values[at].copy(), self._reasons[at].copy()
         )
 
     def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
@@ -436,7 +408,7 @@ def coarse(question: Question) -> Plane:
     return survey.plane(question.first_stride)
 
 
-def refine(job: Job, question: Question, finest: int, start: Plane | None = None) -> str:
+def refine(job: Work, question: Question, finest: int, start: Plane | None = None) -> str:
     """One level after another up to the stride `finest`, each shown; returns what to say of it.
 
     Goes on from `start` where it is given. ValueError, with a sentence, where even the first level
@@ -446,7 +418,7 @@ def refine(job: Job, question: Question, finest: int, start: Plane | None = None
     first = question.first_stride
     if not survey.affordable(first):
         raise ValueError(
-            f"Even {_size_words(question, first)} would take {_duration(survey, first)}, more than "
+            f"Even {question.size_words(first)} would take {_duration(survey, first)}, more than "
             f"the {BUDGET / 60.0:.0f} minutes allowed here: choose another output."
         )
     levels = [stride for stride in STRIDES if finest <= stride <= first]
@@ -456,7 +428,7 @@ def refine(job: Job, question: Question, finest: int, start: Plane | None = None
             continue
         if not survey.affordable(stride):
             return (
-                f"{_found(shown, survey)} {_size_words(question, stride)} would take "
+                f"{_found(shown, survey)} {question.size_words(stride)} would take "
                 f"{_duration(survey, stride)} more; a map may take {BUDGET / 60.0:.0f} minutes."
             )
         last = min(level for level in levels if survey.affordable(level))
@@ -468,17 +440,13 @@ def refine(job: Job, question: Question, finest: int, start: Plane | None = None
 
 
 def _found(shown: Plane | None, survey: Survey) -> str:
-    if shown is None:
-        first = survey.question.first_stride
-        known = survey.question.count(first) - survey.missing(first)
-        return f"{known} of {_size_words(survey.question, first)} after {survey.spent:.1f} s."
+    question = survey.question
     spent = f" after {survey.spent:.1f} s" if survey.spent else ""
-    return f"{shown.shape_words}{spent}."
-
-
-def _size_words(question: Question, stride: int) -> str:
-    columns, rows = question.level(stride)
-    return f"{columns.size} × {rows.size} points"
+    if shown is not None:
+        return f"{question.size_words(shown.stride)}{spent}."
+    first = question.first_stride
+    known = question.count(first) - survey.missing(first)
+    return f"{known} of {question.size_words(first)}{spent}."
 
 
 def _duration(survey: Survey, stride: int) -> str:

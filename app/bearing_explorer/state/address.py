@@ -42,35 +42,19 @@ import math
 import re
 import struct
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from bearing_explorer.state import field_values
 from bearing_explorer.state.bearing_kinds import MOST_SHOWN_ROWS
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
-from bearing_explorer.state.field_values import (
-    CAGE_ANGLE,
-    FIELD_BY_KEY,
-    SHOWN_FIELDS,
-    defects_of,
-    in_shown_unit,
-    in_si,
-    limits_of,
-)
-from bearing_explorer.state.field_values import read as read_number
+from bearing_explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELDS, defects_of
 from bearing_explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
 from bearing_explorer.state.sentences import one_line, sentence_of
-from bearingcore import (
-    DOF_NAMES,
-    Bearing,
-    Defect,
-    MeasuredFloor,
-    RoughFloor,
-    Scene,
-    presets,
-)
+from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings.drawing import OPTIONAL_FIELDS
 from bearingcore.bearings.rows import Row
 from bearingcore.fields import SCENE_PARTS, Field, Range
@@ -92,16 +76,6 @@ TAB_OF_OLD_LINKS = "load"
 FORMER_TABS = {"sizing": "diagnosis"}
 """Former names of tabs, in links that people have."""
 
-_OWN_WORDS = (
-    *("v", "preset", "defects", "selected", "dofs", "tab", "rows", "name", CAGE_ANGLE),
-    *(choice.name for choice in OF_SCENE),
-)
-_DEFECT_WORDS = (*(choice.name for choice in OF_DEFECT), "floor", "points")
-_OF_DEFECT = [field for field in SHOWN_FIELDS if field.part == "defect"]
-_OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
-_OF_SCENE = [
-    field for field in SHOWN_FIELDS if field.part in SCENE_PARTS and field.part != "defect"
-]
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, "roller_length")
 _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
@@ -224,23 +198,14 @@ def _written(place: Place, without_floors: bool) -> str:
     if len(defects) != 1:
         pairs.append(("defects", str(len(defects))))
     for number, defect in enumerate(defects):
-        pairs += [
-            (_behind(number) + name, value)
-            for name, value in _defect_pairs(defect, usual, without_floors)
-        ]
+        own = [*_changes(_DEFECT, defect, usual), *_floor_pairs(defect.floor, without_floors)]
+        pairs += [(_behind(number) + name, value) for name, value in own]
     if place.selected:
         pairs.append(("selected", str(place.selected + 1)))
-    for field in _OF_SCENE:
-        value, was = _value(scene, field), _value(base, field)
-        if value != was:
-            pairs.append((field.key, number_text(field, value)))
-    if scene.bearing.rows != base.bearing.rows:
-        pairs.append(("rows", rows_text(scene.bearing.rows)))
+    for part, entries in _SCENE.items():
+        pairs += _changes(entries, _part_of(scene, part), _part_of(base, part))
     if place.name:
         pairs.append(("name", place.name))
-    pairs += _choice_pairs(OF_SCENE, scene, base)
-    if scene.dofs != base.dofs:
-        pairs.append(("dofs", "auto" if scene.dofs is None else ".".join(scene.dofs)))
     if place.cage_angle:
         pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
     if place.tab:
@@ -252,42 +217,34 @@ def _behind(number: int) -> str:
     return f"defect{number + 1}." if number else ""
 
 
-def _defect_pairs(defect: Defect, usual: Defect, without_floors: bool) -> Iterable[tuple[str, str]]:
-    for field in _OF_DEFECT:
-        value = getattr(defect, field.name)
-        if value != getattr(usual, field.name):
-            yield field.key, number_text(field, value)
-    yield from _choice_pairs(OF_DEFECT, defect, usual)
-    floor = defect.floor
+def _part_of(scene: Scene, part: str) -> Any:
+    return scene if part == "scene" else getattr(scene, part)
+
+
+def _changes(entries: Iterable[Entry], owner: Any, usual: Any) -> Iterable[tuple[str, str]]:
+    """The entries of an owner that are not as usual."""
+    for entry in entries:
+        if (value := getattr(owner, entry.field)) != getattr(usual, entry.field):
+            yield entry.name, entry.text_of(value)
+
+
+def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
     if isinstance(floor, RoughFloor):
         yield "floor", floor_name(floor)
-        for field in _OF_FLOOR:
-            yield field.key, number_text(field, getattr(floor, field.name))
-    elif isinstance(floor, MeasuredFloor) and without_floors:
+        yield from ((entry.name, entry.text_of(getattr(floor, entry.field))) for entry in _FLOOR)
+    elif isinstance(floor, MeasuredFloor) and left_out:
         yield "floor", "left-out"
     elif isinstance(floor, MeasuredFloor):
         yield "floor", floor_name(floor)
         yield "points", packed(floor)
 
 
-def _choice_pairs(choices: Iterable[Choice], owner: Any, usual: Any) -> Iterable[tuple[str, str]]:
-    for choice in choices:
-        if (name := choice.name_of(owner)) != choice.name_of(usual):
-            yield choice.name, name.replace(" ", "-")
-
-
-def _value(scene: Scene, field: Field) -> float | None:
-    """A number of a scene that is not one of its defects', in SI."""
-    value: float | None = getattr(getattr(scene, field.part, scene), field.name)
-    return value
-
-
 def number_text(field: Field, value: float | None) -> str:
     """A number in SI as the address has it; `_number` makes the very same of it."""
     if value is None:
         return "none"
-    shown = in_shown_unit(field, value)
-    if in_si(field, shown) == value:
+    shown = field_values.in_shown_unit(field, value)
+    if field_values.in_si(field, shown) == value:
         return _short(shown)
     return _short(value) + "SI"
 
@@ -321,15 +278,10 @@ def packed(floor: MeasuredFloor) -> str:
 
 
 def _is_known(name: str) -> bool:
-    if name in _OWN_WORDS or name in _SCENE_NAMES:
-        return True
     head, dot, tail = name.rpartition(".")
-    behind = not dot or (re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None)
-    return behind and tail in _DEFECT_NAMES
-
-
-_SCENE_NAMES = frozenset(field.key for field in _OF_SCENE)
-_DEFECT_NAMES = frozenset([*_DEFECT_WORDS, *(field.key for field in (*_OF_DEFECT, *_OF_FLOOR))])
+    if not dot:
+        return name in _PLACE_NAMES or name in _DEFECT_NAMES
+    return re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None and tail in _DEFECT_NAMES
 
 
 def _read(given: dict[str, str]) -> Place:
@@ -348,42 +300,38 @@ def _read(given: dict[str, str]) -> Place:
     base = presets[preset]
     count = _count(given.pop("defects", "1"), "defects")
     selected = _count(given.pop("selected", "1"), "selected") - 1
-    chosen = _choices(OF_SCENE, given)
-    for choice in OF_SCENE:
-        given.pop(choice.name, None)
-    dofs = _dofs(given.pop("dofs", None), base)
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
-    tab = FORMER_TABS.get(tab, tab)
     name = one_line(given.pop("name", ""), LONGEST_NAME)
-    rows = {"rows": _rows(given.pop("rows"))} if "rows" in given else {}
-    defects, notes = [], []
+    defects, note = [], ""
     for number in range(count):
-        own = {
-            name: given.pop(_behind(number) + name)
-            for name in _DEFECT_NAMES
-            if _behind(number) + name in given
-        }
+        here = {name: _behind(number) + name for name in _DEFECT_NAMES}
+        own = {name: given.pop(there) for name, there in here.items() if there in given}
         if own.get("floor") == "left-out":
-            notes.append("A measured floor was too long for the address; here it is flat.")
+            note = "A measured floor was too long for the address; here it is flat."
         defects.append(_defect(own, defects_of(base)[0]))
-    fields = {
-        name: _number(given.pop(name), FIELD_BY_KEY[name]) for name in list(given)
-        if name in _SCENE_NAMES
-    }  # fmt: skip
+    fields = {part: _taken(entries, given) for part, entries in _SCENE.items()}
     if given:
         raise ValueError(f"“{_shown(next(iter(given)))}” is about a defect that is not there.")
-    scene = dataclasses.replace(
-        base,
-        bearing=_part(base.bearing, fields, **rows),
-        defect=defects[0] if count == 1 else tuple(defects),
-        load=_part(base.load, fields),
-        support=_part(base.support, fields),
-        dofs=dofs,
-        **_own_of(base, fields),
-    )
-    scene = scene.replace(**chosen) if chosen else scene
-    return Place(scene, preset, selected, cage_angle, tab[:40], " ".join(notes), name)
+    own_fields = fields.pop("scene")
+    if fields["bearing"]:
+        fields["bearing"]["kind"] = ""  # links do not say it: the numbers do
+    parts = {
+        part: dataclasses.replace(getattr(base, part), **changes)
+        for part, changes in fields.items()
+    }
+    defect = defects[0] if count == 1 else tuple(defects)
+    scene = dataclasses.replace(base, defect=defect, **parts, **own_fields)
+    return Place(scene, preset, selected, cage_angle, FORMER_TABS.get(tab, tab)[:40], note, name)
+
+
+def _taken(entries: Iterable[Entry], given: dict[str, str]) -> dict[str, Any]:
+    """The values of the entries that are given, by their fields; they are taken out."""
+    return {
+        entry.field: entry.value_of(given.pop(entry.name))
+        for entry in entries
+        if entry.name in given
+    }
 
 
 def _rows(text: str) -> tuple[Row, ...]:
@@ -407,35 +355,13 @@ def _rows(text: str) -> tuple[Row, ...]:
     return tuple(rows)
 
 
-def _own_of(part: Any, fields: Mapping[str, float | None]) -> dict[str, Any]:
-    """The numbers given, by names, for the fields that a part of a scene has."""
-    return {
-        field.name: fields[field.key]
-        for field in _OF_SCENE
-        if field.key in fields and hasattr(part, field.name)
-    }
-
-
-def _part(part: Any, fields: Mapping[str, float | None], **others: Any) -> Any:
-    own = {**_own_of(part, fields), **others}
-    for name, value in own.items():
-        if name == "n_balls" and isinstance(value, float):
-            own[name] = int(value) if value == int(value) else value
-    if isinstance(part, Bearing):
-        own["kind"] = ""  # links do not say it: the numbers do
-    return dataclasses.replace(part, **own)
-
-
 def _defect(given: dict[str, str], usual: Defect) -> Defect:
-    fields: dict[str, Any] = {
-        field.name: _number(given[field.key], field) for field in _OF_DEFECT if field.key in given
-    }
-    fields |= _choices(OF_DEFECT, given)
+    fields = _taken(_DEFECT, given)
     kind = given.get("floor", "flat")
     if kind == "rough":
-        numbers = {field.name: _number(given.get(field.key, ""), field) for field in _OF_FLOOR}
-        seed = numbers.pop("seed")
-        fields["floor"] = RoughFloor(**numbers, seed=int(seed or 0))  # type: ignore[arg-type]
+        fields["floor"] = RoughFloor(
+            **{entry.field: entry.value_of(given.get(entry.name, "")) for entry in _FLOOR}
+        )
     elif kind == "measured":
         fields["floor"] = unpacked(given.get("points", ""))
     elif kind in ("flat", "left-out"):
@@ -445,22 +371,22 @@ def _defect(given: dict[str, str], usual: Defect) -> Defect:
     return dataclasses.replace(usual, **fields)
 
 
-def _number(text: str, field: Field) -> float | None:
+def _number(field: Field, text: str) -> float | None:
     """A number in SI; ValueError with a sentence where it is none."""
     if text == "none" and (field.optional or field.name in _MAY_BE_NONE):
         return None
     value, is_si = _parsed(text, field.key)
-    if is_si:
-        return value
-    # as it would be typed on the page: out of range it is refused in the words of the page
-    read_number(field.key, text, _usual_limits())
-    return in_si(field, value)
+    if not is_si:
+        # as it would be typed on the page: out of range it is refused in the words of the page
+        field_values.read(field.key, text, _usual_limits())
+        value *= field.factor
+    return int(value) if field.whole and value == int(value) else value
 
 
 @cache
 def _usual_limits() -> Mapping[str, Range]:
     """Range of what can be typed: the same with every preset."""
-    return limits_of(presets["fan-rig"])
+    return field_values.limits_of(presets["fan-rig"])
 
 
 def _parsed(text: str, name: str) -> tuple[float, bool]:
@@ -478,28 +404,28 @@ def _count(text: str, name: str) -> int:
     return int(text[:3])
 
 
-def _choices(choices: Iterable[Choice], given: Mapping[str, str]) -> dict[str, Any]:
-    """Fields of the choices that a text makes."""
-    fields = {}
-    for choice in choices:
-        text = given.get(choice.name)
-        if text is None:
-            continue
-        if text not in choice.in_links:
-            raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.in_links)}.")
-        fields[choice.field] = choice.in_links[text]
-    return fields
+def _option(choice: Choice, text: str) -> Any:
+    """The value of an option."""
+    if text not in choice.in_links:
+        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.in_links)}.")
+    return choice.in_links[text]
 
 
-def _dofs(text: str | None, base: Scene) -> tuple[str, ...] | None:
-    if text is None:
-        return base.dofs
+def _option_text(choice: Choice, value: Any) -> str:
+    return next(name for name, held in choice.in_links.items() if held == value)
+
+
+def _dofs(text: str) -> tuple[str, ...] | None:
     if text == "auto":
         return None
     names = tuple(text.split("."))
     if not set(names) <= set(DOF_NAMES) or len(set(names)) != len(names):
         raise ValueError(f"“{_shown(text)}” are not directions that can move.")
     return names
+
+
+def _dofs_text(dofs: tuple[str, ...] | None) -> str:
+    return "auto" if dofs is None else ".".join(dofs)
 
 
 def unpacked(word: str) -> MeasuredFloor:
@@ -526,3 +452,42 @@ def _shown(text: str) -> str:
     """Untrusted text for a sentence: short, on one line."""
     clean = one_line(text, 31)
     return clean if len(clean) <= 30 else clean[:29] + "…"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A field of a scene in an address: its name there, and the way to its text and back."""
+
+    name: str
+    field: str
+    text_of: Callable[[Any], str]
+    value_of: Callable[[str], Any]
+
+
+def _numbers_of(part: str) -> list[Entry]:
+    return [
+        Entry(field.key, field.name, partial(number_text, field), partial(_number, field))
+        for field in SHOWN_FIELDS
+        if field.part == part
+    ]
+
+
+def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
+    return [
+        Entry(choice.name, choice.field, partial(_option_text, choice), partial(_option, choice))
+        for choice in choices
+    ]
+
+
+_SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
+_SCENE["bearing"].append(Entry("rows", "rows", rows_text, _rows))
+_SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
+"""Entries of each part of a scene."""
+_DEFECT = [*_numbers_of("defect"), *_choices_of(OF_DEFECT)]
+_FLOOR = _numbers_of("floor")
+
+_PLACE_NAMES = {
+    *("v", "preset", "defects", "selected", "tab", "name", CAGE_ANGLE),
+    *(entry.name for entries in _SCENE.values() for entry in entries),
+}
+_DEFECT_NAMES = ["floor", "points", *(entry.name for entry in (*_DEFECT, *_FLOOR))]

@@ -32,7 +32,7 @@ from bearing_explorer.results.jobs import JobState, Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.sentences import sentence_of
+from bearing_explorer.state.sentences import sentence_of, with_unit
 from bearing_explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
@@ -51,13 +51,8 @@ REST = 0.2
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
 _WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
-_FIRST_BAND = dict(
-    zip(
-        ("band_from", "band_to"),
-        (f"{edge / 1e3:g}" for edge in MAP_OUTPUTS["mass_share"].band or ()),
-        strict=True,
-    )
-)
+_BAND = ("band_from", "band_to")
+_FIRST_BAND = [f"{edge / 1e3:g}" for edge in MAP_OUTPUTS["mass_share"].band or ()]
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
 _FADED = 0.35
 
@@ -119,7 +114,8 @@ class ExplorePlane(JobView[Plane]):
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         fills = plane_fills(editor.limits)
-        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]], **_FIRST_BAND}
+        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
+        values |= dict(zip(_BAND, _FIRST_BAND, strict=True))
         # loads that point down, as weights do: without a load there is nothing to map
         values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
         if self._request is None:
@@ -135,13 +131,12 @@ class ExplorePlane(JobView[Plane]):
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
         output = MAP_OUTPUTS[given["output"]]
         if output.band is not None:
-            output = output.in_band(
-                *(
-                    1e3
-                    * number_of(given.get(name, ""), f"The {end} of the band", "kHz", 0.01, 100.0)
-                    for name, end in (("band_from", "beginning"), ("band_to", "end"))
-                )
+            ends = zip(_BAND, ("beginning", "end"), strict=True)
+            low, high = (
+                number_of(given.get(name, ""), f"The {end} of the band", "kHz", 0.01, 100.0)
+                for name, end in ends
             )
+            output = output.in_band(1e3 * low, 1e3 * high)
         return MapRequest(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:
@@ -280,7 +275,7 @@ def field_of(plane: Plane) -> Field:
 def summary(plane: Plane) -> str:
     """A sentence on a map: least and greatest value, their places, and missing points."""
     question, values = plane.question, plane.values
-    words = question.output.label
+    words, size = question.output.label, question.size_words(plane.stride)
     missing = ""
     if plane.missing:
         reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
@@ -288,32 +283,21 @@ def summary(plane: Plane) -> str:
         points = "1 point has" if plane.missing == 1 else f"{plane.missing} points have"
         missing = f" {points} no answer, most often: {common.rstrip('.')}."
     if plane.missing == values.size:
-        return (
-            f"{words[0].upper()}{words[1:]}: no point of {plane.shape_words} has an answer."
-            + missing
-        )
+        return f"{words[0].upper()}{words[1:]}: no point of {size} has an answer." + missing
     least, most = (
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
-    return f"{plane.shape_words}. {words}: {ends}.{missing}"
+    return f"{size}. {words}: {ends}.{missing}"
 
 
 def _place(plane: Plane, at: tuple[Any, ...]) -> str:
     output = plane.question.output
-    value = float(plane.values[at])
-    shown = (
-        style.with_prefix(value, output.unit)
-        if output.unit not in ("", "°")
-        else f"{style.number(value)}{output.unit}"
-    )
+    value, unit = float(plane.values[at]), output.unit
+    prefixed = unit not in ("", "°")
+    shown = style.with_prefix(value, unit) if prefixed else with_unit(value, unit, 3)
     where = [
-        f"{sweep.field.label.lower()} {style.number(float(sweep.values[k]))}"
-        + (
-            sweep.field.shown_unit
-            if sweep.field.shown_unit == "°"
-            else f" {sweep.field.shown_unit}"
-        ).rstrip()
+        f"{sweep.field.label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
         for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
     ]
     return f"{shown} at {' and '.join(where)}"

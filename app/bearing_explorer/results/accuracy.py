@@ -9,7 +9,6 @@ from typing import Any
 
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
-from bearing_explorer.state.sentences import sentence_of
 from bearingcore import Scene
 from bearingcore.experiments import (
     Experiment,
@@ -67,10 +66,7 @@ class Found:
 def compute(job: Work, scene: Scene, name: str) -> str:
     """Run an experiment and show it. Runs in a job's thread."""
     started = time.perf_counter()
-    try:
-        result = TRIALS[name].run(scene, job)
-    except ValueError as error:
-        raise ValueError(sentence_of(error)) from error
+    result = TRIALS[name].run(scene, job)
     n = len(result.points if isinstance(result, Experiment) else result.trials)
     if not n:
         return "Nothing was measured yet."

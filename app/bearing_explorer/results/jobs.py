@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from bearing_explorer.results.executors import JOBS
+from bearing_explorer.state.sentences import sentence_of
 
 log = logging.getLogger(__name__)
 
@@ -86,6 +87,11 @@ class Work:
         with self._lock:
             found, self._found = self._found, []
         return found
+
+    @property
+    def has_found(self) -> bool:
+        """Whether a result waits to be drawn."""
+        return bool(self._found)
 
     def stop(self) -> None:
         """Ask the work to end soon."""
@@ -177,25 +183,27 @@ class Jobs:
 
     async def _look(self, job: _Job) -> None:
         """Take up what a job reports."""
-        found = job.work.taken()
         state = job.state()
-        if self._ended or (not found and state == job.reported):
-            return
+        if not (self._ended or (not job.work.has_found and state == job.reported)):
+            job.reported = state
+            if job is self._job:
+                await self._take_up(job, state)
+
+    async def _take_up(self, job: _Job, state: JobState) -> None:
+        found = job.work.taken()
 
         def change() -> None:
             for result in found:
                 job.take(result)
             job.report(state)
 
-        job.reported = state
-        if job is self._job:
-            await self._assign(change)
+        await self._assign(change)
 
     async def _close(self, job: _Job, future: asyncio.Future[str]) -> None:
         part = job.work.part
         error = future.exception()
         if isinstance(error, ValueError):
-            state = JobState("failed", part, str(error))
+            state = JobState("failed", part, sentence_of(error))
         elif error is not None:
             log.error("a job failed", exc_info=error)
             state = JobState("failed", part, "This could not be computed.")
@@ -214,14 +222,7 @@ class Jobs:
         newer = self._job
         if self._ended or (newer is not None and newer is not job and newer.report == job.report):
             return
-        found = job.work.taken()
-
-        def change() -> None:
-            for result in found:
-                job.take(result)
-            job.report(state)
-
-        await self._assign(change)
+        await self._take_up(job, state)
 
 
 class _Job:

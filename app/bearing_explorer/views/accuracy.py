@@ -370,10 +370,8 @@ class Accuracy(JobView[Found]):
             words = f"The scene has changed since this was measured. Then: {words}"
         return words
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        if self.found is None:
-            return {}
-        return self.found.result.table().named()
+    def columns(self, found: Found) -> dict[str, np.ndarray]:
+        return found.result.table().named()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

@@ -18,10 +18,7 @@ from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.sentences import sentence_of
-from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.widgets.form import FieldSpec
 from bearingcore.common.numbers import decibels, percent
 from bearingcore.experiments.alternatives import SPECTRUM, Alternative, Alternatives, alternatives
 
@@ -49,12 +46,6 @@ class OtherModels(JobView[Alternatives]):
         self._table = pn.pane.HTML("", stylesheets=[asset_text("alternatives.css")], **whole)
         return pn.Column(self.job, self._table, **whole)
 
-    def fields(self) -> list[FieldSpec]:
-        return []
-
-    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        return {}, {}
-
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         scene = editor.scene
 
@@ -62,17 +53,11 @@ class OtherModels(JobView[Alternatives]):
             if not compiling.ready():
                 raise compiling.StillCompiling
             began = time.perf_counter()
-            try:
-                found = alternatives(scene, job.cancelled)
-            except ValueError as error:
-                raise ValueError(sentence_of(error)) from error
+            found = alternatives(scene, job.cancelled)
             job.show(found)
             return f"{len(found.rows)} models after {time.perf_counter() - began:.1f} s."
 
         return compute
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        return {}, {}
 
     def sentence(self, results: Results) -> str:
         if self.found is None:
@@ -97,8 +82,8 @@ class OtherModels(JobView[Alternatives]):
         if self.found is not None:
             self._table.object = table_of_rows(self.found.rows)
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        return {} if self.found is None else self.found.table().named()
+    def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
+        return found.table().named()
 
 
 def table_of_rows(rows: tuple[Alternative, ...]) -> str:

@@ -200,8 +200,8 @@ class View:
         raise NotImplementedError
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        """Sources and ranges for these results."""
-        raise NotImplementedError
+        """Sources and ranges for these results; none where nothing comes in the packed source."""
+        return {}, {}
 
     def sentence(self, results: Results) -> str:
         """One sentence on the figure as it is now, numbers with units."""

@@ -14,7 +14,7 @@ from bearing_explorer.plots import style
 from bearing_explorer.results.dof_comparison import DofComparison
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.views.base import SessionParts, View
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.widgets.form import Fields, button, row
 from bearingcore import DOF_NAMES
@@ -79,9 +79,6 @@ class DofDifferences(View):
         self._refusal.visible = False
         if self._parts is not None:
             self._parts.ask({"choose": {"dofs": dofs}})
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        return {}, {}
 
     def sentence(self, results: Results) -> str:
         found = results.dof_comparison

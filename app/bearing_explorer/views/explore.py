@@ -212,9 +212,7 @@ class ExplorePlane(JobView[Plane]):
             loop = asyncio.get_running_loop()
             self._timer = loop.call_later(REST, self._refine, question, plane)
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        if (found := self.found) is None:
-            return {}
+    def columns(self, found: Plane) -> dict[str, np.ndarray]:
         return {
             **table_of_places(found.x, found.y),
             found.question.output.column: found.values.ravel(),
@@ -246,10 +244,7 @@ class ExplorePlane(JobView[Plane]):
         self._refining = question, stride
 
         def work(job: Work) -> str:
-            try:
-                return refine(job, question, stride, start)
-            except ValueError as error:
-                raise ValueError(sentence_of(error)) from error
+            return refine(job, question, stride, start)
 
         self._jobs.start(work, self._take, self.job.show)
 

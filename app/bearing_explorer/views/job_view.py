@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Generic, TypeVar
 
+import numpy as np
 import panel as pn
 
 from bearing_explorer.results.jobs import Jobs, JobState, Work
@@ -187,18 +188,25 @@ class JobView(View, Generic[Found]):
         return self.found is None
 
     def fields(self) -> list[FieldSpec]:
-        """The fields of the form."""
-        raise NotImplementedError
+        """The fields of the form; none where there is nothing to choose."""
+        return []
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         """First values of the fields, and the values that a choice brings with it.
 
         The second is {field: {its value: {other field: its value then}}}.
         """
-        raise NotImplementedError
+        return {}, {}
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         """The job for the values of the form; ValueError with a sentence where there is none."""
+        raise NotImplementedError
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        return {} if self.found is None else self.columns(self.found)
+
+    def columns(self, found: Found) -> dict[str, np.ndarray]:
+        """The numbers behind the figures of a result, see `View.table`."""
         raise NotImplementedError
 
     def start_job(self, given: Mapping[str, str]) -> None:

@@ -13,7 +13,6 @@ from bearing_explorer.plots import style
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.field_values import MODEL_GROUPS, SHOWN_FIELDS, values_of
-from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
 
@@ -47,9 +46,6 @@ class ModelEditor(ControlView):
     def build(self, packed: PackedSource) -> Any:
         self.rows = ModelRows(self.forward, spec=spec_of(MODEL_GROUPS))
         return self.rows
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        return {}, {}
 
     def sentence(self, results: Results) -> str:
         support = results.scene.support

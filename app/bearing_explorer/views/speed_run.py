@@ -265,10 +265,8 @@ class SpeedRunSpectra(SweptView):
         with contextlib.suppress(ValueError):  # the button says why
             self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        if self.found is None:
-            return {}
-        run = self.found.result
+    def columns(self, found: Swept) -> dict[str, np.ndarray]:
+        run = found.result
         orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 

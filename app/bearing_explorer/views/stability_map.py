@@ -181,11 +181,9 @@ class OrbitStability(SweptView):
         own = self.opacity(results, found) == 1.0
         return f"{words} {missing} were not computed." if missing and own else words
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        if (found := self.found) is None:
-            return {}
-        columns = ("largest_multiplier", "outcome", "through")
-        return table_of_places(*found.sweeps) | found.result.table().only(*columns).named()
+    def columns(self, found: Swept) -> dict[str, np.ndarray]:
+        names = ("largest_multiplier", "outcome", "through")
+        return table_of_places(*found.sweeps) | found.result.table().only(*names).named()
 
 
 def compute(job: Work, scene: Scene, x: Sweep, y: Sweep, n: int) -> str:

@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
-from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import Sweep, alike_but_for, focused
 from bearing_explorer.views.job_view import JobView
 from bearingcore import Scene
@@ -42,7 +41,7 @@ def compute_in_levels(
     Raises
     ------
     ValueError
-        with a sentence, where the first level cannot be computed.
+        where the first level cannot be computed.
     """
     started = time.perf_counter()
     sizes = [math.prod(sweep.values.size for sweep in level) for level in levels]
@@ -50,12 +49,9 @@ def compute_in_levels(
     shown = "Nothing is shown yet."
     for level, size in zip(levels, sizes, strict=True):
         within = job.within(done / sum(sizes), (done + size) / sum(sizes))
-        try:
-            found = compute(level, within)
-            if found.cost and not done:
-                raise ValueError(found.cost)
-        except ValueError as error:
-            raise ValueError(sentence_of(error)) from error
+        found = compute(level, within)
+        if found.cost and not done:
+            raise ValueError(found.cost)
         if found.cost:
             return f"{shown} Finer was not begun, {found.cost}."
         if found.completed or not done:

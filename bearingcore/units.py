@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -32,6 +33,7 @@ UNITS: Mapping[str, Unit] = {
     "m": Unit("m", 1.0, "m"),
     "mm": Unit("m", 1e-3, "mm"),
     "µm": Unit("m", 1e-6, "um"),
+    "in": Unit("m", 25.4e-3, "in"),
     "rad": Unit("rad", 1.0, "rad"),
     "deg": Unit("rad", math.pi / 180.0, "deg"),
     "°": Unit("rad", math.pi / 180.0, "deg"),
@@ -77,3 +79,44 @@ def factor_between(given: str, wanted: str) -> float | None:
     if one is None or other is None or one.si != other.si:
         return None
     return one.factor * (1.0 / other.factor)
+
+
+_SPELLINGS = {
+    **{"um": "µm", "μm": "µm", "inch": "in", '"': "in", "″": "in", "degree": "°", "degrees": "°"},
+    **{"hz": "Hz", "n": "N", "nm": "N·m", "1/min": "rpm", "min⁻¹": "rpm", "r/min": "rpm"},
+}
+"""Other ways to write units; the second of them is a Greek letter that looks like the sign."""
+
+_WITH_UNIT = re.compile(
+    r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)"
+    r"(?:(?: (?P<above>\d+))? ?/ ?(?P<below>\d+))?"
+    r" ?(?P<unit>\D.*)?",
+    re.IGNORECASE | re.ASCII,
+)
+
+
+def read_number(text: str, unit: str) -> float:
+    """A number that was typed, in `unit`: "8 mm", "5/16 in", "1 1/4 in", "12 µm", "0,5".
+
+    Without a unit it is in `unit` already.
+
+    Raises
+    ------
+    ValueError
+        for what is no number, or one in a unit of another kind.
+    """
+    plain = " ".join(text.replace("−", "-").replace(",", ".").split())
+    found = _WITH_UNIT.fullmatch(plain)
+    if found is None:
+        raise ValueError(f"“{text}” is not a number")
+    value = float(found["number"])
+    if found["below"]:
+        below = float(found["below"])
+        part = float(found["above"] or value) / below if below else math.nan
+        value = math.copysign(abs(value) + part, value) if found["above"] else part
+    given = (found["unit"] or unit).strip()
+    given = given if given in UNITS else _SPELLINGS.get(given.lower(), given)
+    factor = 1.0 if given == unit else factor_between(given, unit)
+    if factor is None or not math.isfinite(value):
+        raise ValueError(f"“{text}” is no number in {unit}" if unit else f"“{text}” is no number")
+    return value * factor

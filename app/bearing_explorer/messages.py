@@ -57,6 +57,8 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
         whether a drag has ended with it, as one step to undo.
     turning
         whether the bearing turns by itself, which is no step to undo.
+    search
+        text for which bearings are searched; it changes nothing, and has no mark.
     """
 
     mark: Mark | None = None
@@ -68,6 +70,7 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     turning: bool = False
     floor: TextFile | None = None
     catalogue: TextFile | None = None
+    search: str | None = None
 
 
 class LinksChange(SceneChange, omit_defaults=True):

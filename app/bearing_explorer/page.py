@@ -24,7 +24,6 @@ from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.alternatives import OtherModels
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
-from bearing_explorer.views.bearing_list import BearingList
 from bearing_explorer.views.depth_profile import DepthProfile
 from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
@@ -72,7 +71,7 @@ SECTIONS = (
     Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("bearing", "Bearing", (BearingEditor, BearingList), "My machine"),
+    Section("bearing", "Bearing", (BearingEditor,), "My machine"),
     Section("model", "Model", (ModelEditor, DofDifferences)),
     Section(
         "diagnosis",

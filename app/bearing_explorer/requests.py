@@ -110,6 +110,12 @@ class Requests:
         """Take a message of the controls: numbers, choices, a reset, a file."""
         if not isinstance(message, dict):
             return
+        if isinstance(text := message.get("search"), str):
+            listed, show = self.editor.listed, self.controls.send
+            self._page.in_background(
+                lambda: listed.search(text), lambda found: show({"found": found})
+            )
+            return
         mark = message.get("mark")
         if isinstance(mark, int) and 0 <= mark < 2**24:
             self.mark = mark

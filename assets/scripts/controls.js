@@ -105,6 +105,8 @@ export function render({ model }) {
   const floor = element("div", { class: "upload" }, element("label", { for: "floor-file" },
     "Two columns: angle in °, depth in µm, or in the units of its headings"), file, words)
 
+  const search = bearing_search(model, panel)
+  panel.selects.preset = search
   // A few sliders, and all others folded, with a count of those that are not as the bearing has them.
   const is_main = ({ name }) => spec.main.includes(name)
   const all_of = spec.groups.flatMap(({ controls }) => controls)
@@ -121,7 +123,7 @@ export function render({ model }) {
   const toggle = play(spec.turning)
   const tools = element("div", { class: "tools" }, toggle, more)
   const all = button("", () => { whole = !whole; show_named() }, { class: "all" })
-  const form = panel.form({ "aria-label": "Scene" }, panel.choice("preset"), main, tools, rest, all)
+  const form = panel.form({ "aria-label": "Scene" }, search.root, main, tools, rest, all)
 
   let usual = {}, many = 1
   const count_changed = () => {
@@ -158,6 +160,7 @@ export function render({ model }) {
     Object.assign(usual, state.usual ?? {})
     spacing = 360 / (state.values.n_balls ?? 360 / spacing)
     panel.take(state)
+    search.follow_state(state)
     if (state.defects) {
       many = state.defects.names.length
       list_defects(state.defects)

@@ -249,15 +249,17 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       type: "button", class: "info", "aria-controls": `note-${name}`,
       "aria-label": `About ${label.toLowerCase()}`, title: "About this choice",
     }, "?")
-    unfolds(more, note)
+    const open = unfolds(more, note)
     const refusal = element("p", { class: "refusal", role: "alert", hidden: "" })
     const title = element("label", { for: `choice-${name}` }, label)
     const root = element("div", { class: `choice choice-${name}` }, ...(model.spec.choices[name].group
       ? [element("div", { class: "head" }, title, select, more)]
       : [element("div", { class: "head" }, title, ...extra, more), select]), refusal, note)
-    selects[name] = { refusal, root, select, show: (value) => {
+    // `effect`: what the choice has just done, if that is not plain from what it is
+    selects[name] = { refusal, root, select, show: (value, effect = "") => {
       select.value = value
-      note.textContent = options.find((option) => option.value === value)?.about ?? ""
+      note.textContent = [effect, options.find((option) => option.value === value)?.about].filter(Boolean).join(" ")
+      if (effect) open(true)
     } }
     return root
   }
@@ -281,11 +283,10 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     for (const [name, value] of Object.entries(state.choices ?? {})) {
       if (!selects[name]) continue
       refuse(name, "")
-      selects[name].show(value)
+      selects[name].show(value, state.effects?.[name])
     }
     if (state.second_units) for (const name of Object.keys(rows)) show_second(name)
     if (state.draft) show_draft(state.draft)
-    if (state.bearing) show_own(state.bearing, state.changed)
     if (state.hidden)
       for (const [name, { root }] of [...Object.entries(rows), ...Object.entries(selects)])
         root.hidden = state.hidden.includes(name)
@@ -301,21 +302,6 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       rows[name].root.classList.toggle("drafted", waiting.includes(name))
     for (const [name, sentence] of Object.entries(faults)) refuse(name, sentence)
   }
-  // A bearing that is not on the list is added to it under its own name.
-  const show_own = ({ name, own }, changed) => {
-    const select = selects.preset?.select
-    if (!select) return
-    let option = select.querySelector("option[data-own]")
-    const needed = changed || own !== ""
-    if (!needed) return option?.remove()
-    if (!option) {
-      option = element("option", { value: "own bearing", "data-own": "" })
-      select.prepend(option)
-    }
-    option.textContent = name
-    select.value = option.value
-  }
-
   const listen = (takes = take) => model.on("msg:custom", (message) => {
     if (message.state) takes(message.state)
     for (const [name, sentence] of Object.entries(message.refused ?? {})) refuse(name, sentence)

@@ -26,6 +26,23 @@ SECTION = Picture(
 )
 
 
+def drawn(bearing: Bearing) -> Bearing:
+    """One row of steel balls with the dimensions of a bearing, in usual grooves.
+
+    The inner groove is the bearing's own, where it has one.
+    """
+    ball = bearing.ball_diameter
+    return bearing.from_drawing(
+        bearing.n_balls,
+        ball,
+        bearing.pitch_diameter,
+        bearing.groove_radius("inner") or USUAL_GROOVES["inner"] * ball,
+        USUAL_GROOVES["outer"] * ball,
+        contact_angle=bearing.contact_angle,
+        diametral_clearance=2.0 * bearing.radial_clearance,
+    )
+
+
 class Ball(Kind):
     """A row of balls in grooves, given by a drawing or by the numbers of its contacts."""
 
@@ -53,19 +70,7 @@ class Ball(Kind):
             )
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
-        if bearing.kind.has_drawing:
-            return bearing.replace(rows=())
-        ball = bearing.ball_diameter
-        usual = {race: ratio * ball for race, ratio in USUAL_GROOVES.items()}
-        return bearing.from_drawing(
-            bearing.n_balls,
-            ball,
-            bearing.pitch_diameter,
-            bearing.kind.groove_radius(bearing, "inner") or usual["inner"],
-            usual["outer"],
-            contact_angle=bearing.contact_angle,
-            diametral_clearance=2.0 * bearing.radial_clearance,
-        )
+        return bearing.replace(rows=()) if bearing.kind.has_drawing else drawn(bearing)
 
     def inputs(self, bearing: Bearing) -> tuple[str, ...]:
         given = drawing.OPTIONAL_FIELDS if bearing.is_drawn else drawing.Derived._fields

@@ -25,7 +25,7 @@ from functools import lru_cache
 from itertools import accumulate
 from typing import Any, Self, cast
 
-from bearingcore.bearings import KINDS, drawing, roller, self_aligning
+from bearingcore.bearings import KINDS, drawing, inside, roller, self_aligning
 from bearingcore.bearings.hertz import RaceContact
 from bearingcore.bearings.kind import Kind, kind_named
 from bearingcore.bearings.line_contact import RollerContact
@@ -36,6 +36,9 @@ from bearingcore.errors import FieldError
 
 STEEL_DENSITY = 7800.0
 """Density [kg/m³] of balls of bearing steel."""
+
+ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
+"""Fields that may be estimates."""
 
 _ONE_ROW = (Row(),)
 
@@ -78,6 +81,10 @@ class Bearing:
     kind
         a `Kind` or its name, out of `bearingcore.bearings.KINDS`. Empty: the one whose numbers
         these are, as in files that do not say it.
+    estimated
+        names of fields out of ESTIMATES whose numbers are estimates, as of bearings known by their
+        designation alone (`bearingcore.bearings.designation`). `replace` takes those off that it
+        gives a number.
 
     Raises
     ------
@@ -105,6 +112,7 @@ class Bearing:
     roller_length: float | None = None
     density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
     kind: Kind = field(default="")  # type: ignore[assignment]  # a name becomes its kind
+    estimated: tuple[str, ...] = field(default=(), metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -143,6 +151,9 @@ class Bearing:
         if self.roller_length is not None:
             keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
         object.__setattr__(self, "kind", _kind_of(self))
+        for name in self.estimated:
+            checks.choice("estimated", name, ESTIMATES)
+        object.__setattr__(self, "estimated", tuple(self.estimated))
         self.kind.check(self)
         for k in range(len(self.rows)):
             self.of_row(k)  # refuses dimensions that do not fit each other
@@ -418,7 +429,8 @@ class Bearing:
         A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
         its proportion to it; one named in `changes` is taken as it is.
         """
-        return cast(Self, self.kind.replaced(self, changes))
+        still = tuple(name for name in self.estimated if name not in changes)
+        return cast(Self, self.kind.replaced(self, {"estimated": still} | changes))
 
     @property
     def is_drawn(self) -> bool:
@@ -588,6 +600,24 @@ class Bearing:
         shaft_frequency = shaft_speed / (2.0 * math.pi)
         lever = self.pitch_diameter / (2.0 * self.ball_diameter)
         return lever * shaft_frequency * (1.0 - self._ratio**2)
+
+    def frequency_spread(self, name: str) -> float:
+        """Relative error of a frequency that 19 of 20 estimates stay below; 0 of no estimate.
+
+        `name` is "bpfo", "bpfi", "ftf" or "bsf". It is what the estimated ratio of ball and pitch
+        diameter may do: a number of balls that is estimated too may be one more or less, which
+        moves BPFO and BPFI by a whole part in that number and is not in here.
+        """
+        if not {"ball_diameter", "pitch_diameter"} & set(self.estimated):
+            return 0.0
+        gamma = self._ratio
+        part = {
+            "bpfo": gamma / (1.0 - gamma),
+            "ftf": gamma / (1.0 - gamma),
+            "bpfi": gamma / (1.0 + gamma),
+            "bsf": (1.0 + gamma**2) / (1.0 - gamma**2),
+        }
+        return inside.MEASURED.ratio_spread * part[checks.choice("name", name, tuple(part))]
 
 
 @lru_cache(maxsize=256)

@@ -172,6 +172,7 @@ class SelfAligning(Kind):
                 "load_deflection_factor", new.load_deflection_factor * stiffer
             ),
             density=changes.get("density", bearing.density),
+            estimated=changes.get("estimated", bearing.estimated),
         )
 
     def race_contact(self, bearing: Bearing, race: str) -> RaceContact:

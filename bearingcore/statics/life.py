@@ -44,8 +44,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
+from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.drawing import WIDEST_CONFORMITY
+from bearingcore.bearings.ratings import capacity_factor, dynamic_rating, groove_ratio
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent
 from bearingcore.common.table import ResultTable, table_of
@@ -61,17 +63,8 @@ TURNING = ("inner", "outer")
 HEAVIEST_SHARE = 0.5
 """Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
 
-MATERIAL_FACTOR = 1.3
-"""b_m of ISO 281 for deep-groove and angular-contact ball bearings of today's steel."""
-
 ROLLER_MATERIAL_FACTOR = 1.1
 """The same for cylindrical roller bearings whose rings are machined."""
-
-USUAL_CONFORMITY = {"inner": 0.52, "outer": 0.53}
-"""Groove radius over ball diameter up to which ISO 281 rates a ball bearing in full."""
-
-LARGE_BALL = 25.4
-"""[mm] above which ISO 281 lets the rating grow less with the ball."""
 
 
 class ContactLife(NamedTuple):
@@ -323,7 +316,7 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
         dynamic_load_rating * _part_of_rating(bearing, row) / (own.n_balls * cosine),
         own.ball_diameter * cosine / own.pitch_diameter,
-        1.0 if bearing.kind.line_contact else _groove_ratio(*_conformities(own)),
+        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
         len(bearing.all_rows),
     )
 
@@ -381,11 +374,6 @@ def ratings_of_races(
     return Q_ci, Q_ce
 
 
-def _groove_ratio(f_i: float, f_e: float) -> float:
-    """Effect of the grooves on Q_ci/Q_ce; f are groove radii over the ball diameter."""
-    return f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
-
-
 def dynamic_load_rating(bearing: Bearing) -> float:
     """Basic dynamic load rating C_r [N] of a bearing from its dimensions, by ISO 281.
 
@@ -408,20 +396,21 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     if not bearing.rows_are_alike:
         each = _ratings_alone(bearing)
         return float(sum(each) * len(each) ** (POINT_CONTACT.row_power - 1.0))
-    D, Z, rows = bearing.ball_diameter * 1e3, bearing.n_balls, len(bearing.all_rows)
+    rows = len(bearing.all_rows)
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
-    full = _capacity_factor(gamma, USUAL_CONFORMITY["inner"], USUAL_CONFORMITY["inner"])
+    full = capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])
     widths = {}
-    for race, usual in USUAL_CONFORMITY.items():
+    for race, usual in USUAL_GROOVES.items():
         radius = getattr(bearing, f"{race}_groove_radius")
         conformity = usual if radius is None else radius / bearing.ball_diameter
         widths[race] = min(max(conformity, usual), WIDEST_CONFORMITY)
-    wider = _capacity_factor(gamma, widths["inner"], widths["outer"]) / _capacity_factor(
-        gamma, USUAL_CONFORMITY["inner"], USUAL_CONFORMITY["outer"]
+    wider = capacity_factor(gamma, widths["inner"], widths["outer"]) / capacity_factor(
+        gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["outer"]
     )
-    size = D**1.8 if D <= LARGE_BALL else 3.647 * D**1.4
-    C = MATERIAL_FACTOR * full * min(wider, 1.0) * (rows * cosine) ** 0.7 * Z ** (2.0 / 3.0) * size
+    C = dynamic_rating(
+        full * min(float(wider), 1.0), bearing.n_balls, bearing.ball_diameter, cosine, rows
+    )
     return float(C)
 
 
@@ -437,14 +426,6 @@ def _roller_rating(bearing: Bearing, length: float) -> float:
     factor = 0.377 * 551.13373 * 0.83 * shape * (1.0 + B**4.5) ** (-2.0 / 9.0)
     C = (1e3 * length) ** (7.0 / 9.0) * (1e3 * bearing.ball_diameter) ** (29.0 / 27.0)
     return float(ROLLER_MATERIAL_FACTOR * factor * C * bearing.n_balls**0.75)
-
-
-def _capacity_factor(gamma: float, f_i: float, f_e: float) -> float:
-    """f_c of Lundberg and Palmgren, with the 38.2 that meets the table of ISO 281."""
-    B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * _groove_ratio(f_i, f_e) ** 0.41
-    shape = gamma**0.3 * (1.0 - gamma) ** 1.39 / (1.0 + gamma) ** (1.0 / 3.0)
-    groove = (2.0 * f_i / (2.0 * f_i - 1.0)) ** 0.41
-    return float(38.2 * shape * groove * (1.0 + B ** (10.0 / 3.0)) ** -0.3)
 
 
 @lru_cache(maxsize=256)

@@ -21,7 +21,8 @@ What the model leaves out and what is looked at here:
 - the size of the contact: Hertz takes it for small against the ball;
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
-- coarse time steps: steps while a ball passes a defect.
+- coarse time steps: steps while a ball passes a defect;
+- an estimated inside, of a bearing that is known by its designation alone.
 
 Not looked at: friction, temperature, fits, rings that bend, a cage that slips.
 Balls sunk deep into a defect, which the printed Eq. 8 mistakes for loaded ones, need no warning:
@@ -38,6 +39,7 @@ from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.hertz import in_series
+from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.scene.packing import typical_compression
@@ -166,7 +168,24 @@ def limits(
     if step_rate is not None:
         rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
+    found.append(_estimate(scene))
     return tuple(limit for limit in found if limit is not None)
+
+
+def _estimate(scene: Scene) -> Limit | None:
+    """The note on an estimated inside, from which everything is computed; None of a given one."""
+    bearing = scene.bearing
+    if not bearing.estimated:
+        return None
+    spread = bearing.frequency_spread("bpfo")
+    good = f" BPFO is good to ±{percent(spread, 2)} if the number is right." if spread else ""
+    return unknown(
+        "inside dimensions",
+        0.0,
+        "",
+        "they are estimated from the designation, and everything shown follows from that."
+        f"{good} {accuracy()} Give the real numbers where they are known",
+    )
 
 
 def _known(state: Equilibrium) -> NDArray[np.bool_]:

@@ -23,7 +23,8 @@ The rules of version 1, which later versions go on reading:
 - `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
   between them, and ``~`` between rows; behind them what a row has of its own: contact angle, number
   of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
-  it has not, and none of the last ones. `name` is what a person calls the bearing.
+  it has not, and none of the last ones. `name` is what a person calls the bearing, `estimated` the
+  dimensions that are estimates, with dots between them.
 - `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
   open; alone it stands for the scene that the lesson begins with.
 - `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
@@ -480,7 +481,10 @@ def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
 
 
 _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
-_SCENE["bearing"].append(Entry("rows", "rows", rows_text, _rows))
+_SCENE["bearing"] += [
+    Entry("rows", "rows", rows_text, _rows),
+    Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
+]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""
 _DEFECT = [*_numbers_of("defect"), *_choices_of(OF_DEFECT)]

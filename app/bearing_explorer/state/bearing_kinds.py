@@ -25,7 +25,8 @@ def as_kind(bearing: Bearing, variant: str) -> Bearing:
     """
     if variant == bearing.kind.variant(bearing):
         return bearing
-    return KIND_OF_VARIANT[variant].nearest(bearing, variant)
+    made = KIND_OF_VARIANT[variant].nearest(bearing, variant)
+    return dataclasses.replace(made, estimated=bearing.estimated)
 
 
 def scene_with(scene: Scene, bearing: Bearing) -> Scene:

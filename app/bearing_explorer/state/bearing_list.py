@@ -1,4 +1,4 @@
-"""The list of bearings by designation: the published ones, and those of a person's own table.
+"""Bearings to choose from: presets, the published ones, those of a person's table, designations.
 
 A table of one's own stays in the session. It is not trusted: it is refused as a whole,
 with sentences, where it is not such a table.
@@ -7,20 +7,39 @@ with sentences, where it is not such a table.
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import islice
+from typing import Any
 
 from bearing_explorer.state.sentences import words_of
-from bearingcore import CatalogueBearing, catalogue, read_catalogue
+from bearingcore import Bearing, CatalogueBearing, catalogue, preset_notes, presets, read_catalogue
 from bearingcore.bearings.catalogue import MOST_BYTES
+from bearingcore.bearings.designation import (
+    Designation,
+    designations,
+    read_designation,
+    series_words,
+)
 from bearingcore.common.numbers import number
+from bearingcore.scene.presets import preset_labels
+from bearingcore.units import read_number
+
+MOST_FOUND = 60
+"""Entries that a search lists."""
+MOST_NUMBERS = 12
+"""Designations that it lists of those that begin with what was typed."""
+LONGEST_SEARCH = 60
+SAME_LENGTH = 0.003
+"""Part by which a length of a bearing may differ from one that is searched for."""
 
 
 @dataclass
 class BearingTable:
-    """The bearings of the list; `version` rises with each change, `words` say what became of it."""
+    """The bearings of a person's table beside the published ones; `words` say what became of it."""
 
     own: dict[str, CatalogueBearing] = field(default_factory=dict)
-    version: int = 0
     words: str = ""
     bad: bool = False
 
@@ -32,15 +51,11 @@ class BearingTable:
         return [(one, True) for one in self.own.values()] + [(one, False) for one in published]
 
     def find(self, name: str) -> CatalogueBearing:
-        """The bearing of a name; ValueError where there is none."""
-        found = self.own.get(name) or catalogue().get(name)
-        if found is None:
-            raise ValueError(f"bearing is {name[:60]!r}; allowed: one of the list")
-        return found
+        """The bearing of a name or a designation; ValueError where there is none."""
+        return self.own.get(name) or catalogue().get(name) or read_designation(name).entry
 
     def take(self, file: str, found: dict[str, CatalogueBearing] | str) -> None:
         """Add what `read_table` made of a file."""
-        self.version += 1
         shown = " ".join(file.split())[:40] or "The file"
         if isinstance(found, str):
             self.words, self.bad = f"{shown}: {found}", True
@@ -49,6 +64,91 @@ class BearingTable:
         count = len(found)
         self.words = f"{shown}: {count} {'bearing' if count == 1 else 'bearings'} added"
         self.bad = False
+
+    def search(self, text: str) -> dict[str, Any]:
+        """Bearings that a text finds, for the browser; everything but designations where it is empty.
+
+        Entries are {choose, label, words, mark}: what the browser sends to take one, its name, its
+        dimensions, and "yours" or "estimated". `words` say why there are none.
+        """
+        text = " ".join(text[:LONGEST_SEARCH].split())
+        entries = list(islice(self._found(text), MOST_FOUND))
+        words = "" if entries else f"No match. Known by number are the series {series_words()}."
+        return {"text": text, "entries": entries, "words": words}
+
+    def _found(self, text: str) -> Iterator[dict[str, Any]]:
+        by_number = _designation(text)
+        wanted = text.lower() if by_number is None else by_number.basic.lower()
+        length = _length(text)
+        ranked: list[tuple[int, dict[str, Any]]] = []
+        for name, label in preset_labels.items():
+            rank = _rank(wanted, label, preset_notes[name])
+            if length and _has_length(presets[name].bearing, length):
+                rank = 0
+            ranked.append((rank, _entry({"preset": name}, label, "", "")))
+        for one, own in self.all():
+            words = entry_words(one)
+            rank = _rank(wanted, one.name, f"{words} {one.note}")
+            if length and _has_length(one.bearing, length):
+                rank = 0
+            mark = "yours" if own else ""
+            ranked.append((rank, _entry({"bearing": one.name}, one.name, words, mark)))
+        yield from (entry for rank, entry in ranked if rank == 0)
+        if by_number is not None:
+            yield _estimated(by_number)
+        elif len(text) > 1:
+            for basic in islice(designations(text), MOST_NUMBERS):
+                yield _estimated(read_designation(basic))
+        yield from (entry for rank, entry in ranked if rank == 1)
+
+
+def _designation(text: str) -> Designation | None:
+    """The bearing that a text is the designation of; None where it is none."""
+    try:
+        return read_designation(text)
+    except ValueError:
+        return None
+
+
+def _length(text: str) -> float | None:
+    """A length with its unit [m]; None where a text is none."""
+    try:
+        return read_number(text, "m") if not text[-1:].isdecimal() else None
+    except ValueError:
+        return None
+
+
+def _has_length(bearing: Bearing, length: float) -> bool:
+    """Whether a bearing has balls or a pitch circle of a diameter [m]."""
+    own = (bearing.ball_diameter, bearing.pitch_diameter)
+    return any(math.isclose(length, one, rel_tol=SAME_LENGTH) for one in own)
+
+
+def _rank(wanted: str, name: str, note: str) -> int:
+    """0 where all words begin words of the name, 1 where some are in the note, else 2.
+
+    Words are also found together in a name without its spaces: "nu208" in "NU 208". Short ones are
+    not looked for in notes.
+    """
+    words, low = wanted.split(), f" {name} ".lower()
+    if "".join(words) in "".join(low.split()) and len(wanted) > 3:
+        return 0
+    begun = [re.search(rf"(?<!\w){re.escape(word)}", low) is not None for word in words]
+    if all(begun):
+        return 0
+    noted = note.lower()
+    inside = (
+        len(word) > 2 and word in noted for word, own in zip(words, begun, strict=True) if not own
+    )
+    return 1 if all(inside) else 2
+
+
+def _entry(choose: dict[str, str], label: str, words: str, mark: str) -> dict[str, Any]:
+    return {"choose": choose, "label": label, "words": words, "mark": mark}
+
+
+def _estimated(one: Designation) -> dict[str, Any]:
+    return _entry({"bearing": one.name}, one.name, entry_words(one.entry), "estimated")
 
 
 def read_table(text: str) -> dict[str, CatalogueBearing] | str:
@@ -65,8 +165,8 @@ def entry_words(one: CatalogueBearing) -> str:
     """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
     bearing = one.bearing
     words = (
-        f"{bearing.n_balls} balls of {number(1e3 * bearing.ball_diameter, 5)} mm on "
-        f"{number(1e3 * bearing.pitch_diameter, 5)} mm"
+        f"{bearing.n_balls} {bearing.kind.elements} of {number(1e3 * bearing.ball_diameter, 5)} mm "
+        f"on {number(1e3 * bearing.pitch_diameter, 5)} mm"
     )
     if bearing.contact_angle:
         words += f", {number(math.degrees(bearing.contact_angle))}°"

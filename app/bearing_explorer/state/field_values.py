@@ -13,6 +13,7 @@ from typing import Any
 from bearing_explorer.state.sentences import label_inside, with_unit
 from bearingcore import Defect, RoughFloor, Scene
 from bearingcore.fields import FIELDS, Field, Range
+from bearingcore.units import read_number
 
 SHOWN_FIELDS = tuple(field for field in FIELDS if field.group)
 """Fields that can be set on the page, in its order."""
@@ -125,7 +126,7 @@ def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
     if field.optional and text in ("", "None"):
         return math.nan
     try:
-        value = float(text.replace("−", "-").replace(",", "."))
+        value = given if isinstance(given, float) else read_number(text, field.shown_unit)
     except ValueError:
         value = math.nan
     span = f"{with_unit(least, '')} to {with_unit(most, field.shown_unit)}"

@@ -52,13 +52,17 @@ from bearingcore import (
     presets,
     read_floor,
 )
-from bearingcore.bearings.drawing import OPTIONAL_FIELDS, WIDEST_CONFORMITY
+from bearingcore.bearings.ball import USUAL_GROOVES, drawn
+from bearingcore.bearings.drawing import OPTIONAL_FIELDS
 from bearingcore.common import checks
+from bearingcore.common.numbers import number
 from bearingcore.fields import Range
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
 """Characters of the name of a bearing."""
+ESTIMATED = "inside estimated"
+"""Behind the name of a bearing whose inside dimensions are estimates."""
 LARGEST_FILE = 1_000_000
 """Characters of a file with a measured floor."""
 
@@ -132,7 +136,9 @@ class SceneEditor:
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
     listed: BearingTable = field(init=False, default_factory=BearingTable)
-    """Bearings by designation."""
+    """Bearings to choose from."""
+    effects: dict[str, str] = field(init=False, default_factory=dict)
+    """Sentences on the effect of the last choices, by their names, where it is not plain."""
 
     def __post_init__(self) -> None:
         self.take_preset(self.preset)
@@ -175,8 +181,8 @@ class SceneEditor:
             raise checks.refuse("selected defect", selected + 1, f"1 to {len(defects)}")
         scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         limits = limits_of(presets[preset]) | groove_limits(scene)
-        for number in range(len(defects)):
-            check_values({**values_of(scene, number), CAGE_ANGLE: cage_angle}, limits)
+        for index in range(len(defects)):
+            check_values({**values_of(scene, index), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
         self.drop_draft()
@@ -224,9 +230,9 @@ class SceneEditor:
     def name(self) -> str:
         """Name of the bearing: the one given, else that of the preset it began from."""
         label = next((o.label for o in PRESET.options if o.name == self.preset), self.preset)
-        if self.own_name and self.own_name == self._begun_from:
-            return f"{self.own_name}, changed"
-        return self.own_name or (f"{label}, changed" if self.changed else label)
+        changed = self.own_name == self._begun_from if self.own_name else self.changed
+        name = (self.own_name or label) + (", changed" if changed else "")
+        return f"{name} ({ESTIMATED})" if self.scene.bearing.estimated else name
 
     @property
     def note(self) -> str:
@@ -235,7 +241,9 @@ class SceneEditor:
             return preset_notes.get(self.preset, "")
         if self.origin is not None and not self._begun_from:
             return self.origin.words
-        return f"Edited from “{self._begun_from or self.preset}”; its sources no longer apply."
+        still = " Some numbers are still estimates." if self.scene.bearing.estimated else ""
+        begun = self._begun_from or self.preset
+        return f"Edited from “{begun}”; its sources no longer apply.{still}"
 
     @property
     def _begun_from(self) -> str:
@@ -378,6 +386,7 @@ class SceneEditor:
     def choose(self, choice: Mapping[Any, Any]) -> Refused:
         """Take choices out of lists; what is not on a list is passed over."""
         refused: Refused = {}
+        self.effects = {}
         own = {
             "preset": self.take_preset,
             "floor": self._take_floor_kind,
@@ -483,7 +492,15 @@ class SceneEditor:
     def _take_numbers(self, how: str) -> None:
         bearing = self.scene.bearing
         if how == "drawing" and not bearing.is_drawn:
-            self._take(self.scene.replace(bearing=drawn(bearing)))
+            made = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
+            self._take(self.scene.replace(bearing=made))
+            self.effects["numbers"] = (
+                f"The grooves begin with {USUAL_GROOVES['inner']} (inner) and "
+                f"{USUAL_GROOVES['outer']} (outer) ball diameters, as is usual, in steel: change "
+                "them where the drawing says otherwise. The load-deflection factor was "
+                f"{number(bearing.load_deflection_factor / 1e6)} MN/m¹·⁵ and is now "
+                f"{number(made.load_deflection_factor / 1e6)}."
+            )
         elif how == "direct" and bearing.is_drawn:
             fields: dict[str, Any] = dict.fromkeys(OPTIONAL_FIELDS)
             self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
@@ -579,6 +596,8 @@ class SceneEditor:
                 "bad": floor.bad,
             },
             "hidden": hidden,
+            "effects": self.effects,
+            "table": {"words": self.listed.words, "bad": self.listed.bad},
         }
 
 
@@ -604,22 +623,6 @@ def _with_rows(
         raise checks.refuse("rows of balls", len(bearing.all_rows), "two of them")
     low, high = bearing.rows
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
-
-
-def drawn(bearing: Bearing) -> Bearing:
-    """A bearing of steel with a drawing that is nearest to its numbers, grooves alike."""
-    groove = 0.5 * (bearing.groove_center_distance + bearing.ball_diameter)
-    groove = min(groove, WIDEST_CONFORMITY * bearing.ball_diameter)
-    made = Bearing.from_drawing(
-        n_balls=bearing.n_balls,
-        ball_diameter=bearing.ball_diameter,
-        pitch_diameter=bearing.pitch_diameter,
-        inner_groove_radius=groove,
-        outer_groove_radius=groove,
-        contact_angle=bearing.contact_angle,
-        diametral_clearance=2.0 * bearing.radial_clearance,
-    )
-    return made.replace(rows=bearing.rows)
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

@@ -25,6 +25,8 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
+from bearingcore.bearings.catalogue import COLUMNS, NEEDED
+from bearingcore.common.numbers import with_deviation
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -63,14 +65,22 @@ class BearingEditor(ControlView):
     name = "bearing-editor"
     title = "Dimensions of the bearing"
     about = (
-        "Point at a field, or click in the picture. What it is stands below the picture. All "
-        "views follow what is changed here."
+        "Point at a field, or click in the picture. Its meaning is below the picture. Numbers take "
+        "units: 5/16 in, 12 µm. All views follow what is changed here."
     )
     needs = frozenset[str]()
     picture = True
 
     def build(self, packed: PackedSource) -> Any:
-        self.rows = BearingRows(self.forward, spec=spec_of(BEARING_GROUPS, KIND, NUMBERS))
+        table = {
+            "file": "bearings.csv",
+            "template": ";".join(COLUMNS)
+            + "\n"
+            + "6205, pump 3;9;7.94;39.04;;0.52;;0.53;0;10;14;\n",
+            "needed": ", ".join(NEEDED),
+        }
+        spec = {**spec_of(BEARING_GROUPS, KIND, NUMBERS), "table": table}
+        self.rows = BearingRows(self.forward, spec=spec)
         return self.rows
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -90,6 +100,8 @@ class BearingEditor(ControlView):
             words += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
             kind = bearing.kind.variant(bearing).replace("-", " ")
             words += f", {kind}." if bearing.rows else "."
+        if bearing.estimated:
+            words += " Estimated from the designation."
         return words[0].upper() + words[1:]
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -145,7 +157,11 @@ _FREQUENCIES = (
 
 
 def _hertz(bearing: Bearing, name: str, speed: float) -> str:
-    return f"{style.number(float(getattr(bearing, name)(speed)), 4)} Hz"
+    value = float(getattr(bearing, name)(speed))
+    if spread := bearing.frequency_spread(name):
+        return f"{with_deviation(value, spread * value, 'Hz')}, estimated"
+    counted = name.startswith("bp") and "n_balls" in bearing.estimated
+    return f"{style.number(value, 4)} Hz{', number of rollers estimated' if counted else ''}"
 
 
 def _of_each_row(bearing: Bearing, words: Callable[[Bearing], str]) -> str:

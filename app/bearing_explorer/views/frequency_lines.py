@@ -23,6 +23,8 @@ NAME_WIDTH = 0.13
 ORDER_WIDTH = 0.042
 """Of the names of its harmonics."""
 ROW_PIXELS = 17.0
+NAME_COLUMNS = ("frequency", "order", "first", "row", "of", "spread")
+"""Of the sources of names; `spread` [Hz] is how far off an estimate may be."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,8 @@ FAMILIES = (
 
 _WORDS = """
 const of = row.of ? ` row ${row.of}` : ''
-if (row.order == %(first)s) return `%(title)s${of} ${rounded(row.first, 4)} Hz`
+const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
+if (row.order == %(first)s) return `%(title)s${of} ${rounded(row.first, 4)}${give} Hz`
 const whole = Math.floor(row.order), half = row.order > whole ? '½' : ''
 return `${whole || ''}${half}×`
 """
@@ -75,9 +78,20 @@ def fundamentals(scene: Scene, row: int = 0) -> dict[str, float]:
     }
 
 
+def spreads(scene: Scene, row: int = 0) -> dict[str, float]:
+    """Errors [Hz] that an estimated inside may give each family, by its name and "_spread"."""
+    bearing, first = scene.bearing.of_row(row), fundamentals(scene, row)
+    kin = {"half": "bpfo"}
+    return {
+        f"{name}_spread": value * bearing.frequency_spread(kin.get(name, name))
+        for name, value in first.items()
+    }
+
+
 def of_rows(scene: Scene) -> list[dict[str, float]]:
-    """`fundamentals` of each row that is not like the others; one where all are alike."""
-    return [fundamentals(scene, row) for row in range(len(scene.bearing.unlike_rows))]
+    """`fundamentals` and `spreads` of each row that is unlike; one where all are alike."""
+    rows = range(len(scene.bearing.unlike_rows))
+    return [fundamentals(scene, row) | spreads(scene, row) for row in rows]
 
 
 def orders(family: Family, first: float, top: float) -> NDArray[np.float64]:
@@ -117,9 +131,7 @@ class FrequencyLines:
         self._row = ROW_PIXELS / height
         for family in FAMILIES:
             lines = packed.source(f"{prefix}_{family.name}", "frequency")
-            names = packed.source(
-                f"{prefix}_{family.name}_names", "frequency", "order", "first", "row", "of"
-            )
+            names = packed.source(f"{prefix}_{family.name}_names", *NAME_COLUMNS)
             first = 0.5 if family.name == "half" else 1
             words = _WORDS % {"first": first, "title": family.title}
             for plot in plots:
@@ -143,7 +155,7 @@ class FrequencyLines:
         sources: dict[str, dict[str, NDArray[np.float64]]] = {}
         row = 0
         for family in FAMILIES:
-            lines, names = [np.zeros(0)], [np.zeros((5, 0))]
+            lines, names = [np.zeros(0)], [np.zeros((len(NAME_COLUMNS), 0))]
             for number, first in enumerate(sets if family.name in shown else ()):
                 fundamental = first[family.name]
                 multiples = orders(family, fundamental, top)
@@ -152,14 +164,12 @@ class FrequencyLines:
                 lines.append(multiples * fundamental)
                 at = np.full(labels.size, 1.0 - self._row * (row - 0.2))
                 of = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
-                names.append(np.stack([labels * fundamental, labels, labels * fundamental, at, of]))
+                spread = np.full(labels.size, first.get(f"{family.name}_spread", 0.0))
+                where = labels * fundamental
+                names.append(np.stack([where, labels, where, at, of, spread]))
             sources[f"{self._prefix}_{family.name}"] = {"frequency": np.concatenate(lines)}
             sources[f"{self._prefix}_{family.name}_names"] = dict(
-                zip(
-                    ("frequency", "order", "first", "row", "of"),
-                    np.concatenate(names, axis=1),
-                    strict=True,
-                )
+                zip(NAME_COLUMNS, np.concatenate(names, axis=1), strict=True)
             )
         return sources
 

@@ -14,7 +14,7 @@ import param
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.messages import SceneChange, take
 from bearing_explorer.serve.live_component import LiveComponent
-from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice
+from bearing_explorer.state.choice_list import CHOICE_LIST, Choice
 from bearing_explorer.state.field_values import CAGE_ANGLE, SCENE_GROUPS, SHOWN_FIELDS
 
 
@@ -89,11 +89,11 @@ MAIN = ("extent_deg", "depth_um", "fy_n", "shaft_speed_hz")
 class Controls(Rows):
     """The controls next to the figures: bearing, defects, turning, load."""
 
-    _esm = scripts("element.js", "asking.js", "rows.js", "controls.js")
+    _esm = scripts("element.js", "asking.js", "rows.js", "bearing_search.js", "controls.js")
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         spec = {
-            **spec_of(SCENE_GROUPS, PRESET),
+            **spec_of(SCENE_GROUPS),
             "main": MAIN,
             "extent": "extent_deg",
             "turning": CAGE_ANGLE,

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from bearing_explorer.state import address
 from bearing_explorer.state.bearing_list import BearingTable, entry_words, read_table
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import catalogue
+from bearingcore import catalogue, limits, presets
+from bearingcore.scene.presets import preset_labels
 
 TABLE = "name;balls;ball_diameter_mm;pitch_diameter_mm\nPump 3;9;7,94;39,04\n"
 
@@ -25,9 +27,7 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
 
 def test_a_table_of_ones_own_stands_first_and_can_be_used() -> None:
     editor = SceneEditor("6205")
-    before = editor.listed.version
     editor.listed.take("ours.csv", read_table(TABLE))
-    assert editor.listed.version > before
     assert editor.listed.words == "ours.csv: 1 bearing added"
     first, own = editor.listed.all()[0]
     assert (first.name, own) == ("Pump 3", True)
@@ -80,4 +80,72 @@ def test_what_is_no_table_is_refused_in_sentences(text: str, words: str) -> None
 
 def test_what_is_not_on_the_list_is_refused() -> None:
     editor = SceneEditor("6205")
-    assert "one of the list" in editor.choose({"bearing": "<script>"})["bearing"]
+    assert "60, 62, 63" in editor.choose({"bearing": "<script>"})["bearing"]
+
+
+def found(text: str) -> list[tuple[str, str]]:
+    return [(one["label"], one["mark"]) for one in BearingTable().search(text)["entries"]]
+
+
+@pytest.mark.parametrize(
+    ("text", "first"),
+    [
+        ("6208", ("6208", "estimated")),
+        ("6208-2RS/C3", ("6208-2RS/C3", "estimated")),
+        ("7208 bep", ("7208, angular contact, 15°", "")),
+        ("NU 208", ("NU 208, cylindrical rollers", "")),
+        ("nu", ("NU 208, cylindrical rollers", "")),
+        ("2206", ("2206", "estimated")),
+        ("0.235 in", ("NICE, MFPT", "")),
+        ("5,97 mm", ("NICE, MFPT", "")),
+        ("cwru", ("6205-2RS, CWRU drive end", "")),
+        ("paderborn", ("6203, Paderborn", "")),
+    ],
+)
+def test_one_search_finds_everything(text: str, first: tuple[str, str]) -> None:
+    assert found(text)[0] == first
+
+
+def test_designations_are_offered_besides_what_is_published() -> None:
+    assert ("7208 BEP", "estimated") in found("7208 BEP")
+    assert ("NU 208", "estimated") in found("NU 208")
+    assert ("6205, deep groove bearing", "") in found("6205-2Z")
+    assert ("6205-2RS, CWRU drive end", "") in found("6205-2Z")
+
+
+def test_an_empty_search_lists_presets_and_tables() -> None:
+    labels = [label for label, _ in found("")]
+    assert labels[: len(presets)] == list(preset_labels.values())
+    assert set(catalogue()) <= set(labels)
+
+
+def test_a_search_without_a_match_says_what_is_known() -> None:
+    answer = BearingTable().search("22208")
+    assert answer["entries"] == []
+    assert "60, 62, 63" in answer["words"]
+
+
+def test_every_entry_can_be_taken() -> None:
+    for text in ("", "62", "nj 3", "12", "73"):
+        for one in BearingTable().search(text)["entries"]:
+            assert SceneEditor("fan-rig").choose(one["choose"]) == {}
+
+
+def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.choose({"bearing": "6208-2RS/C3"})
+    assert editor.name == "6208-2RS/C3 (inside estimated)"
+    assert "Estimated" in editor.note
+    link = address.write(address.place_of(editor))
+    again = SceneEditor("6205")
+    address.opened(link, again)
+    assert again.name == editor.name
+    assert again.scene == editor.scene
+    editor.choose({"kind": "back-to-back"})
+    assert editor.scene.bearing.estimated
+    assert any("inside dimensions" in one.name for one in limits(editor.scene))
+    for name in ("n_balls", "ball_diameter_mm", "pitch_diameter_mm"):
+        editor.set({name: editor.values[name] * 0.999 if name != "n_balls" else 8})
+    assert editor.scene.bearing.estimated == ()
+    assert "estimated" not in editor.name
+    assert not any("inside dimensions" in one.name for one in limits(editor.scene))

@@ -74,20 +74,23 @@ def test_a_drawing_gives_what_follows_from_it(editor: SceneEditor) -> None:
     assert editor.choose({"numbers": "drawing"}) == {}
     drawn = editor.scene.bearing
     assert drawn.is_drawn
-    assert drawn.groove_center_distance == pytest.approx(50e-6)
+    assert drawn.inner_groove_radius == pytest.approx(0.52 * drawn.ball_diameter)
+    assert drawn.outer_groove_radius == pytest.approx(0.53 * drawn.ball_diameter)
+    assert "0.52" in editor.state()["effects"]["numbers"]
     hidden = editor.state()["hidden"]
     assert "load_deflection_factor" in hidden
     assert "inner_groove_radius_mm" not in hidden
     refused, changed = editor.set({"inner_groove_radius_mm": 4.2})
     assert refused == {}
-    assert editor.scene.bearing.groove_center_distance == pytest.approx(225e-6)
+    assert editor.scene.bearing.groove_center_distance == pytest.approx(440e-6)
     assert editor.scene.bearing.load_deflection_factor < drawn.load_deflection_factor
-    assert changed["groove_center_distance_um"] == pytest.approx(225.0)
+    assert changed["groove_center_distance_um"] == pytest.approx(440.0)
     refused, _ = editor.set({"inner_groove_radius_mm": 3.9})
     assert "inner groove radius" in refused["inner_groove_radius_mm"]
     editor.choose({"numbers": "direct"})
     assert not editor.scene.bearing.is_drawn
-    assert editor.scene.bearing.groove_center_distance == pytest.approx(225e-6)
+    assert editor.scene.bearing.groove_center_distance == pytest.approx(440e-6)
+    assert editor.state()["effects"] == {}
 
 
 def test_grooves_go_with_their_ball() -> None:

@@ -1,0 +1,93 @@
+// One search over all bearings: presets, published ones, those of a person's table, designations.
+// rows.js is put in front of this file. The server finds; what it finds is a list below the field.
+
+const SEARCH_PAUSE = 150  // ms without a key until a text is sent
+
+function bearing_search(model, panel) {
+  const list = element("ul", { id: "found-bearings", role: "listbox", "aria-label": "Bearings", hidden: "" })
+  const input = element("input", { type: "search", id: "choice-preset", role: "combobox", maxlength: "60",
+    autocomplete: "off", spellcheck: "false", "aria-autocomplete": "list", "aria-expanded": "false",
+    "aria-controls": "found-bearings", placeholder: "6208-2RS/C3, NU 208, 0.235 in \u2026" })
+  const status = element("p", { class: "note", role: "status" })
+  const refusal = element("p", { class: "refusal", role: "alert", hidden: "" })
+  const note = element("p", { class: "note", id: "note-preset" })
+  const more = button("?", () => {}, { class: "info", "aria-controls": "note-preset",
+    "aria-label": "About this bearing", title: "About this bearing" })
+  unfolds(more, note)
+  let name = "", active = -1, pause = 0
+
+  const search = () => model.send_msg({ search: input.value === name ? "" : input.value })
+  const open = (shown) => {
+    list.hidden = !shown
+    input.setAttribute("aria-expanded", String(shown))
+    if (shown) return
+    status.textContent = ""
+    point(-1)
+  }
+  const close = () => {
+    clearTimeout(pause)
+    input.value = name
+    open(false)
+  }
+  const point = (index) => {
+    active = index
+    for (const [i, one] of [...list.children].entries()) one.setAttribute("aria-selected", String(i === index))
+    const one = list.children[index]
+    input.setAttribute("aria-activedescendant", one?.id ?? "")
+    one?.scrollIntoView({ block: "nearest" })
+  }
+  const take = (choose) => {
+    refuse("")
+    open(false)
+    panel.send({ choose })
+  }
+  const refuse = (sentence) => {
+    refusal.textContent = sentence
+    refusal.hidden = !sentence
+  }
+  const show = ({ text, entries, words }) => {
+    if (input.getRootNode().activeElement !== input || text !== (input.value === name ? "" : input.value.trim().replace(/\s+/g, " "))) return
+    list.replaceChildren(...entries.map(({ choose, label, words: about, mark }, i) => {
+      const one = element("li", { role: "option", id: `found-${i}`, "aria-selected": "false" },
+        element("strong", {}, label, ...(mark ? [element("span", { class: "mark" }, mark)] : [])), about)
+      one.addEventListener("click", () => { input.blur(); take(choose) })
+      one.take = () => take(choose)
+      return one
+    }))
+    open(entries.length > 0)
+    status.textContent = words || `${entries.length} found`
+    point(-1)
+  }
+  // the field keeps the focus until the choice is made
+  list.addEventListener("pointerdown", (event) => event.preventDefault())
+  input.addEventListener("focus", () => { input.select(); search() })
+  input.addEventListener("input", () => {
+    clearTimeout(pause)
+    pause = setTimeout(search, SEARCH_PAUSE)
+  })
+  input.addEventListener("blur", close)
+  input.addEventListener("keydown", (event) => {
+    const count = list.children.length
+    if (event.key === "Escape") input.blur()
+    else if (event.key === "Enter" && !list.hidden) { list.children[Math.max(active, 0)].take(); input.blur() }
+    else if (/^Arrow(Up|Down)$/.test(event.key) && !list.hidden)
+      point((active + (event.key === "ArrowDown" ? 1 : count - (active < 0 ? 0 : 1))) % count)
+    else return
+    event.preventDefault()
+  })
+  model.on("msg:custom", ({ found, refused }) => {
+    if (found) show(found)
+    const sentence = refused?.bearing ?? refused?.preset
+    if (sentence) refuse(sentence)
+  })
+  const follow_state = ({ bearing }) => {
+    if (!bearing) return
+    name = bearing.name
+    note.textContent = bearing.note
+    if (input.getRootNode().activeElement !== input) input.value = name
+  }
+  const root = element("div", { class: "choice choice-preset" },
+    element("div", { class: "head" }, element("label", { for: "choice-preset" }, "Bearing"), more),
+    element("div", { class: "search" }, input, list), status, refusal, note)
+  return { root, refusal, select: input, show: () => refuse(""), follow_state }
+}

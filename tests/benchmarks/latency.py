@@ -315,8 +315,8 @@ def main() -> int:
             for case in CASES:
                 if not chosen.tab or case.tab in chosen.tab:
                     # each begins with the same scene, whatever the one before has made of it
-                    page.locator("#choice-preset").select_option(preset)
-                    page.wait_for_timeout(500)
+                    page.goto(f"{server.url}?v=1&preset={preset}&tab={case.tab}")
+                    page.wait_for_function("window.__frames >= 1", timeout=60000)
                     try:
                         lines = measure(
                             page, case, chosen.steps, chosen.seconds, server.process.pid

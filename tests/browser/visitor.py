@@ -104,6 +104,14 @@ class Visitor:
             label=option
         )
 
+    def find_bearing(self, text: str) -> None:
+        """Search for a bearing and take the first that is found."""
+        field = self.page.get_by_role("combobox", name="Bearing", exact=True)
+        field.fill(text)
+        first = self.page.get_by_role("option").first
+        expect(first).to_contain_text(re.compile(re.escape(text.split()[0]), re.IGNORECASE))
+        field.press("Enter")
+
     def bring(self, where: Locator, name: str, content: bytes) -> None:
         """Choose a file from the disk."""
         where.locator("input[type=file]").first.set_input_files(

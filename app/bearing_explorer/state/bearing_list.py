@@ -66,7 +66,7 @@ class BearingTable:
         self.bad = False
 
     def search(self, text: str) -> dict[str, Any]:
-        """Bearings that a text finds, for the browser; everything but designations where it is empty.
+        """Bearings that a text finds, for the browser; an empty one finds all but designations.
 
         Entries are {choose, label, words, mark}: what the browser sends to take one, its name, its
         dimensions, and "yours" or "estimated". `words` say why there are none.

@@ -6,9 +6,9 @@
     drawn.show()      # in the browser; in a notebook the figure shows by itself
     drawn.table()     # the numbers, as in the view's CSV file
 
-They draw what the page draws, by the same code; `of_sweep` draws a sweep over two fields as the tab
-Explore does. `names` lists them; `views.still_figure.figure_of`
-lists their parameters, and `views.still_figure.Figure` is their result.
+They draw what the page draws, by the same code. `names` lists them; `views.still_figure.figure_of`
+lists their parameters, and `views.still_figure.Figure` is their result. `of_sweep` gives a sweep
+over two fields as HoloViews.
 """
 
 from __future__ import annotations
@@ -18,11 +18,13 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.plots.plane import Field, PlaneFigures
+from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
+from bearing_explorer.plots.plane import BINS, Field, color_limits
 from bearing_explorer.views.base import View
-from bearing_explorer.views.still_figure import Figure, FilledSources, StillFigures, figure_of
+from bearing_explorer.views.still_figure import Figure, figure_of
 
 if TYPE_CHECKING:
+    import holoviews as hv
     from xarray import DataArray
 
 _VIEWS: dict[str, type[View]] = {
@@ -33,19 +35,36 @@ names = tuple(_VIEWS)
 """The functions that there are."""
 
 
-def of_sweep(found: DataArray) -> StillFigures:
-    """One output of a sweep over two fields: a map, lines across it, and a histogram.
+def of_sweep(found: DataArray) -> hv.AdjointLayout:
+    """One output of a sweep over two fields as HoloViews: a map and its histogram.
+
+    Angles are in degrees; HoloViews and hvPlot go on from there: slices, overlays, selections.
 
     Raises
     ------
     ValueError
         for another number of fields.
     """
-    field, sources = Field.of_sweep(found), FilledSources()
-    drawn = PlaneFigures(sources, "sweep", [field.x[0], field.y[0]])
-    drawn.write(field)
-    follow = sources.fill(*drawn.data(field))
-    return StillFigures("sweep", field.words, "", drawn.plots, follow)
+    import holoviews as hv
+
+    hv.extension("bokeh", logo=False)
+    field = Field.of_sweep(found)
+    values, unit = field.scaled
+    sides = [hv.Dimension(side.words, unit=side.unit or None) for side, _ in (field.x, field.y)]
+    number = hv.Dimension(field.words, unit=unit or None)
+    image = hv.Image((field.x[1], field.y[1], values), sides, number)
+    limits = color_limits(values)
+    image = image.opts(
+        hv.opts.Image(
+            cmap=hex_colors(DIVERGING if limits[0] == -limits[1] else SEQUENTIAL),
+            clim=limits,
+            colorbar=True,
+            tools=["hover"],
+            frame_width=420,
+            frame_height=320,
+        )
+    )
+    return image.hist(num_bins=BINS)
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

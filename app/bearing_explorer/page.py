@@ -28,6 +28,7 @@ from bearing_explorer.views.depth_profile import DepthProfile
 from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
+from bearing_explorer.views.extent import SpallExtent
 from bearing_explorer.views.life import LifeOfBearing
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.maps import StiffnessMaps
@@ -76,7 +77,14 @@ SECTIONS = (
     Section(
         "diagnosis",
         "Diagnosis",
-        (MeasuredSignal, PartDiagnosis, DefectSize, MeasuredSpectrum, MeasuredEnvelope),
+        (
+            MeasuredSignal,
+            PartDiagnosis,
+            SpallExtent,
+            DefectSize,
+            MeasuredSpectrum,
+            MeasuredEnvelope,
+        ),
     ),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels), "How sure"),
 )

@@ -39,7 +39,7 @@ from bearingcore import (
 from bearingcore.diagnosis.part import listened_signal
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
-from bearingcore.diagnosis.size.sizing import AT_MOST
+from bearingcore.diagnosis.size.answer import AT_MOST
 from bearingcore.signals.filter_bank import Envelope
 from tests.benchmarks.machine import pace
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
@@ -104,12 +104,12 @@ def sizes(record: Record, by_hand: bool = False) -> Iterator[Sized]:
                 yield Sized(told, math.nan, math.nan, False, CANNOT, str(refused))
                 continue
             if not found.candidates:
-                yield Sized(told, math.nan, math.nan, False, CANNOT, found.status)
+                yield Sized(told, math.nan, math.nan, False, CANNOT, found.sentence)
                 continue
             extent = math.degrees(found.best.extent)
             spread = math.degrees(found.extent_uncertainty)
             yield Sized(
-                told, extent, spread, found.conclusive, size_verdict(record, found), found.status
+                told, extent, spread, found.conclusive, size_verdict(record, found), found.sentence
             )
 
 

@@ -94,6 +94,7 @@ def size(family: int, effects: tuple[str, ...], steady: bool, number: int) -> An
         recording,
         scene.replace(extent=0.5),
         fault="outer race",  # known here: the question is how large
+        support_known=True,
         path=STEADY if steady else PathTolerances(),
     )
     taken = time.perf_counter() - begin
@@ -114,7 +115,7 @@ def size(family: int, effects: tuple[str, ...], steady: bool, number: int) -> An
         tuple(sized.scores.tolist()),
         tuple(math.degrees(c.extent) for c in sized.candidates),
         f"{scene.shaft_speed / 2.0 / math.pi:.0f} Hz {-scene.load.fy:.0f} N",
-        sized.status,
+        sized.sentence,
         taken,
     )
 

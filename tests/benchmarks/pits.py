@@ -26,7 +26,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bearingcore import Defect, Scene, presets
-from bearingcore.diagnosis.size.sizing import AT_MOST, size_defect
+from bearingcore.diagnosis.size.answer import AT_MOST
+from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.scene.pit import pit
 from bearingcore.signals.recording import Recording
 from tests.helpers.simulated import simulated_recording
@@ -113,7 +114,7 @@ def size(family: int, number: int) -> Answer:
     )
     recording = Recording(clean.acceleration + noise, RATE, clean.directions)
     told = presets["fan-rig"].replace(fy=scene.load.fy, shaft_speed=scene.shaft_speed, extent=0.5)
-    sized = size_defect(recording, told, fault="outer race")
+    sized = size_defect(recording, told, fault="outer race", support_known=True)
     return Answer(
         number,
         kind,
@@ -125,7 +126,7 @@ def size(family: int, number: int) -> Answer:
         sized.bound,
         math.degrees(sized.end(sized.bound)) if sized.bound else math.nan,
         f"{scene.shaft_speed / 2.0 / math.pi:.1f} Hz {-scene.load.fy:.0f} N {decibels:.0f} dB",
-        sized.status,
+        sized.sentence,
     )
 
 

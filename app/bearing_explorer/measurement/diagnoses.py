@@ -1,6 +1,6 @@
-"""Diagnoses of the damaged part in the background: one for each recording and bearing.
+"""Diagnoses of the damaged part, and extents of spalls, in the background.
 
-Holds no Panel. A diagnosis takes from tenths of a second to seconds; pictures do not wait for it.
+Holds no Panel. An answer takes from tenths of a second to seconds; pictures do not wait for it.
 A view calls `of` for an answer that is there, and `want` for one that is not; when it has come,
 everything is drawn again. Only the newest question is worked on.
 """
@@ -11,12 +11,23 @@ import asyncio
 import logging
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
+from typing import Generic, Protocol, TypeVar
 
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.executors import JOBS
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.state.sentences import sentence_of
-from bearingcore import Bearing, Diagnosis, diagnose
+from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
+
+
+class _Question(Protocol):
+    @property
+    def measured(self) -> Measured:
+        """The signal it is about."""
+
+
+Asked = TypeVar("Asked", bound=_Question)
+Found = TypeVar("Found")
 
 log = logging.getLogger(__name__)
 
@@ -69,21 +80,60 @@ class Question:
         return ((1.0 - ROUGH) * speed, (1.0 + ROUGH) * speed) if self.speed == "rough" else speed
 
 
+@dataclass(frozen=True)
+class ExtentQuestion:
+    """A diagnosed recording whose spall is to be measured.
+
+    `race`: "outer" or "inner" where it is known to be damaged, "" for what the diagnosis names;
+    `load`: radial load on the bearing [N], where it is known.
+    """
+
+    about: Question
+    bearing: Bearing
+    race: str = ""
+    load: float | None = None
+    diagnosis: Diagnosis | None = field(default=None, compare=False)
+
+    @property
+    def measured(self) -> Measured:
+        """The signal."""
+        return self.about.measured
+
+
 def answered(question: Question) -> Diagnosis | str:
     """The diagnosis, or a sentence where there can be none. For any thread."""
-    try:
-        return diagnose(
-            question.measured.recording, question.bearing, question.shaft_speed, slip=SLIP
+    recording = question.measured.recording
+    return _or_why_not(
+        lambda: diagnose(recording, question.bearing, question.shaft_speed, slip=SLIP)
+    )
+
+
+def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
+    """The extent, or a sentence where there can be none. For any thread."""
+    return _or_why_not(
+        lambda: measure_extent(
+            question.measured.recording,
+            question.bearing,
+            question.about.shaft_speed,
+            race=question.race or None,
+            load=question.load,
+            diagnosis=question.diagnosis,
         )
+    )
+
+
+def _or_why_not(compute: Callable[[], Found]) -> Found | str:
+    try:
+        return compute()
     except ValueError as error:
         return sentence_of(error)
     except Exception:
-        log.exception("a diagnosis failed")
+        log.exception("the analysis of a signal failed")
         return FAILED
 
 
-class Diagnoses:
-    """The diagnoses of one session. `want` and `stop` belong on its event loop.
+class Answers(Generic[Asked, Found]):
+    """The answers of one session. `want` and `stop` belong on its event loop.
 
     Parameters
     ----------
@@ -91,37 +141,37 @@ class Diagnoses:
         runs a change of the page's models and sends it, as `live.one_message` does.
     draw
         requests a drawing.
+    compute
+        answers a question, in a thread.
     """
 
     def __init__(
-        self, assign: Callable[[Change], Awaitable[None]], draw: Callable[[], None]
+        self,
+        assign: Callable[[Change], Awaitable[None]],
+        draw: Callable[[], None],
+        compute: Callable[[Asked], Found | str],
     ) -> None:
         self._assign = assign
         self._draw = draw
-        self._known: dict[Question, Diagnosis | str] = {}
-        self._wanted: Question | None = None
+        self._compute = compute
+        self._known: dict[Asked, Found | str] = {}
+        self.wanted: Asked | None = None
         self._task: asyncio.Task[None] | None = None
 
-    def of(self, question: Question) -> Diagnosis | str | None:
+    def of(self, question: Asked) -> Found | str | None:
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
         return self._known.get(question)
 
-    def newest(self, measured: Measured, bearing: Bearing) -> Diagnosis | None:
-        """The diagnosis of a recording on a bearing, at the speed of the newest question."""
-        speed = self._wanted.speed if self._wanted is not None else "given"
-        answer = self._known.get(Question.about(measured, bearing, speed))
-        return answer if isinstance(answer, Diagnosis) else None
-
-    def keep(self, question: Question, answer: Diagnosis | str) -> None:
+    def keep(self, question: Asked, answer: Found | str) -> None:
         """Keep an answer; those about other recordings leave, and the oldest."""
         kept = {q: a for q, a in self._known.items() if q.measured is question.measured}
         while len(kept) >= MOST_KNOWN:
             kept.pop(next(iter(kept)))
         self._known = kept | {question: answer}
 
-    def want(self, question: Question) -> None:
+    def want(self, question: Asked) -> None:
         """Have it answered, in place of what was wanted before; without a loop nothing is."""
-        self._wanted = question
+        self.wanted = question
         if question in self._known or not (self._task is None or self._task.done()):
             return
         try:
@@ -132,7 +182,7 @@ class Diagnoses:
 
     def stop(self) -> None:
         """The session is over."""
-        self._wanted = None
+        self.wanted = None
         self._known = {}
         if self._task is not None:
             self._task.cancel()
@@ -140,11 +190,11 @@ class Diagnoses:
 
     async def _work(self) -> None:
         loop = asyncio.get_running_loop()
-        while (question := self._wanted) is not None and question not in self._known:
-            answer = await loop.run_in_executor(JOBS, answered, question)
-            if self._wanted is None:
+        while (question := self.wanted) is not None and question not in self._known:
+            answer = await loop.run_in_executor(JOBS, self._compute, question)
+            if self.wanted is None:
                 return
-            if self._wanted.measured is question.measured:
+            if self.wanted.measured is question.measured:
                 self.keep(question, answer)
-            if self._wanted == question:
+            if self.wanted == question:
                 await self._assign(self._draw)

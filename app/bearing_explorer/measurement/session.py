@@ -17,7 +17,13 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.measurement.background import noise_level, true_part
-from bearing_explorer.measurement.diagnoses import Diagnoses
+from bearing_explorer.measurement.diagnoses import (
+    Answers,
+    ExtentQuestion,
+    Question,
+    answered,
+    extent_of,
+)
 from bearing_explorer.measurement.form import (
     LONGEST_TEXT,
     SIZES,
@@ -43,7 +49,16 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
-from bearingcore import Recording, Scene, Sizing, Table, read_table
+from bearingcore import (
+    Bearing,
+    Diagnosis,
+    MeasuredExtent,
+    Recording,
+    Scene,
+    Sizing,
+    Table,
+    read_table,
+)
 from bearingcore.common.numbers import thousands, with_prefix
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.errors import FieldError
@@ -143,7 +158,9 @@ class Measurement:
         self._assign = assign
         self._draw = draw
         #: which part is damaged, looked for in the background
-        self.diagnoses = Diagnoses(assign, draw)
+        self.diagnoses: Answers[Question, Diagnosis] = Answers(assign, draw, answered)
+        #: how long the spall is, when that is known
+        self.extents: Answers[ExtentQuestion, MeasuredExtent] = Answers(assign, draw, extent_of)
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
         self._cut = ""
@@ -159,8 +176,22 @@ class Measurement:
         self._ended = True
         self._upload = self._table = None
         self.diagnoses.stop()
+        self.extents.stop()
         for task in self._tasks:
             task.cancel()
+
+    def question(self, bearing: Bearing) -> Question | None:
+        """The newest question of which part is damaged; None where nothing is measured."""
+        if self.measured is None:
+            return None
+        newest = self.diagnoses.wanted
+        return Question.about(self.measured, bearing, newest.speed if newest else "given")
+
+    def diagnosis(self, bearing: Bearing) -> Diagnosis | None:
+        """The answer to it, where there is one already."""
+        question = self.question(bearing)
+        found = None if question is None else self.diagnoses.of(question)
+        return found if isinstance(found, Diagnosis) else None
 
     def redraw(self) -> None:
         """Draw again with what the views know now."""

@@ -397,7 +397,7 @@ class Survey:
         except ValueError as error:
             return math.nan, sentence_of(error)
         missed = found.error / self.question.output.unit_si
-        return missed, "" if math.isfinite(missed) else found.sizing.status
+        return missed, "" if math.isfinite(missed) else found.sizing.sentence
 
 
 @cached

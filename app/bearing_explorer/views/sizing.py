@@ -25,7 +25,6 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import focused
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.frequency_lines import FAMILIES
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
@@ -52,13 +51,13 @@ OUTER, INNER = "outer race", "inner race"
 FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
 """Parts that may be chosen as damaged: value and words."""
 
+KNOWN = "known"
 SUPPORTS = [
-    ["", "as in the scene"],
-    ["guess", "a guess: others are tried, in five times the time"],
+    ["", "a guess: others are tried, in five times the time"],
+    [KNOWN, "as in the scene"],
 ]
 """Knowledge of the machine's masses and springs: value and words."""
 
-_KNOCK_WORDS = "return 'knock'"
 _EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
 
 
@@ -70,12 +69,11 @@ class DefectSize(JobView[Sized], MeasuredView):
     """Candidates for the extent with their probabilities, and their curves over the measured."""
 
     name = "sizing"
-    title = "3  How large"
+    title = "4  How long, by simulation"
     about = (
-        "How long a defect of the outer race is. Every extent is simulated. The time from a "
-        "ball's entry to a ball's exit gives the extent up to whole ball spacings. So every "
-        "extent is rated by how well it explains the mean ball pass and the spectrum. Coloured: "
-        "the candidate that is shown. Thin: measured."
+        "Whole ball spacings too, where masses and springs of the machine are known. Every extent "
+        "on the outer race is simulated and rated by how well it explains the mean ball pass and "
+        "the spectrum. Coloured: the candidate that is shown. Thin: measured."
     )
     needs = frozenset()
     start = "Find the size"
@@ -94,12 +92,11 @@ class DefectSize(JobView[Sized], MeasuredView):
         seconds = packed.range("sizing_time", 0.0, 0.03)
         frequency = packed.range("sizing_frequency", 0.0, 2500.0)
         events = packed.source("sizing_events", "time", "exit", "row", "shift")
-        knocks = packed.source("sizing_knocks", "time", "shift")
         self._rows = {}
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         for dof in SHOWN:
             self._rows[dof] = pn.Row(
-                self._pass_plot(packed, dof, seconds, events, knocks),
+                self._pass_plot(packed, dof, seconds, events),
                 self._spectrum_plot(packed, dof, frequency),
                 stylesheets=[style.WRAPPED],
                 **wide,
@@ -114,9 +111,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         self.hidden = pn.Column(self.job, self._answer_part, visible=False, **wide)
         return self.hidden
 
-    def _pass_plot(
-        self, packed: PackedSource, dof: str, seconds: Range1d, events: Any, knocks: Any
-    ) -> figure:
+    def _pass_plot(self, packed: PackedSource, dof: str, seconds: Range1d, events: Any) -> figure:
         plot = style.make_figure(
             style.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
             style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
@@ -125,8 +120,6 @@ class DefectSize(JobView[Sized], MeasuredView):
             height=HEIGHT,
             title=f"Mean ball pass along {dof}",
         )
-        plot.vspan("time", source=knocks, line_color=style.DEFECT, line_width=5, line_alpha=0.28)
-        write_over(plot, knocks, _KNOCK_WORDS, "time", 0.06, FAMILIES[0].ink, x_offset="shift")
         plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
         write_over(plot, events, _EDGE_WORDS, "time", "row", style.INK, x_offset="shift")
         self._curves(packed, plot, dof, "pass", "time", "size")
@@ -177,7 +170,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         fault = given.get("fault") or None
         if fault not in (None, OUTER):
             raise ValueError(f"Not possible: damaged is {OUTER!r}, or what the diagnosis says.")
-        known = given.get("support", "") != "guess"
+        known = given.get("support") == KNOWN
 
         def work(job: Work) -> str:
             return compute(job, measured, scene, fault, known)
@@ -271,10 +264,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     def _nothing(self) -> Sources:
         none = np.zeros(0)
         bands = dict.fromkeys(("low", "high", "direction", "number", "label_at"), none)
-        sources: Sources = {
-            "sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none),
-            "sizing_knocks": {"time": none, "shift": none},
-        }
+        sources: Sources = {"sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none)}
         for dof in SHOWN:
             for who in ("measured", "candidate"):
                 sources[f"sizing_pass_{who}_{dof}"] = {"time": none, "size": none}
@@ -302,7 +292,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         if sized is None:
             return self._not_yet(results)
         sizing = sized.sizing
-        words = sizing.status
+        words = sizing.sentence
         if sizing.conclusive:
             words += f" Along the race that is {along_race(sizing.best.extent, sized.scene)}."
         truth = sized.measured.true_extent
@@ -317,16 +307,14 @@ class DefectSize(JobView[Sized], MeasuredView):
     def _not_yet(self, results: Results) -> str:
         """That nothing was looked for, and whether there is something to look for."""
         words = "The size has not been looked for yet."
-        measured, measurement = self.measured, self.measurement
-        if measured is None or measurement is None:
-            return words
-        found = measurement.diagnoses.newest(measured, results.scene.bearing)
+        measurement = self.measurement
+        found = None if measurement is None else measurement.diagnosis(results.scene.bearing)
         if found is None or found.fault == OUTER:
             return words
         if found.fault == INNER:
             return (
                 f"{words} The inner race is damaged: its defect turns with the shaft, so its size "
-                "cannot be estimated this way."
+                "cannot be estimated this way. Step 3 measures it."
             )
         return (
             f"{words} Step 2 does not say that the outer race is damaged. If that is known from "
@@ -350,7 +338,7 @@ def compute(
     measured: Measured,
     scene: Scene,
     fault: str | None = None,
-    support_known: bool = True,
+    support_known: bool = False,
 ) -> str:
     """Size the defect; `fault` where it is known what is damaged. Runs in a job's thread."""
     started = time.perf_counter()
@@ -383,31 +371,21 @@ def compute(
 def status(sized: Sized) -> dict[str, Any]:
     """The certainty of the answer in words and colour, with its grounds."""
     sizing = sized.sizing
-    best, events, passes = sizing.best, sizing.events, sizing.passes
+    best, passes = sizing.best, sizing.passes
     scene = sized.scene
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     off = 100.0 * (passes.frequency / nominal - 1.0)
     side = "above" if off > 0.0 else "below"
     spacing = math.degrees(scene.bearing.ball_spacing)
-    off_by = events.time_uncertainty
-    known = math.isfinite(off_by) and off_by < 0.5 * events.time_difference
     details = [
         f"entry to exit Δt = {style.with_prefix(sizing.time_difference, 's')}",
-        *(
-            [
-                f"knocks in the signal {style.number(1e3 * events.time_difference)} ± "
-                f"{style.number(1e3 * off_by, 1)} ms apart"
-            ]
-            if known
-            else []
-        ),
         f"ball spacing {style.number(spacing, 3)}°",
         f"{passes.n_passes} ball passes at {style.number(passes.frequency, 4)} Hz"
         + (f", {abs(off):.2f} % {side} BPFO" if abs(off) >= 0.01 else ""),
     ]
     if sizing.bound:
-        # the status says how far: it is the bound that counts, not where the search ended
-        words = sizing.status.partition(":")[0].rstrip(".")
+        # it is the bound that counts, not where the search ended
+        words = f"The defect extends over {in_degrees(sizing.end(sizing.bound))} {sizing.bound}"
         return {"mood": "good", "words": words, "details": details}
     if not sizing.conclusive:
         return {"mood": "bad", "words": "The signal cannot tell", "details": details}
@@ -446,30 +424,22 @@ def in_order(values: NDArray[np.float64], first: int) -> NDArray[np.float64]:
 
 
 def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> Sources:
-    """Times at which balls enter and leave by the candidate, and those of impacts in the signal.
-
-    Time 0 is at the phase `entry`.
-    """
+    """Times at which balls enter and leave by the candidate; time 0 is at the phase `entry`."""
 
     def places(*phases: float) -> NDArray[np.float64]:
         turns = (np.array(phases) - entry) / (2.0 * math.pi)
         # rounding must not send the very phase of the entry around
         return ((turns + BEFORE + 1e-9) % 1.0 - BEFORE - 1e-9) * period
 
-    def shift(times: NDArray[np.float64], width: float) -> NDArray[np.float64]:
-        """Offset of names [px]: left of their lines at the right end."""
-        return np.where(times > (0.8 - BEFORE) * period, -width, 4.0)
-
     times = places(*candidate.phases())
-    knocks = places(sizing.events.entry_phase, sizing.events.exit_phase)
     return {
         "sizing_events": {
             "time": times,
             "exit": np.array([0.0, 1.0]),
             "row": np.array([0.93, 0.82]),
-            "shift": shift(times, 66.0),
-        },
-        "sizing_knocks": {"time": knocks, "shift": shift(knocks, 40.0)},
+            # left of their lines at the right end
+            "shift": np.where(times > (0.8 - BEFORE) * period, -66.0, 4.0),
+        }
     }
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,9 @@ from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
 from bearingcore.diagnosis.extent.release import plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
+from bearingcore.errors import Status
 from bearingcore.scene.defect import RACES
 from bearingcore.signals.averaging import least_passes
 from bearingcore.signals.recording import Recording
@@ -30,7 +31,7 @@ SAMPLES_A_DEGREE = 1.0
 """Of the recording for a degree of the race, below which knocks cannot be located."""
 
 
-class ExtentStatus(StrEnum):
+class ExtentStatus(Status):
     """The outcome of a measurement of the extent."""
 
     MEASURED = "measured"
@@ -124,24 +125,30 @@ class MeasuredExtent:
         return self.status == ExtentStatus.MEASURED
 
     @property
-    def sentence(self) -> str:
-        """The answer in a sentence."""
-        spacing = math.degrees(self.ball_spacing)
-        if self.status == ExtentStatus.EITHER:
-            one, other = (
-                math.degrees(way + self.offset)
-                for way in (self.separation, self.ball_spacing - self.separation)
-            )
+    def answer(self) -> str:
+        """The answer in a few words: "5.0° (4.3-5.9°), 2.0 mm, outer race"."""
+        extent, low, high = np.degrees([self.extent, self.low, self.high])
+        if self.status == ExtentStatus.MEASURED:
             return (
-                f"{self.race.capitalize()} race: {one:.1f}° or {other:.1f}°. {self.status.sentence}"
+                f"{extent:.1f}° ({low:.1f}-{high:.1f}°), {1e3 * self.length:.1f} mm, "
+                f"{self.race} race"
             )
+        if self.status == ExtentStatus.EITHER:
+            one, other = np.degrees(
+                [self.separation + self.offset, self.ball_spacing - self.separation + self.offset]
+            )
+            return f"{one:.1f}° or {other:.1f}°, {self.race} race"
+        return "No clear result"
+
+    @property
+    def sentence(self) -> str:
+        """The answer in a sentence, or why there is none."""
+        if self.status == ExtentStatus.EITHER:
+            return f"{self.answer}. {self.status.sentence}"
         if not self.measured:
             return self.status.sentence
-        extent, low, high = np.degrees([self.extent, self.low, self.high])
-        return (
-            f"{extent:.1f}° ({low:.1f}-{high:.1f}°), {1e3 * self.length:.1f} mm, {self.race} race; "
-            f"or that and whole ball spacings of {spacing:.1f}°."
-        )
+        spacing = math.degrees(self.ball_spacing)
+        return f"{self.answer}; or that and whole ball spacings of {spacing:.1f}°."
 
     def table(self) -> ResultTable:
         """One row with the answer; below it the mean ball pass of the best band over angle."""
@@ -177,6 +184,7 @@ def measure_extent(
     race: str | None = None,
     load: float | None = None,
     clearance: float | None = None,
+    diagnosis: Diagnosis | None = None,
 ) -> MeasuredExtent:
     """The extent of a spall from the knocks of balls that enter and leave it.
 
@@ -200,6 +208,8 @@ def measure_extent(
     load, clearance
         radial load on the bearing [N] and radial clearance [m] where they are known: they narrow
         the interval.
+    diagnosis
+        what `diagnose` says, where that is known already.
 
     Returns
     -------
@@ -218,7 +228,7 @@ def measure_extent(
     if clearance is not None:
         clearance = checks.number("clearance", clearance, at_least=0.0, unit="m")
     if race is None or not isinstance(shaft_speed, int | float):
-        found = diagnose(recording, bearing, shaft_speed)
+        found = diagnosis or diagnose(recording, bearing, shaft_speed)
         named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
         race = race or named
         if race is None or not found.evidence:

@@ -23,7 +23,7 @@ SETTLED = 0.3
 class ExtentError:
     """The most probable extent less the true one [rad], and the sizing that says so.
 
-    `error` is NaN where there is no clear result; `sizing.status` says why.
+    `error` is NaN where there is no clear result; `sizing.sentence` says why.
     """
 
     error: float
@@ -72,7 +72,7 @@ def extent_error(
     signal = signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
     directions = tuple(motion.dofs[i] for i in columns)
     recording = Recording(signal, sample_rate, directions)
-    # which race is damaged is known here: only its size is estimated
-    found = size_defect(recording, scene, fault="outer race", progress=progress)
+    # which race is damaged and how it is supported is known here: only the size is estimated
+    found = size_defect(recording, scene, fault="outer race", support_known=True, progress=progress)
     error = found.best.extent - scene.defect.extent if found.conclusive else math.nan
     return ExtentError(error, found)

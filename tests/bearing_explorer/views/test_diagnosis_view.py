@@ -11,9 +11,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement import diagnoses
 from bearing_explorer.measurement.background import true_part
-from bearing_explorer.measurement.diagnoses import SLIP, Diagnoses, Question, answered
+from bearing_explorer.measurement.diagnoses import SLIP, Answers, Question, answered
 from bearing_explorer.measurement.session import simulated
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.page import SECTIONS
@@ -356,7 +355,7 @@ def test_a_question_depends_on_what_the_diagnosis_depends_on():
     assert SLIP == 0.02
 
 
-def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once(monkeypatch):
+def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once():
     calls: list[Question] = []
 
     def slow(question: Question) -> Diagnosis | str:
@@ -364,7 +363,6 @@ def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once
         time.sleep(0.3)
         return diagnosed("outer race")
 
-    monkeypatch.setattr(diagnoses, "answered", slow)
     drawn: list[int] = []
 
     async def go():
@@ -372,7 +370,7 @@ def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once
             change()
 
         view = view_of(heard("outer race"))
-        view.measurement.diagnoses = Diagnoses(assign, lambda: drawn.append(1))
+        view.measurement.diagnoses = Answers(assign, lambda: drawn.append(1), slow)
         assert view.sentence(RESULTS) == BUSY
         view.say(RESULTS, BUSY)
         assert view.part.state["mood"] == "busy"
@@ -392,7 +390,7 @@ def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once
     assert view.part.state["part"] == "outer race"
 
 
-def test_only_the_newest_question_is_drawn_and_none_after_the_end(monkeypatch):
+def test_only_the_newest_question_is_drawn_and_none_after_the_end():
     calls: list[float] = []
 
     def slow(question: Question) -> str:
@@ -400,14 +398,13 @@ def test_only_the_newest_question_is_drawn_and_none_after_the_end(monkeypatch):
         time.sleep(0.1)
         return f"{question.bearing.ball_diameter}"
 
-    monkeypatch.setattr(diagnoses, "answered", slow)
     drawn: list[int] = []
 
     async def go():
         async def assign(change):
             change()
 
-        made = Diagnoses(assign, lambda: drawn.append(1))
+        made = Answers(assign, lambda: drawn.append(1), slow)
         questions = [
             Question.about(heard("none"), MOTOR.replace(ball_diameter=d * 1e-3).bearing)
             for d in (7.5, 7.6, 7.7, 7.8)

@@ -239,8 +239,8 @@ def test_a_size_that_takes_too_many_steps_is_not_looked_for_and_says_what_it_wou
 
     monkeypatch.setattr("bearingcore.diagnosis.size.sizing.guesses", begun)
     sized = size_defect(signal, RIG, fault="outer race", most_steps=100_000)
-    assert sized.status.startswith("too many steps: about ")
-    assert sized.status.endswith(f"allowed are most_steps = {thousands(1e5)}")
+    assert sized.sentence.startswith("too many steps: about ")
+    assert sized.sentence.endswith(f"allowed are most_steps = {thousands(1e5)}")
     assert not sized.candidates
     assert not sized.conclusive
     with pytest.raises(AssertionError, match="it was begun"):

@@ -25,10 +25,10 @@ def test_a_defect_is_sized_behind_a_wandering_cage_and_a_ringing_path() -> None:
     scene = RIG.replace(extent=math.radians(44.4), fy=-160.0, shaft_speed=2.0 * math.pi * 12.0)
     recording = recorded_through(scene, PathEffects(), seed=5)
     told = scene.replace(extent=0.5)
-    sized = size_defect(recording, told, fault="outer race")
+    sized = size_defect(recording, told, fault="outer race", support_known=True)
     assert math.degrees(sized.best.extent) == pytest.approx(44.4, abs=1.0)
     assert sized.best.turns == 1
     assert sized.passes.begins is not None
-    lost = size_defect(recording, told, fault="outer race", path=STEADY)
+    lost = size_defect(recording, told, fault="outer race", support_known=True, path=STEADY)
     assert lost.passes.begins is None
     assert not lost.conclusive

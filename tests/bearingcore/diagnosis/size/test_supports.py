@@ -38,16 +38,14 @@ def test_the_support_that_explains_the_signal_is_found_among_others() -> None:
     )
     recording = Recording(noisy(signal_of(truth), 20.0), RATE)
     shares: list[float] = []
-    sized = size_defect(
-        recording, RIG, fault="outer race", support_known=False, progress=shares.append
-    )
+    sized = size_defect(recording, RIG, fault="outer race", progress=shares.append)
     assert shares == sorted(shares)
     assert len(sized.supports) == 5
     assert sum(one.weight for one in sized.supports) == pytest.approx(1.0)
     best = max(sized.supports, key=lambda one: one.weight)
     assert best.words == "stiffness × 2"
     assert math.degrees(sized.best.extent) == pytest.approx(38.6, abs=0.5)
-    assert "The support is not known" in sized.status
+    assert "The support is not known" in sized.sentence
 
 
 def trial(words: str, extent_deg: float, weight: float) -> SupportTrial:

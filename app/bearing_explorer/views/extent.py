@@ -1,0 +1,239 @@
+"""The extent of a spall from entry to exit, and the mean ball pass that shows both."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.plotting import figure
+
+from bearing_explorer.measurement.diagnoses import ExtentQuestion, extent_of
+from bearing_explorer.plots import style
+from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.diagnosis import BUSY
+from bearing_explorer.views.measured_view import MEASURED, MeasuredView, write_over
+from bearing_explorer.views.measurement import with_head
+from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.status import StatusLine
+from bearingcore import Bearing, MeasuredExtent
+
+if TYPE_CHECKING:
+    from bearing_explorer.results.results import Results
+
+HEIGHT = 236
+BANDS = 3
+"""Mean passes that are drawn: of the best bands."""
+BEFORE = 0.14
+"""Of a ball pass that is drawn before the entry."""
+
+FIELDS: list[LookField] = [
+    {
+        "kind": "one",
+        "name": "race",
+        "label": "Damaged is",
+        "options": [
+            ["", "what step 2 says"],
+            ["outer", "the outer race, as is known"],
+            ["inner", "the inner race, as is known"],
+        ],
+    }
+]
+
+_EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+
+
+class SpallExtent(MeasuredView):
+    """The answer of `bearingcore.measure_extent`, found once the damaged race is named."""
+
+    name = "extent"
+    title = "3  How long"
+    about = (
+        "Mean envelope of a ball pass, from one ball to the next. A ball that enters a spall and "
+        "one that leaves it each give a peak; their distance and the angle over which a ball "
+        "carries nothing beside the edges are the extent. Strong: the frequency band that shows "
+        "both best. Faint: other bands."
+    )
+    needs = frozenset()
+    without_size = True
+    in_report = True
+    computes = True
+
+    def build(self, packed: PackedSource) -> Any:
+        self.race = ""
+        self._given: MeasuredExtent | None = None
+        self.panel_of_look = LookPanel(self.look_changed, FIELDS)
+        self.panel_of_look.show({"race": ""})
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
+        self._size = StickyRange(0.0, 1.0)
+        self.plot = self._plot(packed)
+        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self._seen = pn.Column(self.status, self.plot, visible=False, **wide)
+        self.hidden = pn.Column(self.panel_of_look, self._seen, visible=False, **wide)
+        return self.hidden
+
+    def _plot(self, packed: PackedSource) -> figure:
+        plot = style.make_figure(
+            style.AxisQuantity("Angle of the race", "", "°"),
+            style.AxisQuantity("Envelope, of its mean", "", ""),
+            packed.range("extent_angle", 0.0, 40.0),
+            packed.range("extent_size", 0.0, 1.0),
+            height=HEIGHT,
+            title="Mean ball pass",
+        )
+        edges = packed.source("extent_edges", "angle", "exit", "row", "shift")
+        plot.vspan("angle", source=edges, line_color=style.DEFECT, line_width=1.4)
+        write_over(plot, edges, _EDGE_WORDS, "angle", "row", style.INK, x_offset="shift")
+        for number in reversed(range(BANDS)):
+            source = packed.source(f"extent_pass_{number}", "angle", "envelope")
+            width, alpha = (1.6, 1.0) if number == 0 else (1.0, 0.35)
+            plot.line(
+                "angle", "envelope", source=source, line_color=MEASURED, line_width=width,
+                line_alpha=alpha,
+            )  # fmt: skip
+        return plot
+
+    # What it is about
+
+    def question(self, bearing: Bearing) -> ExtentQuestion | None:
+        """The question about a bearing; None before its damaged part has been looked for."""
+        measurement = self.measurement
+        about = None if measurement is None else measurement.question(bearing)
+        if measurement is None or about is None or measurement.diagnoses.of(about) is None:
+            return None
+        found = measurement.diagnosis(bearing)
+        return ExtentQuestion(about, bearing, self.race, measurement.state.load, found)
+
+    def answer(self, bearing: Bearing) -> MeasuredExtent | str | None:
+        """The extent, a sentence why there is none, or None: not yet."""
+        if self._given is not None:
+            return self._given
+        question = self.question(bearing)
+        if question is None or self.measurement is None:
+            return None
+        return self.measurement.extents.of(question)
+
+    @property
+    def found(self) -> MeasuredExtent | None:
+        """What is known, for reports."""
+        answer = None if self._results is None else self.answer(self._results.scene.bearing)
+        return answer if isinstance(answer, MeasuredExtent) else None
+
+    @found.setter
+    def found(self, given: MeasuredExtent) -> None:
+        self._given = given
+
+    def look_changed(self, name: str, value: str) -> None:
+        """Take which race is known to be damaged."""
+        self.race = value
+        if self.measurement is not None:
+            self.measurement.redraw()
+
+    def choices(self) -> dict[str, Any]:
+        return {"race": self.race} if self.race else {}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        self.race = choices.get("race", "")
+        if self.measurement is None or self.measured is None:
+            return
+        about = self.measurement.question(results.scene.bearing)
+        if about is not None:
+            answer = extent_of(ExtentQuestion(about, results.scene.bearing, self.race))
+            self._given = answer if isinstance(answer, MeasuredExtent) else None
+
+    # The picture
+
+    @property
+    def drawn(self) -> bool:
+        return self._seen.visible
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        none = np.zeros(0)
+        sources: Sources = {
+            f"extent_pass_{number}": {"angle": none, "envelope": none} for number in range(BANDS)
+        }
+        sources["extent_edges"] = dict.fromkeys(("angle", "exit", "row", "shift"), none)
+        found = self.answer(results.scene.bearing)
+        if not isinstance(found, MeasuredExtent) or not found.passes:
+            return sources, {}
+        spacing = math.degrees(found.ball_spacing)
+        best = found.passes[0].envelope
+        # angle 0 is the entry, or the highest peak
+        start = found.entry if math.isfinite(found.entry) else int(best.argmax()) / len(best)
+        first = round((start - BEFORE) * len(best)) % len(best)
+        angle = spacing * (np.arange(len(best)) / len(best) - BEFORE)
+        for number, one in enumerate(found.passes[:BANDS]):
+            envelope = np.roll(one.envelope, -first)
+            sources[f"extent_pass_{number}"] = {"angle": angle, "envelope": envelope}
+        if math.isfinite(found.entry):
+            sources["extent_edges"] = _edges(found, spacing)
+        drawn = [sources[f"extent_pass_{number}"]["envelope"] for number in range(BANDS)]
+        return sources, {
+            "extent_angle": (-BEFORE * spacing, (1.0 - BEFORE) * spacing),
+            "extent_size": with_head(self._size, drawn, 0.3),
+        }
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        shown = results or self._results
+        if shown is not None:
+            self._show(shown.scene.bearing)
+        super().say(results, sentence)
+
+    def _show(self, bearing: Bearing) -> None:
+        question, answer = self.question(bearing), self.answer(bearing)
+        if question is not None and answer is None and self.measurement is not None:
+            self.measurement.extents.want(question)
+        self.panel_of_look.show({"race": self.race})
+        self._seen.visible = isinstance(answer, MeasuredExtent)
+        if isinstance(answer, MeasuredExtent):
+            self.status.line = status(answer)
+            self.plot.visible = bool(answer.passes)
+
+    def sentence(self, results: Results) -> str:
+        answer = self.answer(results.scene.bearing)
+        if answer is None:
+            return self.why_nothing if self.measured is None else BUSY
+        if isinstance(answer, str):
+            return answer
+        truth = None if self.measured is None else self.measured.true_extent
+        known = "" if truth is None else (
+            f" The signal is simulated: the true extent is {math.degrees(truth):.1f}°."
+        )  # fmt: skip
+        return answer.sentence + known
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        answer = self.answer(results.scene.bearing)
+        return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
+
+
+def status(found: MeasuredExtent) -> dict[str, Any]:
+    """The answer in a few words and a colour, with its grounds."""
+    details = []
+    if math.isfinite(found.separation):
+        apart, offset = math.degrees(found.separation), math.degrees(found.offset)
+        details.append(f"between the peaks {apart:.1f}°, beside the edges {offset:.1f}°")
+    if found.n_passes:
+        frequency = style.number(found.frequency, 4)
+        details.append(f"{found.n_passes} ball passes at {frequency} Hz")
+    return {
+        "mood": "good" if found.measured else "bad",
+        "words": found.answer,
+        "details": details,
+    }
+
+
+def _edges(found: MeasuredExtent, spacing: float) -> dict[str, np.ndarray]:
+    """Angles [deg] of entry and exit, 0 being the entry, and places of their names."""
+    apart = spacing * ((found.exit - found.entry + BEFORE) % 1.0 - BEFORE)
+    angle = np.array([0.0, apart])
+    return {
+        "angle": angle,
+        "exit": np.array([0.0, 1.0]),
+        "row": np.array([0.93, 0.82]),
+        "shift": np.where(angle > (0.8 - BEFORE) * spacing, -66.0, 4.0),
+    }

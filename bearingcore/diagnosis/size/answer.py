@@ -1,0 +1,271 @@
+"""The answer to how large a defect is: a status, and candidates with their probabilities."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common.lazy import cached_property
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.diagnosis.part.evidence import Diagnosis
+from bearingcore.diagnosis.size.chance import PassQuality
+from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
+from bearingcore.diagnosis.size.supports import SupportTrial
+from bearingcore.diagnosis.size.synthesis import Band
+from bearingcore.diagnosis.size.variants import PathTolerances
+from bearingcore.dynamics.modes import frequency_bands
+from bearingcore.errors import Status
+from bearingcore.scene.scene import Scene
+from bearingcore.signals.averaging import BallPasses
+from bearingcore.signals.recording import Recording
+from bearingcore.statics.passes import crossings
+
+
+class SizingStatus(Status):
+    """The outcome of a sizing."""
+
+    SIZED = "sized"
+    AT_MOST = "at most"
+    AT_LEAST = "at least"
+    OTHER_PART = "other part"
+    TOO_MANY_STEPS = "too many steps"
+    NO_LINES = "no lines"
+    ONE_TONE = "one tone"
+    BY_CHANCE = "by chance"
+    UNEXPLAINED = "unexplained"
+    OTHER_LEVEL = "other level"
+    SEVERAL = "several extents"
+    WIDE = "wide range"
+    LIKE_A_PIT = "like a pit"
+    TWO_KNOCKS = "two knocks"
+    WHOLE_SPACINGS = "whole ball spacings"
+    UNCONFIRMED = "unconfirmed"
+
+    @property
+    def sentence(self) -> str:
+        """The status as a sentence."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    SizingStatus.SIZED: "One extent explains the signal, and no other does.",
+    SizingStatus.AT_MOST: "The defect is shorter than what the compared band resolves.",
+    SizingStatus.AT_LEAST: "The defect is as long as the longest extent that is looked for.",
+    SizingStatus.OTHER_PART: "The outer race is not named as damaged, so no extent is looked for.",
+    SizingStatus.TOO_MANY_STEPS: "The search would take more steps of integration than allowed.",
+    SizingStatus.NO_LINES: (
+        "No lines stand out at the ball-pass frequency of an outer-race defect."
+    ),
+    SizingStatus.ONE_TONE: (
+        "The mean ball pass is a tone; a defect's entry and exit show in many harmonics."
+    ),
+    SizingStatus.BY_CHANCE: (
+        "No extent explains the signal better than it would explain one of the same spectrum by "
+        "chance."
+    ),
+    SizingStatus.UNEXPLAINED: "The best extent leaves much of the mean ball pass unexplained.",
+    SizingStatus.OTHER_LEVEL: "The signal has another level than such a defect gives.",
+    SizingStatus.SEVERAL: "Several extents, whole ball spacings apart, explain the signal.",
+    SizingStatus.WIDE: "Extents over a wide range explain the signal nearly as well.",
+    SizingStatus.LIKE_A_PIT: "A long spall and a pit explain the signal nearly as well.",
+    SizingStatus.TWO_KNOCKS: (
+        "A short pit explains the signal best, but its envelope has two knocks a ball pass."
+    ),
+    SizingStatus.WHOLE_SPACINGS: (
+        "With one sensor and a support that is not known, whole ball spacings cannot be counted."
+    ),
+    SizingStatus.UNCONFIRMED: (
+        "The support is not known, and entry and exit in the envelope do not confirm the extent."
+    ),
+}
+
+AT_MOST, AT_LEAST = SizingStatus.AT_MOST, SizingStatus.AT_LEAST
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An extent that the time between entry and exit allows.
+
+    Attributes
+    ----------
+    turns
+        k, whole ball spacings in the extent.
+    extent
+        [rad]
+    probability
+        that this candidate is the true one, among all candidates.
+    edge
+        the edge model that fits best.
+    factors
+        by what the scene's numbers are multiplied to fit best, by name.
+    waveform_misfit, spectrum_misfit : (d,)
+        what is left unexplained of the mean ball pass; mean squared natural logarithm of the ratio
+        of the smoothed spectra.
+    level
+        natural logarithm of simulated over measured power.
+    scene
+        the fitted scene: its modes, bands, motion and spectrum are the candidate's.
+    passes
+        its simulated ball passes.
+    lag
+        ball-pass phase [rad] of the simulation at which the measured signal begins.
+    path
+        path between housing and sensor, of those that were tried.
+    """
+
+    turns: int
+    extent: float
+    probability: float
+    edge: str
+    factors: dict[str, float]
+    waveform_misfit: NDArray[np.float64]
+    spectrum_misfit: NDArray[np.float64]
+    level: float
+    scene: Scene = field(repr=False)
+    passes: BallPasses = field(repr=False)
+    lag: float = field(repr=False)
+    path: PathModel = DIRECT
+
+    @cached_property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest natural frequency [Hz] of each mode, by label."""
+        return frequency_bands(self.scene)
+
+    def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
+        """The simulated mean pass (n, d), laid over the measured one."""
+        turn = np.exp(1j * self.lag * np.arange(1, len(self.passes.harmonics) + 1))
+        moved = dataclasses.replace(self.passes, harmonics=self.passes.harmonics * turn[:, None])
+        return moved.waveform(n, lowest)
+
+    def phases(self) -> tuple[float, float]:
+        """Phases [rad] of the measured ball pass at which balls enter and leave."""
+        spacing = self.scene.bearing.ball_spacing
+        found = {}
+        for crossing in crossings(self.scene, 0.0, spacing):
+            found[crossing.enters] = 2.0 * math.pi * crossing.cage_angle / spacing - self.lag
+        return found[True] % (2.0 * math.pi), found[False] % (2.0 * math.pi)
+
+
+@dataclass(frozen=True)
+class Sizing:
+    """Result of sizing a defect by a signal.
+
+    Attributes
+    ----------
+    candidates
+        by rising extent; their probabilities add up to 1. None where no extent was looked for.
+    extent_uncertainty
+        standard deviation [rad] of the extent if the most probable candidate is the true one.
+    status
+        how it ended.
+    sentence
+        the status with its numbers: how sure the answer is, or why there is none.
+    diagnosis
+        which part the signal names; None where it was given by hand.
+    quality
+        what the mean ball pass consists of.
+    chance
+        how often a pass of such a spectrum is explained as well with its phases drawn anew.
+    apart
+        spread [rad] of extents that explain it nearly as well, in half a ball spacing.
+    path
+        what was allowed for between housing and sensor.
+    passes
+        the measured mean ball pass and spectrum.
+    band
+        frequencies that were compared.
+    recording
+        the signal.
+    supports
+        what each support that was tried makes of the signal, where it is not known; else none.
+    """
+
+    candidates: tuple[Candidate, ...]
+    extent_uncertainty: float
+    status: SizingStatus
+    sentence: str
+    passes: BallPasses
+    band: Band
+    recording: Recording = field(repr=False)
+    scores: NDArray[np.float64] = field(repr=False)
+    """(candidates,) before the temperature."""
+    quality: PassQuality
+    chance: float = math.nan
+    apart: float = 0.0
+    diagnosis: Diagnosis | None = None
+    supports: tuple[SupportTrial, ...] = ()
+    path: PathTolerances = field(default_factory=PathTolerances)
+
+    @property
+    def conclusive(self) -> bool:
+        """Whether one candidate is clearly ahead of all others, and its extent is not a bound."""
+        return self.status == SizingStatus.SIZED
+
+    @property
+    def bound(self) -> str:
+        """At most or at least, where the best extent is at an end of the search; else empty."""
+        return str(self.status) if self.status in (AT_MOST, AT_LEAST) else ""
+
+    def table(self) -> ResultTable:
+        """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
+        candidates = self.candidates
+        return table_of(
+            ("extent", "rad", [c.extent for c in candidates]),
+            ("ball_spacings", "", [c.turns for c in candidates], "whole ball spacings in it"),
+            ("probability", "1", [c.probability for c in candidates]),
+            ("edge", "", [c.edge for c in candidates]),
+            ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
+            ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
+            *(
+                (f"{name}_factor", "1", [c.factors[name] for c in candidates])
+                for name in (candidates[0].factors if candidates else ())
+            ),
+        )
+
+    @property
+    def time_difference(self) -> float:
+        """Δt [s] from a ball entering to the next that leaves, by the most probable candidate.
+
+        What its extent leaves over whole ball spacings, at the speed of the measured cage. Knocks
+        in the signal are closer together (see `measure_extent`): a ball loses its load a little
+        inside the edge and takes it up again before the other.
+        """
+        best = self.best
+        spacing = best.scene.bearing.ball_spacing
+        return (best.extent - best.turns * spacing) / (spacing * self.passes.frequency)
+
+    @property
+    def resolved(self) -> float:
+        """The extent [rad] that a ball passes in a cycle of the highest compared frequency."""
+        spacing = self.best.scene.bearing.ball_spacing
+        return spacing * self.passes.frequency / self.band.highest
+
+    def end(self, bound: str) -> float:
+        """Length [rad] of the defect at most, or at least, by `bound`."""
+        room = 2.0 * self.extent_uncertainty
+        if bound == AT_MOST:
+            return max(self.best.extent + room, self.resolved)
+        return self.best.extent - room
+
+    @property
+    def best(self) -> Candidate:
+        """The most probable candidate. ValueError, with the sentence, where there is none."""
+        if not self.candidates:
+            raise ValueError(self.sentence)
+        return max(self.candidates, key=lambda candidate: candidate.probability)
+
+    def event_times(self, candidate: Candidate) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Times [s] in the recording at which balls enter and leave a candidate's defect."""
+        entry, leave = candidate.phases()
+        duration, frequency = self.recording.duration, self.passes.frequency
+        turns = np.arange(-1.0, math.floor(duration * frequency) + 2.0)
+
+        def times(phase: float) -> NDArray[np.float64]:
+            all_times = self.passes.time_of(turns + phase / (2.0 * math.pi))
+            return np.asarray(all_times[(all_times >= 0.0) & (all_times <= duration)])
+
+        return times(entry), times(leave)

@@ -1,0 +1,213 @@
+"""Whether the extent that explains a signal best is an answer: all that speaks against it.
+
+First the search itself is judged: is the mean ball pass one, is it explained, is one extent ahead?
+Then knocks in the envelope, which need no model of the machine, are held against the extent.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from bearingcore.common.numbers import probability, with_deviation
+from bearingcore.diagnosis.extent.measure import ExtentStatus, MeasuredExtent
+from bearingcore.diagnosis.size.answer import AT_LEAST, AT_MOST, Sizing, SizingStatus
+from bearingcore.diagnosis.size.fitting import EXTENT_STEP, GREATEST_EXTENT, LEAST_EXTENT
+
+WIDEST = 0.1
+"""Of a ball spacing: where extents that are nearly as good differ by more than this (their
+standard deviation at `TEMPERATURE`), no size is given."""
+
+CLEAR = 0.9
+"""Probability from which a candidate counts as found."""
+
+MUCH_UNEXPLAINED = 0.2
+"""Part of the mean ball pass without noise: where the best candidate leaves more, none is it."""
+
+PIT = math.radians(2.0)
+"""[rad] Extents up to which a defect counts as a pit."""
+
+PIT_UNEXPLAINED = 0.45
+"""The same for pits, of which only a bound or a small extent is given."""
+
+MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
+"""Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
+a tone that happens to be on a harmonic is not a defect."""
+
+LEAST_CHANCE = 0.05
+"""Part of passes with phases drawn anew that may be explained as well as the measured one."""
+
+LEAST_PROMINENCE = 6.0
+"""Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
+
+_KNOCKS_TWICE = (
+    ExtentStatus.MEASURED,
+    ExtentStatus.EITHER,
+    ExtentStatus.UNCLEAR,
+    ExtentStatus.BOUNCES,
+)
+"""What the envelope says where it may knock twice a ball pass."""
+
+_CANNOT = "The signal cannot tell the size of the defect: "
+
+
+class Judgement(NamedTuple):
+    """A status, and its sentence with numbers."""
+
+    status: SizingStatus
+    sentence: str
+
+
+def judged(sized: Sizing) -> Judgement:
+    """What the search itself says: an answer, a bound, or why neither."""
+    return _refusal(sized) or _several(sized) or _answer(sized)
+
+
+def _size(sized: Sizing) -> str:
+    extent, spread = math.degrees(sized.best.extent), math.degrees(sized.extent_uncertainty)
+    return with_deviation(extent, spread, "°")
+
+
+def _refusal(sized: Sizing) -> Judgement | None:
+    """Why the best extent is not an explanation of the signal; None where it is one."""
+    best, quality = sized.best, sized.quality
+    unexplained = float(best.waveform_misfit.mean())
+    beside_noise = unexplained - quality.noise_share
+    if sized.passes.prominence < LEAST_PROMINENCE and unexplained > 0.6:
+        status = SizingStatus.NO_LINES
+        words = "no lines stand out at the ball-pass frequency of an outer-race defect."
+    elif quality.strongest > MOST_IN_ONE or quality.harmonics < FEWEST_HARMONICS:
+        status = SizingStatus.ONE_TONE
+        words = (
+            f"one harmonic carries {100.0 * quality.strongest:.0f} % of the mean ball pass, as a "
+            "tone would; a defect's entry and exit show in many."
+        )
+    elif sized.chance > LEAST_CHANCE:
+        status = SizingStatus.BY_CHANCE
+        words = (
+            "no extent explains it better than it would explain a signal of the same spectrum "
+            "by chance. Load, speed, support or bearing may not be those of this machine."
+        )
+    elif beside_noise > (MUCH_UNEXPLAINED if best.extent > PIT else PIT_UNEXPLAINED):
+        status = SizingStatus.UNEXPLAINED
+        words = (
+            f"the best extent leaves {100.0 * unexplained:.0f} % of the mean ball pass "
+            f"unexplained, of which {100.0 * quality.noise_share:.0f} % are noise. Load, "
+            "speed, support or bearing may not be those of this machine."
+        )
+    elif abs(best.level) > math.log(10.0):
+        status = SizingStatus.OTHER_LEVEL
+        decibels = 10.0 / math.log(10.0) * abs(best.level)
+        than = "weaker" if best.level > 0.0 else "stronger"
+        words = (
+            f"most like {_size(sized)}, but the signal is {decibels:.0f} dB {than} than such a "
+            "defect gives: it may be in another unit, or have another cause."
+        )
+    else:
+        return None
+    return Judgement(status, _CANNOT + words)
+
+
+def _several(sized: Sizing) -> Judgement | None:
+    """Why the best extent is not ahead of all others; None where it is."""
+    best = sized.best
+    if best.probability < CLEAR:
+        likely = [c for c in sized.candidates if c.probability >= 0.05]
+        each = ", ".join(
+            f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
+        )
+        return Judgement(SizingStatus.SEVERAL, f"The signal cannot tell these apart: {each}.")
+    if sized.apart > WIDEST * best.scene.bearing.ball_spacing:
+        low, high = (math.degrees(best.extent + way * sized.apart) for way in (-1.0, 1.0))
+        return Judgement(
+            SizingStatus.WIDE,
+            f"{_CANNOT}most like {_size(sized)}, but extents from {max(low, 0.0):.0f}° to "
+            f"{high:.0f}° explain it nearly as well.",
+        )
+    pit = _like_a_pit(sized)
+    if pit:
+        return Judgement(
+            SizingStatus.LIKE_A_PIT,
+            f"{_CANNOT}most like {_size(sized)}, but as one ball enters another leaves then, and "
+            f"a pit shorter than {math.degrees(pit):.1f}° gives nearly the same.",
+        )
+    return None
+
+
+def _answer(sized: Sizing) -> Judgement:
+    best, spread = sized.best, sized.extent_uncertainty
+    if best.extent < max(sized.resolved, LEAST_EXTENT + 2.0 * spread):
+        most = math.degrees(sized.end(AT_MOST))
+        words = f"The defect extends over {most:.1f}° at most: shorter ones are not told apart."
+        return Judgement(AT_MOST, words)
+    if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
+        least = math.degrees(sized.end(AT_LEAST))
+        return Judgement(AT_LEAST, f"The defect extends over {least:.1f}° at least.")
+    return Judgement(
+        SizingStatus.SIZED,
+        f"The defect extends over {_size(sized)}, {best.turns} whole ball spacings and a rest; "
+        f"probability {probability(best.probability)}.",
+    )
+
+
+def _like_a_pit(sized: Sizing) -> float:
+    """Length [rad] of a pit that knocks as the best extent does; 0 where there is none.
+
+    Whole ball spacings long, a defect is entered by one ball as another leaves it. The difference
+    from a pit is how the rings swing between, and that rests on the support alone, which is never
+    known so well; and pits are common.
+    """
+    best = sized.best
+    spacing = best.scene.bearing.ball_spacing
+    whole = round(best.extent / spacing)
+    reach = PIT + 2.0 * sized.extent_uncertainty + 0.5 * sized.resolved
+    return reach if whole >= 1 and abs(best.extent - whole * spacing) < reach else 0.0
+
+
+def confirmed(sized: Sizing, knocks: MeasuredExtent, support_known: bool) -> Judgement:
+    """The judgement of an answer or a bound, once knocks in the envelope are held against it.
+
+    Parameters
+    ----------
+    sized
+        an answer or a bound.
+    knocks
+        the extent from entry to exit, of the same recording.
+    support_known
+        whether masses and stiffness are those of the machine. Where they are not, natural
+        frequencies, which count ball spacings and rule out long spalls, are a guess.
+    """
+    size, twice = _size(sized), knocks.status in _KNOCKS_TWICE
+    if sized.status == AT_MOST and twice:
+        return Judgement(
+            SizingStatus.TWO_KNOCKS,
+            f"{_CANNOT}most like {size}, but the envelope has two knocks a ball pass, as a ball's "
+            "entry and exit give.",
+        )
+    alone = len(sized.recording.directions) == 1
+    if not support_known:
+        if alone and sized.best.turns > 0:
+            return Judgement(
+                SizingStatus.WHOLE_SPACINGS,
+                f"{_CANNOT}most like {size}, but with one sensor and a support that is not known "
+                "whole ball spacings cannot be counted.",
+            )
+        if sized.status == AT_MOST or not _agree(sized, knocks, alone):
+            return Judgement(
+                SizingStatus.UNCONFIRMED,
+                f"{_CANNOT}most like {size}, but the support is not known, and entry and exit in "
+                "the envelope do not confirm it.",
+            )
+    return Judgement(sized.status, sized.sentence)
+
+
+def _agree(sized: Sizing, knocks: MeasuredExtent, needed: bool) -> bool:
+    """Whether an extent from entry to exit holds the best one, but for whole ball spacings.
+
+    Where there is none it agrees unless it is `needed`.
+    """
+    if not knocks.measured:
+        return not needed
+    room, spacing = 2.0 * sized.extent_uncertainty, knocks.ball_spacing
+    over = (sized.best.extent - knocks.low + room) % spacing
+    return over <= knocks.high - knocks.low + 2.0 * room

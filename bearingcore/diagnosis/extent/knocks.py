@@ -372,15 +372,23 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
     return Pair((first + shift) % PLACES / PLACES, (second + shift) % PLACES / PLACES, ratio)
 
 
+def _away(pair: Pair, other: Pair) -> float:
+    """By how much either peak is elsewhere, as a share of a ball pass."""
+    return max(
+        abs((one - two + 0.5) % 1.0 - 0.5)
+        for one, two in ((pair.first, other.first), (pair.second, other.second))
+    )
+
+
 def _agreeing(shown: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]:
-    """Most of the mean passes, by height, whose separations agree.
+    """Most of the mean passes, by height, that show two peaks at the same places.
 
     None where all their bands have a frequency in common: it may be one resonance that beats.
     """
     best: list[tuple[MeanPass, Pair]] = []
     for _, one in shown:
         reach = AGREE[0] * one.apart + AGREE[1]
-        near = [(m, pair) for m, pair in shown if abs(pair.apart - one.apart) <= reach]
+        near = [(m, pair) for m, pair in shown if _away(pair, one) <= reach]
         if sum(pair.height for _, pair in near) > sum(pair.height for _, pair in best):
             best = near
     bands = [m.band for m, _ in best]

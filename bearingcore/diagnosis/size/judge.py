@@ -40,13 +40,8 @@ LEAST_CHANCE = 0.05
 LEAST_PROMINENCE = 6.0
 """Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
 
-_KNOCKS_TWICE = (
-    ExtentStatus.MEASURED,
-    ExtentStatus.EITHER,
-    ExtentStatus.UNCLEAR,
-    ExtentStatus.BOUNCES,
-)
-"""What the envelope says where it may knock twice a ball pass."""
+_KNOCKS_TWICE = (ExtentStatus.MEASURED, ExtentStatus.EITHER, ExtentStatus.BOUNCES)
+"""What the envelope says where it knocks twice a ball pass."""
 
 _CANNOT = "The signal cannot tell the size of the defect: "
 

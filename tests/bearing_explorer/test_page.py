@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.diagnoses import answered
+from bearing_explorer.measurement.diagnoses import Question, answered, extent_of
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.pictures import BROKEN, drawing_of
 from bearing_explorer.results.results import Results
@@ -15,6 +15,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import View, first_sentence
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.views.diagnosis import PartDiagnosis
+from bearing_explorer.views.extent import SpallExtent
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MeasuredView
 
@@ -71,9 +72,12 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
     made = view(packed)
     if isinstance(made, MeasuredView):
         made.measure(measuring(signal()))
-    if isinstance(made, PartDiagnosis):  # whose answer is found in the background
+    if isinstance(made, PartDiagnosis | SpallExtent):  # whose answers come from the background
+        about = Question.about(signal(), results.scene.bearing)
+        made.measurement.diagnoses.keep(about, answered(about))
+    if isinstance(made, SpallExtent):
         question = made.question(results.scene.bearing)
-        made.measurement.diagnoses.keep(question, answered(question))
+        made.measurement.extents.keep(question, extent_of(question))
     data, ranges = made.data(results)
     assert packed.pack(data, ranges).size > 3 or isinstance(made, ControlView)
     assert all(np.isfinite(limits).all() and limits[0] != limits[1] for limits in ranges.values())

@@ -42,6 +42,8 @@ SLIP = 0.02
 
 FAILED = "The signal could not be analysed."
 
+BUSY = "The signal is being analysed."
+
 MOST_KNOWN = 12
 """Answers about one recording that are kept."""
 

@@ -9,7 +9,7 @@ import numpy as np
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.diagnoses import SPEEDS, Question, answered
+from bearing_explorer.measurement.diagnoses import BUSY, SPEEDS, Question, answered
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
@@ -25,8 +25,6 @@ from bearingcore.diagnosis.part.parts import PARTS
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
-
-BUSY = "The signal is being analysed."
 
 FIELDS: list[LookField] = [
     {

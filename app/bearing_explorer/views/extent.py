@@ -10,12 +10,11 @@ import numpy as np
 import panel as pn
 from bokeh.plotting import figure
 
-from bearing_explorer.measurement.diagnoses import ExtentQuestion, extent_of
+from bearing_explorer.measurement.diagnoses import BUSY, ExtentQuestion, extent_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.diagnosis import BUSY
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.look import LookField, LookPanel
@@ -53,10 +52,10 @@ class SpallExtent(MeasuredView):
     name = "extent"
     title = "3  How long"
     about = (
-        "Mean envelope of a ball pass, from one ball to the next. A ball that enters a spall and "
-        "one that leaves it each give a peak; their distance and the angle over which a ball "
-        "carries nothing beside the edges are the extent. Strong: the frequency band that shows "
-        "both best. Faint: other bands."
+        "How long a spall is, from entry to exit. Drawn is the mean envelope of a ball pass. A "
+        "ball that enters a spall and one that leaves it each give a peak; their distance and the "
+        "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
+        "frequency band that shows both best. Faint: other bands."
     )
     needs = frozenset()
     without_size = True
@@ -216,7 +215,7 @@ def status(found: MeasuredExtent) -> dict[str, Any]:
     details = []
     if math.isfinite(found.separation):
         apart, offset = math.degrees(found.separation), math.degrees(found.offset)
-        details.append(f"between the peaks {apart:.1f}°, beside the edges {offset:.1f}°")
+        details.append(f"{apart:.1f}° between the peaks and {offset:.1f}° at the edges")
     if found.n_passes:
         frequency = style.number(found.frequency, 4)
         details.append(f"{found.n_passes} ball passes at {frequency} Hz")

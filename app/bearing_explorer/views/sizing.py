@@ -71,9 +71,9 @@ class DefectSize(JobView[Sized], MeasuredView):
     name = "sizing"
     title = "4  How long, by simulation"
     about = (
-        "Whole ball spacings too, where masses and springs of the machine are known. Every extent "
-        "on the outer race is simulated and rated by how well it explains the mean ball pass and "
-        "the spectrum. Coloured: the candidate that is shown. Thin: measured."
+        "For machines whose masses and springs are known. Then whole ball spacings can be counted: "
+        "every extent on the outer race is simulated and rated by how well it explains the mean "
+        "ball pass and the spectrum. Coloured: the candidate that is shown. Thin: measured."
     )
     needs = frozenset()
     start = "Find the size"

@@ -41,6 +41,9 @@ LOWEST = 3.0
 PARTS = (1, 2, 3, 4, 6)
 """Into how many equal bands the range is split: more would hold no knock any more compactly."""
 
+LOW_PARTS = (12, 24)
+"""The same of which only the lowest two bands are taken: a release is soft, and fades upwards."""
+
 PREDICTED_FROM = 50
 """Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what
 is left after the prediction is compact knocks, see `without_ringing`. Two for each of 25
@@ -57,6 +60,9 @@ LEAST_CONTRAST = 8.0
 
 FAINTEST = 0.1
 """Height of the second peak as a share of the first: below, prediction and filter leave ripples."""
+
+LEAST_SEEN = 4.0
+"""Standard errors that so faint a peak must be high for its absence to count."""
 
 THIRD = 0.6
 """Height of a third peak, as a share of the second, from which it is a train of peaks: ringing."""
@@ -75,9 +81,12 @@ AGREE = (0.06, 0.002)
 """By how much bands may differ in the separation: a share of it, and of a ball pass. A release is
 gradual: its peak moves a little with frequency, and peaks are no sharper than the mean pass."""
 
-AGREEING, SHOWING = 0.6, 0.3
-"""Share of the second peaks, by their heights, that must agree, and of all bands that must show
-them."""
+AGREEING, SHOWING = 0.6, 0.4
+"""Share of the second peaks, by their heights, that must agree, and of the bands that must show
+them. Bands above those that show them are not asked."""
+
+ONLY_ONE = 0.3
+"""Share of the bands that may have a second peak where there is one knock."""
 
 ALIKE, UNLIKE = 0.3, 0.22
 """A ball is released softly and strikes hard: entry and exit differ in their spectra. Two knocks
@@ -89,6 +98,16 @@ EXIT_GROWS = (0.5, 0.75)
 """Power of frequency with which one peak outgrows the other. As a strike is sharper than a release,
 the one that grows is the exit: certainly so above the second number, and below the first it may be
 the path of the sound. There the shorter way round is taken, between the two neither."""
+
+RARE = 5.0
+"""Times the shorter way that the longer one is, from which it takes more to be believed: spalls
+that nearly reach the next ball are rare. Between the two numbers the shorter way is taken then, and
+beyond them neither."""
+
+STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
+"""Of a ball pass, by which one pass may be longer than the mean: a cage has inertia. Where passes
+seem to jump by more, some were laid over the wrong knock, and two knocks may be one twice: the
+longer part on either side is averaged alone, so many times and if it is so much of all."""
 
 
 @dataclass(frozen=True)
@@ -128,11 +147,14 @@ class Pair:
         their places as shares of a ball pass; the second follows by less than half a one.
     ratio
         height of the second over that of the first.
+    third
+        height of a third peak over that of the lower one of both; 0 without.
     """
 
     first: float
     second: float
     ratio: float
+    third: float = 0.0
 
     @property
     def apart(self) -> float:
@@ -177,6 +199,9 @@ class Knocks:
         places of the two peaks in the first of `passes`, as shares of a ball pass; NaN without.
     trend
         power of frequency with which the later peak, the shorter way round, outgrows the earlier.
+    hidden
+        share of a ball pass within which a second knock may hide in what the first makes ring; NaN
+        where it may be anywhere, or where there are two.
     """
 
     passes: tuple[MeanPass, ...]
@@ -188,6 +213,7 @@ class Knocks:
     entry: float = math.nan
     exit: float = math.nan
     trend: float = math.nan
+    hidden: float = math.nan
 
 
 def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
@@ -206,10 +232,29 @@ def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
     """
     names, envelopes, rate = _envelopes(recording, nominal)
     widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
-    found = average_passes(
-        envelopes, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=True
-    )
-    return judged(_mean_passes(found, names), found.frequency, found.n_passes)
+    left = envelopes
+    for _ in range(MOST_CUTS):
+        found = average_passes(
+            left, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=True
+        )
+        passes = _mean_passes(found, names)
+        jump = _jump(found)
+        if jump is None:
+            return judged(passes, found.frequency, found.n_passes)
+        place = round(jump * rate)
+        left = left[:place] if place > len(left) // 2 else left[place:]
+        if len(left) < LEAST_LEFT * len(envelopes):
+            break
+    return Knocks(tuple(passes), found.frequency, found.n_passes, Seen.UNCLEAR)
+
+
+def _jump(found: BallPasses) -> float | None:
+    """When [s] the passes jump most; None where they are steady."""
+    if found.begins is None:
+        return None
+    away = np.abs(np.diff(found.begins) * found.frequency - 1.0)
+    worst = int(away.argmax())
+    return float(found.begins[worst]) if away[worst] > STEADY else None
 
 
 def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, str]], Array, float]:
@@ -222,8 +267,9 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
     time = np.arange(int(kept / sample_rate * rate)) / rate
     bands = [
         Band(max(band.low, LOWEST * nominal), band.high)
-        for band in split(sample_rate, NARROWEST * nominal, PARTS)
+        for band in split(sample_rate, NARROWEST * nominal, (*PARTS, *LOW_PARTS))
         if band.high > 2.0 * LOWEST * nominal
+        and (band.high - band.low > 0.45 * sample_rate / PARTS[-1] or _lowest_two(band))
     ]
     names, columns = [], []
     for direction, samples in zip(
@@ -239,6 +285,11 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
             columns.append(values / values.mean())
             names.append((found.band, direction))
     return names, np.array(columns).T, rate
+
+
+def _lowest_two(band: Band) -> bool:
+    """Whether a band of equal ones is the first or the second."""
+    return band.low < 1.01 * (band.high - band.low)
 
 
 def without_ringing(samples: Array, order: int) -> Array:
@@ -288,15 +339,17 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     shown = [(one, pair) for one in passes if (pair := two_peaks(one, frequency)) is not None]
     agreeing = _agreeing(shown)
     if not agreeing:
-        seen = Seen.UNCLEAR if len(shown) > SHOWING * len(passes) else Seen.ONE
-        return Knocks(passes, frequency, n_passes, seen)
+        seen = Seen.UNCLEAR if len(shown) > ONLY_ONE * len(passes) else Seen.ONE
+        return Knocks(passes, frequency, n_passes, seen, hidden=_hidden(passes))
     height = np.array([pair.height for _, pair in agreeing])
     apart = np.array([pair.apart for _, pair in agreeing])
     ratios = np.log([pair.ratio for _, pair in agreeing])
-    if len(agreeing) < SHOWING * len(passes) or height.sum() < AGREEING * sum(
-        pair.height for _, pair in shown
-    ):
-        return Knocks(passes, frequency, n_passes, Seen.UNCLEAR)
+    # a release is soft: above the bands that show it only the exit may be left
+    reached = max(one.band.low for one, _ in agreeing)
+    counted = sum(one.band.low <= reached for one in passes)
+    showing = sum(pair.height for one, pair in shown if one.band.low <= reached)
+    if len(agreeing) < SHOWING * counted or height.sum() < AGREEING * showing:
+        return Knocks(passes, frequency, n_passes, Seen.UNCLEAR, hidden=_hidden(passes))
     if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
         return Knocks(passes, frequency, n_passes, Seen.ALIKE)
     separation = float(np.average(apart, weights=height))
@@ -305,14 +358,35 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     best, pair = max(agreeing, key=lambda one: one[1].height)
     trend = _trend([one.band for one, _ in agreeing], ratios, height)
     entry, leave, seen = pair.first, pair.second, Seen.TWO
-    if trend < -EXIT_GROWS[1]:  # the earlier one is the exit: the longer way round
+    rare = 1.0 - separation > RARE * separation
+    if trend < -EXIT_GROWS[1] and not rare:  # the earlier one is the exit: the longer way round
         entry, leave, separation = leave, entry, 1.0 - separation
-    elif trend < -EXIT_GROWS[0]:
+    elif trend < -EXIT_GROWS[1 if rare else 0]:
         seen = Seen.EITHER
     others = tuple(one for one in passes if one is not best)
     return Knocks(
         (best, *others), frequency, n_passes, seen, separation, deviation, entry, leave, trend
     )
+
+
+def _hidden(passes: Sequence[MeanPass]) -> float:
+    """Share of a ball pass around the highest peak beyond which every band has fallen.
+
+    To less than `FAINTEST` of it, so that a second knock would show; a release is seen best in the
+    lowest bands, so these have to stand out of the noise. NaN where they do not.
+    """
+    from scipy.ndimage import gaussian_filter1d
+
+    clear = [one for one in passes if FAINTEST * one.contrast > LEAST_SEEN]
+    if not clear or min(one.band.low for one in clear) > min(one.band.low for one in passes):
+        return math.nan
+    reached = 0.0
+    for one in clear:
+        smooth = gaussian_filter1d(one.envelope, SMOOTHING[1] * PLACES, mode="wrap")
+        above = np.flatnonzero(smooth > FAINTEST * smooth.max()) - int(smooth.argmax())
+        away = np.abs((above + PLACES // 2) % PLACES - PLACES // 2)
+        reached = max(reached, float(away.max()) / PLACES)
+    return reached
 
 
 def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:
@@ -323,7 +397,7 @@ def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:
 
 
 def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
-    """The two highest peaks of a mean pass; None where there are no two, or where there are more.
+    """The two highest peaks of a mean pass; None where there are no two.
 
     Parameters
     ----------
@@ -335,12 +409,14 @@ def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
 
     lobes = SIDE_LOBES * frequency / (mean_pass.band.high - mean_pass.band.low)
     # knocks far apart before the structure of a single one
+    train = None
     for width in SMOOTHING:
         smooth = gaussian_filter1d(mean_pass.envelope, width * PLACES, mode="wrap")
         found = _two_peaks(smooth, mean_pass.error, lobes)
-        if found is not None:
+        if found is not None and found.third <= THIRD:
             return found
-    return None
+        train = train or found
+    return train
 
 
 def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
@@ -363,13 +439,14 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
     if not enough.any():
         return None
     ranked = np.argsort(height * enough)[::-1]
-    if len(ranked) > 1 and enough[ranked[1]] and height[ranked[1]] > THIRD * height[ranked[0]]:
-        return None
+    third = 0.0
+    if len(ranked) > 1 and enough[ranked[1]]:
+        third = float(height[ranked[1]] / height[ranked[0]])
     first, second = sorted((highest, int(places[ranked[0]])))
     if second - first > PLACES // 2:
         first, second = second, first
     ratio = float(turned[second] / turned[first])
-    return Pair((first + shift) % PLACES / PLACES, (second + shift) % PLACES / PLACES, ratio)
+    return Pair((first + shift) % PLACES / PLACES, (second + shift) % PLACES / PLACES, ratio, third)
 
 
 def _away(pair: Pair, other: Pair) -> float:
@@ -386,9 +463,10 @@ def _agreeing(shown: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]
     None where all their bands have a frequency in common: it may be one resonance that beats.
     """
     best: list[tuple[MeanPass, Pair]] = []
-    for _, one in shown:
+    two = [(m, pair) for m, pair in shown if pair.third <= THIRD]
+    for _, one in two:
         reach = AGREE[0] * one.apart + AGREE[1]
-        near = [(m, pair) for m, pair in shown if _away(pair, one) <= reach]
+        near = [(m, pair) for m, pair in two if _away(pair, one) <= reach]
         if sum(pair.height for _, pair in near) > sum(pair.height for _, pair in best):
             best = near
     bands = [m.band for m, _ in best]

@@ -31,11 +31,18 @@ SAMPLES_A_DEGREE = 1.0
 """Of the recording for a degree of the race, below which knocks cannot be located."""
 
 
+NO_ANSWER = "no clear result"
+
+LONGEST_BOUND = 1.0 / 3.0
+"""Of a ball spacing, from which a bound would say nothing."""
+
+
 class ExtentStatus(Status):
     """The outcome of a measurement of the extent."""
 
     MEASURED = "measured"
     EITHER = "either way round"
+    SHORTER = "shorter"
     ONE_KNOCK = "one knock"
     UNCLEAR = "unclear"
     BOUNCES = "bounces"
@@ -53,6 +60,7 @@ class ExtentStatus(Status):
 _SENTENCES = {
     ExtentStatus.MEASURED: "Entry and exit are separate in the mean ball pass.",
     ExtentStatus.EITHER: "Entry and exit are separate, but it is not clear which is which.",
+    ExtentStatus.SHORTER: "Entry and exit are too close together to be separated.",
     ExtentStatus.ONE_KNOCK: (
         "There is one knock a ball pass: of a pit, or of a longer spall with a faint entry."
     ),
@@ -80,7 +88,8 @@ class MeasuredExtent:
     race
         "outer" or "inner"; "" where no race is named.
     extent, low, high
-        [rad] and the interval in which it lies with 95 %. NaN where there is none.
+        [rad] and the interval in which it lies with 95 %. NaN where there is none; where there is
+        only a bound, `extent` is NaN and `high` is the bound.
     separation, deviation
         [rad] of the race between the peaks of entry and exit, and its standard deviation. Where
         either may be the entry, the shorter way.
@@ -138,17 +147,21 @@ class MeasuredExtent:
                 [self.separation + self.offset, self.ball_spacing - self.separation + self.offset]
             )
             return f"{one:.1f}° or {other:.1f}°, {self.race} race"
-        return "No clear result"
+        if self.status == ExtentStatus.SHORTER:
+            return f"shorter than about {high:.0f}°, {self.race} race"
+        return NO_ANSWER
 
     @property
     def sentence(self) -> str:
         """The answer in a sentence, or why there is none."""
-        if self.status == ExtentStatus.EITHER:
-            return f"{self.answer}. {self.status.sentence}"
-        if not self.measured:
+        if self.answer == NO_ANSWER:
             return self.status.sentence
         spacing = math.degrees(self.ball_spacing)
-        return f"{self.answer}; or that and whole ball spacings of {spacing:.1f}°."
+        more = f"whole ball spacings of {spacing:.1f}°"
+        if self.status == ExtentStatus.SHORTER:
+            return f"{self.answer}, or so near to {more}. {self.status.sentence}"
+        words = f"{self.answer}; or that and {more}."
+        return words if self.measured else f"{words} {self.status.sentence}"
 
     def table(self) -> ResultTable:
         """One row with the answer; below it the mean ball pass of the best band over angle."""
@@ -265,6 +278,14 @@ def _answer(
     spacing = bearing.ball_spacing
     separation, deviation = spacing * knocks.separation, spacing * knocks.deviation
     extent = low = high = length = offset = math.nan
+    if math.isfinite(knocks.hidden):
+        high = spacing * knocks.hidden + plausible_offsets(bearing, race, load, clearance).quantile(
+            0.975
+        )
+        if high < LONGEST_BOUND * spacing:
+            status, low = ExtentStatus.SHORTER, 0.0
+        else:
+            high = math.nan
     if math.isfinite(separation):
         offsets = plausible_offsets(bearing, race, load, clearance)
         least, offset, most = (offsets.quantile(share) for share in (0.025, 0.5, 0.975))

@@ -153,6 +153,8 @@ def test_spalls_of_a_rig_are_measured():
     ]
     results = [extent_verdict(*pair) for pair in found]
     assert WRONG not in results
+    for one, answer in found:
+        assert not answer.high < math.radians(one.spall_extent_deg)
     long = [(one, answer) for one, answer in found if one.spall_extent_deg > 2.0]
     assert len(long) == 12
     for one, answer in long:
@@ -168,3 +170,4 @@ def test_pits_are_given_no_extent_that_cannot_be(collection):
         if one.truth in ("inner race", "outer race"):
             answer = measure_extent(one.recording, one.bearing, one.shaft_speed, race=one.truth[:5])
             assert not answer.measured or answer.low < math.radians(3.0)
+            assert not answer.high < math.radians(one.spall_extent_deg or 0.0)

@@ -28,12 +28,11 @@ from bearingcore import DOF_NAMES, Scene
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
 from bearingcore.diagnosis.size.sizing_error import extent_error
-from bearingcore.scene.scene import WITH_MASS
 from bearingcore.sweep.grid import Axis, Grid
 from bearingcore.sweep.outputs import (
+    LIFE,
     MASS,
     MODES,
-    MOTION,
     OUTPUTS,
     SECONDS,
     STATICS,
@@ -53,8 +52,6 @@ STRIDES = (16, 8, 4, 2, 1)
 SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRIDES}
 """Points of each level, where nothing is rounded to whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
 
-AT_ONCE = 0.3
-"""[s] that a first picture may take while a slider is dragged."""
 BUDGET = 120.0
 """[s] that a map may take."""
 
@@ -64,8 +61,8 @@ a few lines of a spectrum."""
 
 _SIZING = "sizing"
 _SECONDS = {**SECONDS, _SIZING: 0.6}
-_MANY_DIRECTIONS = 10.0  # times the cost, for all but statics and modes
-_WITH_MASS = 10.0  # times the cost of a motion
+_QUICK = (STATICS, LIFE, MODES)
+"""Computations of which a first level is there while a slider is dragged."""
 _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
@@ -116,13 +113,6 @@ class MapOutput:
         """Its name with its unit, for a table."""
         suffix = UNITS[self.unit].suffix
         return "_".join(filter(None, (self.name.replace(":", "_"), suffix)))
-
-    def seconds(self, scene: Scene) -> float:
-        """Rough cost of a scene [s]."""
-        many = len(scene.active_dofs) > 2 and self.needs not in (STATICS, MODES)
-        seconds = _SECONDS[self.needs] * (_MANY_DIRECTIONS if many else 1.0)
-        heavy = scene.balls == WITH_MASS and self.needs == MOTION
-        return seconds * (_WITH_MASS if heavy else 1.0)
 
 
 def _all_outputs() -> dict[str, MapOutput]:
@@ -194,27 +184,15 @@ class Question:
             self.output.settings,
         )
 
-    @cached_property
-    def seconds(self) -> float:
-        """Rough cost of one of its scenes [s]."""
-        richest = {
-            name: float(max(values.tolist(), key=abs))
-            for name, values in (self.x.in_si, self.y.in_si)
-        }
-        try:
-            return self.output.seconds(self.scene.replace(**richest))
-        except ValueError:
-            return self.output.seconds(self.scene)
+    @property
+    def at_once(self) -> bool:
+        """Whether the first level is quick enough to follow a slider."""
+        return self.output.needs in _QUICK
 
     @property
     def first_stride(self) -> int:
         """Of the level to begin with: 9 × 7 points where they come at once, or else 5 × 4."""
-        return 8 if self.count(8) * self.seconds <= AT_ONCE else 16
-
-    @property
-    def at_once(self) -> bool:
-        """Whether the first level is quick enough to follow a slider."""
-        return self.count(self.first_stride) * self.seconds <= AT_ONCE
+        return 8 if self.at_once else 16
 
     def sides(self, stride: int) -> tuple[Sweep, Sweep]:
         """The values of a level on both sides."""
@@ -290,7 +268,8 @@ class Survey:
     @property
     def seconds(self) -> float:
         """Cost of a scene [s]: measured where something was computed, or else guessed."""
-        return self.spent / self._computed if self._computed >= 6 else self.question.seconds
+        guess = _SECONDS[self.question.output.needs]
+        return self.spent / self._computed if self._computed >= 6 else guess
 
     def affordable(self, stride: int) -> bool:
         """Whether the map may be found on this level too."""

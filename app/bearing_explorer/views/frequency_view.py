@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Layer, add_all, curve, nothing, sources_of
 from bearing_explorer.plots.levels import (
     DEPTH_OF_VIEW,
     FREQUENCY,
@@ -35,6 +36,16 @@ from bearingcore import Spectrum
 FRAME = 236.0  # [px] height of the frame of a figure
 HEIGHT = 300
 SCALES = ("dB", "linear")
+AXES = {
+    "dB": (
+        style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"), "level", (-80.0, -20.0),
+    ),
+    "linear": (
+        style.AxisQuantity("Amplitude density", "√S", "m/s²/√Hz", prefixed=True),
+        "height", (0.0, 1.0),
+    ),
+}  # fmt: skip
+"""Quantity, name and first range of the axis of each scale."""
 RESOLUTIONS = ("32", "8", "2")
 MOST_LINES = 3000
 """Of a spectrum that are drawn."""
@@ -112,50 +123,39 @@ class FrequencyView(MeasuredView):
         self._heights = StickyRange(0.0, 1.0, anchor="zero", shrink_below=0.7)
         p = self.prefix
         frequency = packed.range(f"{p}_frequency", 0.0, HIGHEST)
-        ranges = {
-            "dB": packed.range(f"{p}_level", -80.0, -20.0),
-            "linear": packed.range(f"{p}_height", 0.0, 1.0),
-        }
-        quantities = {
-            "dB": style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"),
-            "linear": style.AxisQuantity("Amplitude density", "√S", "m/s²/√Hz", prefixed=True),
-        }
+        layers = {scale: self._layers(scale) for scale in SCALES}
+        sources = sources_of(packed, [layer for own in layers.values() for layer in own])
         self._plots = {
             scale: style.make_figure(
                 FREQUENCY,
-                quantities[scale],
+                quantity,
                 frequency,
-                ranges[scale],
+                packed.range(f"{p}_{name}", *first),
                 height=HEIGHT,
                 name=f"{p}_drawing_{scale}",
             )
-            for scale in SCALES
+            for scale, (quantity, name, first) in AXES.items()
         }
         self._lines = FrequencyLines(packed, p, list(self._plots.values()), FRAME)
         self.decorate(packed, list(self._plots.values()))
-        measured = packed.source(f"{p}_measured", "frequency", *SCALES)
-        simulated = {
-            dof: packed.source(f"{p}_simulated_{dof}", "frequency", *SCALES) for dof in SHOWN
-        }
         for scale, plot in self._plots.items():
-            for dof, source in simulated.items():
-                color = style.color_along(dof)
-                plot.line("frequency", scale, source=source, line_color=color, line_width=2.4)
-            plot.line(
-                "frequency", scale, source=measured, line_color=MEASURED, line_width=1.2,
-                line_alpha=0.9,
-            )  # fmt: skip
-            plot.visible = scale == self.look.scale
+            add_all(plot, sources, layers[scale])
         self.panel_of_look = LookPanel(self.look_changed, self.fields)
+        whole = {"sizing_mode": "stretch_width", "margin": 0}
+        self.hidden = pn.Column(self.panel_of_look, *self._plots.values(), visible=False, **whole)
         self._show_look()
-        self.hidden = pn.Column(
-            self.panel_of_look,
-            *self._plots.values(),
-            sizing_mode="stretch_width",
-            margin=0,
-            visible=False,
-        )
         return self.hidden
+
+    def _layers(self, scale: str) -> list[Layer]:
+        """The simulated spectra, and the measured one over them."""
+        p = self.prefix
+        return [
+            *(
+                curve(f"{p}_simulated_{dof}", "frequency", scale, style.color_along(dof), 2.4)
+                for dof in SHOWN
+            ),
+            curve(f"{p}_measured", "frequency", scale, MEASURED, 1.2, alpha=0.9),
+        ]
 
     def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
         """Draw layers beneath the spectra."""
@@ -209,6 +209,8 @@ class FrequencyView(MeasuredView):
             look_values(look) | {"direction": seen},
             disabled={"direction": [dof for dof in SHOWN if dof not in directions]},
         )
+        for scale, plot in self._plots.items():
+            plot.visible = scale == look.scale
 
     def direction(self, measured: Measured) -> str:
         """The direction that is shown: the one chosen, where it was measured."""
@@ -218,17 +220,13 @@ class FrequencyView(MeasuredView):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         self._show_look()
-        for scale, plot in self._plots.items():
-            plot.visible = scale == self.look.scale
 
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         p, measured, look = self.prefix, self.measured, self.look
         if measured is None:
-            none = dict.fromkeys(("frequency", *SCALES), np.zeros(0))
-            names = [f"{p}_measured", *(f"{p}_simulated_{dof}" for dof in SHOWN)]
-            empty: Sources = dict.fromkeys(names, none)
+            empty = nothing([layer for scale in SCALES for layer in self._layers(scale)])
             return empty | self._lines.nothing() | self.decoration(None, None), {}
         shown = self.shown(results, measured)
         lines = of_rows(measured.scene(results.scene))

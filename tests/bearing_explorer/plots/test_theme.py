@@ -14,7 +14,7 @@ from bearing_explorer.plots.color_scales import DIVERGING, DIVERGING_DARK
 from bearing_explorer.views import stability_map
 from bearing_explorer.views.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
-VIEWS = Path(style.__file__).parent
+FIGURES = [Path(style.__file__).parent, Path(stability_map.__file__).parent]
 #: a map's own colours, the same on both pages, and what lies on top of pictures
 FIXED = {
     *(kind.color.upper() for kind in stability_map.KINDS),
@@ -105,7 +105,8 @@ def test_every_color_of_a_figure_has_its_dark_one() -> None:
     known = {*DARK_COLORS, *FIXED}
     odd = {
         f"{path.name}: {color}"
-        for path in VIEWS.glob("*.py")
+        for folder in FIGURES
+        for path in folder.rglob("*.py")
         if path.name != "theme.py"
         for color in re.findall(r"[\"'](#[0-9A-Fa-f]{6,8})[\"']", path.read_text(encoding="utf-8"))
         if color.upper() not in known

@@ -5,24 +5,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 
-def test_a_drag_is_one_step() -> None:
-    history = History(0)
-    for now in (1, 2, 3):
-        history.moved(now, "extent")
-    history.settle()
-    assert history.undo() == 0
-    assert history.undo() is None
-    assert history.redo() == 3
-    assert history.redo() is None
-
-
-def test_another_slider_begins_another_step() -> None:
-    history = History(0)
-    history.moved(1, "extent")
-    history.moved(2, "depth")
-    assert [history.undo(), history.undo(), history.undo()] == [1, 0, None]
-
-
 def test_what_ends_where_it_began_is_no_step() -> None:
     history = History(0)
     history.moved(1, "extent")
@@ -31,17 +13,6 @@ def test_what_ends_where_it_began_is_no_step() -> None:
     history.settle()
     history.step(0)
     assert history.undo() is None
-
-
-def test_a_new_step_forgets_what_was_undone_and_looking_on_does_not() -> None:
-    history = History(0)
-    history.step(1)
-    assert history.undo() == 0
-    history.step(0)
-    assert history.can_redo
-    history.step(5)
-    assert not history.can_redo
-    assert history.undo() == 0
 
 
 def test_only_so_many_steps_are_kept() -> None:

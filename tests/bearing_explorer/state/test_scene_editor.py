@@ -249,13 +249,6 @@ def test_a_file_that_is_no_floor_is_refused_in_words(
     assert re.search(words, floor["words"]), floor["words"]
 
 
-def test_read_file_never_raises() -> None:
-    for text in ("", "1", "1 2 3", "1e400 2\n3 4", "a\nb\nc", "1 2\n" * 3):
-        found, wrong = read_file(text)
-        assert found is None
-        assert wrong.endswith(".")
-
-
 def test_directions_are_forced_and_given_back(editor: SceneEditor) -> None:
     editor.choose({"dofs": "y x z"})
     assert editor.scene.active_dofs == ("x", "y", "z")
@@ -264,11 +257,6 @@ def test_directions_are_forced_and_given_back(editor: SceneEditor) -> None:
     assert editor.scene.active_dofs == ("x", "y", "z")
     editor.choose({"dofs": "auto"})
     assert editor.scene == presets["fan-rig"]
-
-
-def test_the_contact_law_is_chosen(editor: SceneEditor) -> None:
-    editor.choose({"law": "no tension"})
-    assert editor.scene.contact_law == "no tension"
 
 
 @pytest.mark.parametrize(

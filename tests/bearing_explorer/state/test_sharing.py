@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from bearing_explorer.session import Explorer
 
-from bearingcore import Scene, presets
+from bearingcore import presets
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
 
@@ -86,29 +86,6 @@ def test_undo_is_drawn_and_answered(answers: list[dict]) -> None:
     assert again.values["depth_um"] == 60
     assert again.share.state["undo"]
     assert not again.share.state["redo"]
-
-
-def test_an_address_is_drawn_first(answers: list[dict]) -> None:
-    explorer = session(address="v=1&preset=6205&depth_um=80&tab=two")
-    assert explorer._shown == "two"
-    assert explorer.scene == presets["6205"].replace(depth=80 * 1e-6)
-    assert explorer.controls.state["values"]["depth_um"] == 80
-    elsewhere = session(address="v=1&tab=nowhere")
-    assert elsewhere._shown == "one"
-
-
-def test_a_file_is_opened_and_a_scene_pinned(answers: list[dict]) -> None:
-    text = presets["6205"].to_toml()
-    explorer = session(
-        asking(1, pin={"name": "before", "text": "v=1&preset=liew-lim"}),
-        asking(2, file={"name": "x.toml", "text": text}),
-        asking(3, want="toml"),
-    )
-    assert explorer.scene == presets["6205"]
-    assert explorer.inputs.pinned is not None
-    assert explorer.inputs.results().reference == presets["liew-lim"]
-    assert Scene.from_toml(answers[0]["file"]["text"]) == presets["6205"]
-    assert explorer._drawn_mark == 3
 
 
 def test_one_report_at_a_time(answers: list[dict]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import tempfile
 import webbrowser
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,7 @@ import numpy as np
 from bokeh.document import Document
 from bokeh.embed import components
 from bokeh.events import DocumentReady
-from bokeh.models import Column, CustomJS, LayoutDOM, Plot
+from bokeh.models import Column, CustomJS
 from bokeh.resources import Resources
 
 from bearing_explorer.measurement.session import Measurement
@@ -56,72 +56,7 @@ class FilledSources(PackedSource):
         return CustomJS(args=args, code=_FOLLOW)
 
 
-class StillFigures:
-    """Figures with numbers in them: shown by a notebook, in a browser, or saved as a page.
-
-    Attributes
-    ----------
-    layout
-        the Bokeh layout of the figures.
-    document
-        the Bokeh document that holds the layout.
-
-    Parameters
-    ----------
-    name, title, sentence
-        of the figures.
-    plots
-        the figures.
-    follow
-        what `FilledSources.fill` returned.
-    """
-
-    def __init__(
-        self, name: str, title: str, sentence: str, plots: Sequence[LayoutDOM], follow: CustomJS
-    ) -> None:
-        self._name, self._title, self.sentence = name, title, sentence
-        self.layout = Column(children=list(plots), sizing_mode="stretch_width")
-        for plot in self.layout.select({"type": Plot}):
-            plot.frame_align = False  # or all would leave as much room as the one that needs most
-        self.document = Document()
-        self.document.add_root(self.layout)
-        self.document.js_on_event(DocumentReady, follow)
-
-    def page(self) -> str:
-        """A page with the figures that needs nothing from outside."""
-        title = html.escape(self._title)
-        return (
-            f"<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>{title}</title></head>"
-            f"<body>{bokeh_scripts()}{self._place()}</body></html>\n"
-        )
-
-    def _place(self) -> str:
-        """Where the figures go, the script that draws them, and their sentence."""
-        words = f"<p style='font-family: sans-serif'>{html.escape(self.sentence)}</p>"
-        if not self.layout.children:
-            return words
-        script, place = components(self.layout)
-        return f"{place}{script}{words}"
-
-    def save(self, path: str | Path) -> None:
-        """Write `page` to a file."""
-        Path(path).write_text(self.page(), encoding="utf-8")
-
-    def show(self) -> None:
-        """Open the figures in the browser; where there is none, their path is printed."""
-        with tempfile.NamedTemporaryFile(
-            "w", suffix=f"-{self._name}.html", delete=False, encoding="utf-8"
-        ) as file:
-            file.write(self.page())
-        if not webbrowser.open(Path(file.name).as_uri()):
-            print(file.name)
-
-    def _repr_html_(self) -> str:
-        """In a notebook; Bokeh itself comes with the first figure."""
-        return _bokeh_once() + self._place()
-
-
-class Figure(StillFigures):
+class Figure:
     """A view with the numbers of one scene in it.
 
     Attributes
@@ -130,6 +65,10 @@ class Figure(StillFigures):
         everything that is known about the scene; its attributes are results of `bearingcore`.
     sentence
         the sentence on the figure.
+    layout
+        the Bokeh layout of its figures.
+    document
+        the Bokeh document that holds the layout.
 
     Parameters
     ----------
@@ -170,15 +109,53 @@ class Figure(StillFigures):
         elif choices is not None or (computed and self.view.computes):
             self.view.choose(choices or {}, results)
         data, ranges = self.view.data(results)
-        sentence = self.view.sentence(results)
-        self.view.say(results, sentence)
+        self.sentence = self.view.sentence(results)
+        self.view.say(results, self.sentence)
         follow = sources.fill(data, ranges)
-        plots = self.view.still_figures()
-        super().__init__(self.view.name, self.view.title, sentence, plots, follow)
+        for plot in self.view.figures:
+            plot.frame_align = False  # or all would leave as much room as the one that needs most
+        plots = list(self.view.still_figures())
+        self.layout = Column(children=plots, sizing_mode="stretch_width")
+        self.document = Document()
+        self.document.add_root(self.layout)
+        self.document.js_on_event(DocumentReady, follow)
 
     def table(self) -> dict[str, np.ndarray]:
         """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
         return self.view.table(self.results)
+
+    def page(self) -> str:
+        """A page with the figure that needs nothing from outside."""
+        title = html.escape(self.view.title)
+        return (
+            f"<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>{title}</title></head>"
+            f"<body>{bokeh_scripts()}{self._place()}</body></html>\n"
+        )
+
+    def _place(self) -> str:
+        """Where the figure goes, the script that draws it, and its sentence."""
+        words = f"<p style='font-family: sans-serif'>{html.escape(self.sentence)}</p>"
+        if not self.layout.children:
+            return words
+        script, place = components(self.layout)
+        return f"{place}{script}{words}"
+
+    def save(self, path: str | Path) -> None:
+        """Write `page` to a file."""
+        Path(path).write_text(self.page(), encoding="utf-8")
+
+    def show(self) -> None:
+        """Open the figure in the browser; where there is none, its path is printed."""
+        with tempfile.NamedTemporaryFile(
+            "w", suffix=f"-{self.view.name}.html", delete=False, encoding="utf-8"
+        ) as file:
+            file.write(self.page())
+        if not webbrowser.open(Path(file.name).as_uri()):
+            print(file.name)
+
+    def _repr_html_(self) -> str:
+        """In a notebook; Bokeh itself comes with the first figure."""
+        return _bokeh_once() + self._place()
 
 
 def figure_of(

@@ -45,7 +45,7 @@ function bearing_search(model, panel) {
     refusal.textContent = sentence
     refusal.hidden = !sentence
   }
-  const show = ({ text, entries, words }) => {
+  const list_found = ({ text, entries, words }) => {
     if (input.getRootNode().activeElement !== input || text !== (input.value === name ? "" : input.value.trim().replace(/\s+/g, " "))) return
     list.replaceChildren(...entries.map(({ choose, label, words: about, mark }, i) => {
       const one = element("li", { role: "option", id: `found-${i}`, "aria-selected": "false" },
@@ -76,7 +76,7 @@ function bearing_search(model, panel) {
     event.preventDefault()
   })
   model.on("msg:custom", ({ found, refused }) => {
-    if (found) show(found)
+    if (found) list_found(found)
     const sentence = refused?.bearing ?? refused?.preset
     if (sentence) refuse(sentence)
   })
@@ -86,8 +86,12 @@ function bearing_search(model, panel) {
     note.textContent = bearing.note
     if (input.getRootNode().activeElement !== input) input.value = name
   }
+  const show = (_, effect = "") => {
+    refuse("")
+    if (list.hidden) status.textContent = effect
+  }
   const root = element("div", { class: "choice choice-preset" },
     element("div", { class: "head" }, element("label", { for: "choice-preset" }, "Bearing"), more),
     element("div", { class: "search" }, input, list), status, refusal, note)
-  return { root, refusal, select: input, show: () => refuse(""), follow_state }
+  return { root, refusal, select: input, show, follow_state }
 }

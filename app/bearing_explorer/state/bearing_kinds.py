@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 from bearing_explorer.state.choice_list import KIND_OF_VARIANT
 from bearing_explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
+from bearingcore.common.numbers import number
 from bearingcore.scene.scene import LOAD_ALONG
 
 MOST_SHOWN_ROWS = 2
@@ -58,6 +60,24 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
         load=dataclasses.replace(scene.load, **dict.fromkeys(_loads_without(bearing), 0.0)),
         dofs=dofs or None,
     )
+
+
+def held(scene: Scene) -> tuple[Scene, str]:
+    """A scene in which a single row with a contact angle is pushed together, and a sentence on it.
+
+    Such a row carries a radial load only with an axial one, and tilts without another bearing on
+    its shaft: both are added where the scene has no axial load. No sentence where nothing is.
+    """
+    bearing, load = scene.bearing, scene.load
+    thrust = 2.0 * math.tan(bearing.contact_angle) * math.hypot(load.fx, load.fy)
+    alone = not bearing.rows and "z" in bearing.kind.directions
+    if load.fz != 0.0 or not (alone and thrust > 0.0):
+        return scene, ""
+    words = (
+        f"Added, as such a bearing needs it: an axial load of {number(thrust)} N, and a shaft that "
+        "another bearing keeps from tilting."
+    )
+    return scene.replace(fz=float(f"{thrust:.3g}"), dofs=("x", "y", "z")), words
 
 
 def _loads_without(bearing: Bearing) -> list[str]:

@@ -266,8 +266,7 @@ NUMBERS = Choice(
         Option(
             "drawing",
             "A drawing",
-            "Groove radii and material are given, to begin with 0.52 and 0.53 ball diameters "
-            "in steel; groove centres, raceway radii and the "
+            "Groove radii and material are given; groove centres, raceway radii and the "
             "load-deflection factor follow from them (Hertz). Contact angle and clearance describe "
             "the same freedom: give one and leave the other 0, or give both, as the paper does.",
         ),

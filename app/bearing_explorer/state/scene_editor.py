@@ -17,6 +17,7 @@ from bearing_explorer.state.bearing_draft import OF_BEARING, faults_of, words_of
 from bearing_explorer.state.bearing_kinds import (
     MOST_SHOWN_ROWS,
     as_kind,
+    held,
     hidden_of,
     scene_with,
 )
@@ -261,9 +262,12 @@ class SceneEditor:
 
         ValueError, and nothing changed, where the scene's defects do not go with it.
         """
-        self._take(scene_with(self.scene, bearing))
+        scene, effect = held(scene_with(self.scene, bearing))
+        self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
+        if effect:
+            self.effects["preset"] = effect
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
         self.drop_draft()

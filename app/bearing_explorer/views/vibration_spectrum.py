@@ -54,7 +54,8 @@ AXIS: LookField = {
 
 _PASS_WORDS = """
 const of = row.row ? ` row ${row.row}` : ''
-return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)} Hz`
+const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
+return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)}${give} Hz`
 """
 
 
@@ -85,7 +86,7 @@ PASSES: list[Layer] = [
         "frequency",
         0.06,
         _PASS_WORDS,
-        reads=("inner", "row"),
+        reads=("inner", "row", "spread"),
         y_share=True,
         in_view="x",
         share=1.0,
@@ -235,7 +236,8 @@ def loudest_words(results: Results) -> str:
             for race, row, frequency in passed(results.scene)
         ]
     )
-    text += f"; balls pass a point {passing}"
+    estimated = ", as estimated" if results.scene.bearing.estimated else ""
+    text += f"; balls pass a point {passing}{estimated}"
     if results.moving:
         return f"{text}."
     start = style.with_prefix(results.settled_since, "s")
@@ -262,17 +264,22 @@ def passed(scene: Scene) -> list[tuple[str, int, float]]:
 def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
     """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
 
-    Columns: frequency, whether it belongs to the inner race, and the number of the row, 0 where
-    rows are alike; the outer race comes first.
+    Columns: frequency, whether it belongs to the inner race, the number of the row, 0 where rows
+    are alike, and the error [Hz] that an estimated inside may give; the outer race comes first.
     """
     frequencies, inner, rows = [np.empty(0)], [np.empty(0)], [np.empty(0)]
+    spreads = [np.empty(0)]
     for race, row, first in passed(scene):
+        own = scene.bearing.of_row(max(row - 1, 0))
+        spread = first * own.frequency_spread("bpfo" if race == "outer" else "bpfi")
         count = int(top / first) if first > 0.0 else 0
         frequencies.append(first * np.arange(1.0, count + 1.0))
         inner.append(np.full(count, float(race == "inner")))
         rows.append(np.full(count, float(row)))
+        spreads.append(np.full(count, spread))
     return {
         "frequency": np.concatenate(frequencies),
         "inner": np.concatenate(inner),
         "row": np.concatenate(rows),
+        "spread": np.concatenate(spreads),
     }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from bearing_explorer.state import address
 from bearing_explorer.state.bearing_list import BearingTable, entry_words, read_table
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import catalogue, limits, presets
+from bearingcore import catalogue, equilibrium, limits, presets
 from bearingcore.scene.presets import preset_labels
 
 TABLE = "name;balls;ball_diameter_mm;pitch_diameter_mm\nPump 3;9;7,94;39,04\n"
@@ -129,6 +131,18 @@ def test_every_entry_can_be_taken() -> None:
     for text in ("", "62", "nj 3", "12", "73"):
         for one in BearingTable().search(text)["entries"]:
             assert SceneEditor("fan-rig").choose(one["choose"]) == {}
+
+
+def test_a_row_with_a_contact_angle_gets_the_axial_load_that_it_needs() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.choose({"bearing": "7208 BEP"})
+    assert editor.scene.load.fz == pytest.approx(
+        2.0 * math.tan(math.radians(40.0)) * 100.0, rel=0.01
+    )
+    assert "168 N" in editor.state()["effects"]["preset"]
+    assert equilibrium(editor.scene).converged.all()
+    editor.choose({"bearing": "7308 BEP"})
+    assert "preset" not in editor.state()["effects"]  # the scene has an axial load by now
 
 
 def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:

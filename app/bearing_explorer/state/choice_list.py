@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from bearing_explorer.state.field_values import defects_of
-from bearingcore import MeasuredFloor, RoughFloor, Scene, preset_notes, presets
+from bearingcore import MeasuredFloor, RoughFloor, Scene
 from bearingcore.bearings import KINDS
-from bearingcore.scene.presets import preset_labels
 
 NOTHING = object()
 """The value of an option that is None in the core."""
@@ -105,19 +104,6 @@ class Choice:
         """The sentence of a report about a scene or a defect; empty without one."""
         return self.said.format(self.name_of(owner)) if self.said else ""
 
-
-PRESET = Choice(
-    "preset",
-    "Bearing",
-    "",
-    tuple(
-        Option(name, preset_labels[name], note)
-        for name, note in preset_notes.items()
-        if name in presets
-    ),
-    first=True,
-    not_in_lessons=frozenset(presets),  # the head of a lesson has an entry for it
-)
 
 RACE = Choice(
     "race",
@@ -287,11 +273,8 @@ KIND = Choice(
     not_in_lessons=frozenset(KIND_OF_VARIANT),
 )
 
-CHOICE_LIST: tuple[Choice, ...] = (*(PRESET, KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS),)
+CHOICE_LIST: tuple[Choice, ...] = (KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS)
 """All choices, in the order in which several are taken."""
-
-CHOICES: Mapping[str, Choice] = {choice.name: choice for choice in CHOICE_LIST}
-"""The same by name."""
 
 OF_SCENE = tuple(choice for choice in CHOICE_LIST if choice.of == "scene")
 OF_DEFECT = tuple(choice for choice in CHOICE_LIST if choice.of == "defect")

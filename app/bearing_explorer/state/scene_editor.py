@@ -22,7 +22,7 @@ from bearing_explorer.state.bearing_kinds import (
     scene_with,
 )
 from bearing_explorer.state.bearing_list import BearingTable, origin_words
-from bearing_explorer.state.choice_list import CHOICE_LIST, PRESET, Choice, chosen_of
+from bearing_explorer.state.choice_list import CHOICE_LIST, Choice, chosen_of
 from bearing_explorer.state.field_values import (
     CAGE_ANGLE,
     FIELD_BY_KEY,
@@ -58,6 +58,7 @@ from bearingcore.bearings.drawing import OPTIONAL_FIELDS
 from bearingcore.common import checks
 from bearingcore.common.numbers import number
 from bearingcore.fields import Range
+from bearingcore.scene.presets import preset_labels
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
@@ -230,7 +231,7 @@ class SceneEditor:
     @property
     def name(self) -> str:
         """Name of the bearing: the one given, else that of the preset it began from."""
-        label = next((o.label for o in PRESET.options if o.name == self.preset), self.preset)
+        label = preset_labels[self.preset]
         changed = self.own_name == self._begun_from if self.own_name else self.changed
         name = (self.own_name or label) + (", changed" if changed else "")
         return f"{name} ({ESTIMATED})" if self.scene.bearing.estimated else name
@@ -392,11 +393,12 @@ class SceneEditor:
         refused: Refused = {}
         self.effects = {}
         own = {
-            "preset": self.take_preset,
             "floor": self._take_floor_kind,
             "numbers": self._take_numbers,
             "kind": self._take_kind,
         }
+        if (preset := _one_of(choice.get("preset"), presets)) is not None:
+            self.take_preset(preset)
         for known in CHOICE_LIST:
             name = _one_of(choice.get(known.name), known.names)
             if name is not None:

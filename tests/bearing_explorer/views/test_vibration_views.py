@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bearingcore import Defect, presets
+from bearingcore.bearings.designation import read_designation
 
 FAN_RIG = presets["fan-rig"]
 
@@ -106,6 +107,20 @@ def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> Non
     assert inner["inner"].all()
     still = pass_frequencies(FAN_RIG.replace(shaft_speed=0.0), 2500.0)
     assert still["frequency"].size == 0
+
+
+def test_lines_of_an_estimated_inside_have_their_error() -> None:
+    assert not pass_frequencies(FAN_RIG, 2500.0)["spread"].any()
+    bearing = read_designation("6208").bearing
+    scene = presets["6205"].replace(bearing=bearing)
+    spread = pass_frequencies(scene, 2500.0)["spread"]
+    assert spread[0] == pytest.approx(bearing.bpfo(scene.shaft_speed) * 0.0140, rel=0.02)
+    inner = bearing.bpfi(scene.shaft_speed) * bearing.frequency_spread("bpfi")
+    assert of_rows(scene)[0]["bpfi_spread"] == pytest.approx(inner)
+    columns = FrequencyLines(PackedSource(), "lines", (), 200.0).columns(
+        of_rows(scene), ("bpfi",), 1000.0
+    )
+    assert columns["lines_bpfi_names"]["spread"][0] == pytest.approx(inner)
 
 
 def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:

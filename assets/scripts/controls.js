@@ -4,7 +4,7 @@
 const TURN_RATE = 18      // degrees of cage angle a second while playing
 const IDLE_RATE = 6       // the same by itself, until the first touch ...
 const IDLE_TIME = 60e3    // ms, or so long
-const IDLE_PAUSE = 10     // times what a picture takes: many pages that turn do not fill a server
+const IDLE_PAUSE = 10     // times what a picture takes the server, which many pages may share
 const TOUCHES = ["pointerdown", "keydown", "wheel"]
 const LENGTHENING = 1200  // ms in which the defect grows by a ball spacing
 const LARGEST_FILE = 1e6  // bytes of a measured floor
@@ -19,7 +19,7 @@ export function render({ model }) {
   // Turns the bearing until it is pressed again. A page that is opened without a scene turns it by
   // itself, which is no step to undo.
   const play = (name) => {
-    let last = 0, drawn_after = 0, playing = false, idle = false
+    let last = 0, playing = false, idle = false
     const set_playing = (wanted, by_itself = false) => {
       if (playing && !wanted) idle ? send({ set: {}, turning: true, released: true }) : panel.release()
       playing = wanted
@@ -35,10 +35,9 @@ export function render({ model }) {
     const toggle = button("", () => set_playing(!playing), { class: "play" })
     const turn = (now) => {
       if (!playing || !toggle.isConnected) return
-      const passed = now - last
+      const passed = now - last, pause = idle ? Math.max(60, 1000 * IDLE_PAUSE * window.__worked) : 30
       // The next angle is asked for when the last one is drawn: turning never outruns drawing.
-      if (!panel.drawn()) drawn_after = passed
-      else if (passed >= (idle ? Math.max(60, IDLE_PAUSE * drawn_after) : 30)) {
+      if (panel.drawn() && passed >= pause) {
         last = now
         const by = (idle ? IDLE_RATE : TURN_RATE) * Math.min(passed, 250) / 1000
         const angle = Number(((values[name] + by) % 360).toFixed(3))
@@ -128,7 +127,8 @@ export function render({ model }) {
   let usual = {}, many = 1
   const count_changed = () => {
     const differs = (name, value) => usual[name] !== undefined && value !== usual[name]
-    const changed = many - 1 + all_of.filter((one) => !is_main(one) && differs(one.name, values[one.name])).length
+    const folded = all_of.filter((one) => !is_main(one) && one.name !== spec.turning)
+    const changed = many - 1 + folded.filter(({ name }) => differs(name, values[name])).length
       + Object.entries(panel.selects).filter(([name, { select }]) => differs(name, select.value)).length
     more.textContent = changed ? `More (${changed} changed)` : "More"
   }

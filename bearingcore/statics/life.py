@@ -49,7 +49,7 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.drawing import WIDEST_CONFORMITY
 from bearingcore.bearings.ratings import capacity_factor, dynamic_rating, groove_ratio
 from bearingcore.common import checks
-from bearingcore.common.numbers import number, percent
+from bearingcore.common.numbers import number, percent, thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
@@ -458,6 +458,11 @@ LEFT_OUT = (
 )
 
 
+def _long(value: float) -> str:
+    """A number to four digits, in groups of three where it is long."""
+    return number(value, 4) if value < 1e4 else thousands(float(f"{value:.4g}"))
+
+
 def _sentence(
     scene: Scene, reason: str, L: float, hours: float, L_healthy: float, share: float
 ) -> str:
@@ -465,12 +470,12 @@ def _sentence(
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
         return "No ball carries load: nothing tires."
-    words = f"Nine of ten bearings reach {number(L, 4)} million turns"
+    words = f"Nine of ten bearings reach {_long(L)} million turns"
     if math.isnan(hours):
         words += "; the shaft stands still, so there are no hours."
     else:
         rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
-        words += f", {number(hours, 4)} hours at {number(rpm, 4)} rpm."
+        words += f", {_long(hours)} hours at {number(rpm, 4)} rpm."
     if share > HEAVIEST_SHARE:
         words += (
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
@@ -478,7 +483,7 @@ def _sentence(
         )
     if scene.defects:
         words += (
-            f" That is {percent(L / L_healthy)} of the healthy bearing's {number(L_healthy, 4)} "
+            f" That is {percent(L / L_healthy)} of the healthy bearing's {_long(L_healthy)} "
             f"million. {LEFT_OUT}"
         )
     return words

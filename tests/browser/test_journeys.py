@@ -537,12 +537,16 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(
     entries.first.get_by_role("button").click()
     title = lesson.get_by_role("heading", level=2)
     first = title.inner_text()
+    veil = visitor.main.locator(".view.veiled")
+    expect(veil).to_have_count(2)  # what it asks to watch has the answer
+    expect(visitor.main.get_by_text(re.compile(r"\b39 N"))).to_have_count(0)
     expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
     lesson.get_by_role("button", name="500 N").click()
     expect(visitor.box("Force, up")).to_have_value("−500")
     lesson.get_by_role("textbox").fill("7")
     lesson.get_by_role("button", name="Predict").click()
-    visitor.reads(re.compile("7 N"), lesson)
+    visitor.reads("Not quite: 7 N. The answer is 39 N.", lesson)
+    expect(veil).to_have_count(0)
     before = lesson.inner_text()
     lesson.get_by_role("button", name=re.compile("answer")).click()
     visitor.wait(lambda: len(lesson.inner_text()) > len(before))
@@ -645,6 +649,33 @@ def test_a_scene_is_pinned_and_kept(visitor: Visitor, explorer: Server) -> None:
     expect(visitor.box("Extent")).to_have_value("12.9")
     visitor.menu("Keep").get_by_role("button", name="Unpin").click()
     visitor.wait(lambda: visitor.figures() != pinned)
+
+
+def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer)
+    visitor.go_to("Load")
+    visitor.type("Extent", "20")
+    visitor.go_to("Stiffness")
+    visitor.page.go_back()
+    expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
+    visitor.steady()
+    assert visitor.number("Extent") == 20.0, "the scene is for Undo"
+    visitor.page.go_back()
+    expect(visitor.page.get_by_role("tab", name="Overview", selected=True)).to_be_visible()
+    visitor.page.go_forward()
+    expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
+    visitor.steady()
+    lesson = visitor.page.get_by_role("region", name="Lesson")
+    visitor.press("Lessons")
+    lesson.get_by_role("listitem").nth(1).get_by_role("button").click()
+    title = lesson.get_by_role("heading", level=2)
+    expect(title).not_to_have_text("Lessons")  # the list
+    second = title.inner_text()
+    lesson.get_by_role("button", name="Next lesson").click()
+    expect(title).not_to_have_text(second)
+    visitor.steady()
+    visitor.page.go_back()
+    expect(title).to_have_text(second)
 
 
 # --- links and files ------------------------------------------------------------------------------
@@ -788,6 +819,8 @@ def test_first_visits_are_shown_in(visitor: Visitor, explorer: Server) -> None:
     help_of_page = visitor.page.get_by_role("dialog", name="Bearing explorer")
     what.click()
     expect(help_of_page).to_contain_text("from bearingcore import")
+    help_of_page.get_by_text("Glossary").click()
+    assert help_of_page.get_by_role("row").count() > 40
     help_of_page.get_by_role("button", name=re.compile("^My machine")).click()
     expect(visitor.page.get_by_role("tab", name="Bearing", selected=True)).to_be_visible()
     what.click()

@@ -30,7 +30,7 @@ HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
 NUMBER_START = 0.09  # beyond a bar: the middle of its number
-TOP_LINE, LINE_PIXELS = 1.53, 16.0
+LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
@@ -82,8 +82,6 @@ _EDGE = "#6B7480"
 _MIDDLE = {"text_align": "center"}
 _NUMBER = {**_MIDDLE, "text_font_size": style.SMALL_TEXT_SIZE}
 _LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
-# hung up by their tops: larger type on a projector is not cut by the frame
-_HUNG = {**_LINE, "text_baseline": "top", "y_offset": {"field": "down"}}
 
 
 def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> list[Layer]:
@@ -129,7 +127,16 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
         end,
         words("balls", "return row.number", ("load", "number"), {**_NUMBER, "text_color": number}),
         filled(f"{prefix}_arrow", style.INK),
-        words("load_words", _LOAD_WORDS, ("kind", "value", "angle", "down"), _HUNG),
+        Words(
+            f"{prefix}_load_words",
+            0.0,
+            1.0,
+            _LOAD_WORDS,
+            ("kind", "value", "angle", "down"),
+            x_share=True,
+            y_share=True,
+            look={**_LINE, "text_baseline": "top", "y_offset": {"field": "down"}},
+        ),
         words("row_words", _ROW_WORDS, ("row", "place"), {**_LINE, **_MIDDLE}),
     ]
 
@@ -244,7 +251,7 @@ class BearingDrawing(View):
             for name in several[0]
         }
         sources |= {
-            f"{self.prefix}_load_words": load_words(scene.load, wide, drawn.depth_scale),
+            f"{self.prefix}_load_words": load_words(scene.load, drawn.depth_scale),
             f"{self.prefix}_row_words": row_words(scene, wide),
         }
         return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
@@ -347,9 +354,7 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
     }
 
 
-def load_words(
-    load: Load, wide: float = HALF_WIDTH, depth_scale: float = 0.0
-) -> dict[str, np.ndarray]:
+def load_words(load: Load, depth_scale: float = 0.0) -> dict[str, np.ndarray]:
     """Rows of text in the corner: the radial load always, the others where there are any.
 
     Under them how many times as deep as they are defects are drawn, which is 0 without any.
@@ -362,12 +367,8 @@ def load_words(
         if value != 0.0
     ]
     kind, value, angle = np.array(rows, dtype=float).T
-    # several rows of balls are drawn smaller, with room above them
-    above = 0 if wide == HALF_WIDTH else kind.size
     return {
-        "x": np.full(kind.size, -wide),
-        "y": np.full(kind.size, TOP_LINE),
-        "down": LINE_PIXELS * (np.arange(kind.size) - above) - 12.0,
+        "down": LINE_PIXELS * np.arange(kind.size),
         "kind": kind,
         "value": value,
         "angle": angle,

@@ -80,6 +80,9 @@ FIELDS = (
     ),
 )
 
+A_CENTURY = 876_600.0
+"""[h] of a life beyond which its number means nothing."""
+
 MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
 """Fields of which the program takes a number of its own where none is given."""
 
@@ -144,8 +147,9 @@ class LifeOfBearing(View):
             return "Enter the groove radii (Bearing tab) to compute life, pressure and film."
         if found.healthy is None:
             return found.no_life
-        words = f"Without the defect: {found.healthy.sentence}" if results.scene.defects else ""
-        return f"{words or found.healthy.sentence} {found.assumed}".strip()
+        bearings = "healthy bearings" if results.scene.defects else "bearings"
+        words = found.healthy.sentence.replace("bearings", bearings, 1)
+        return f"{words} {found.assumed}".strip()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -218,7 +222,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
         Fact(
             "at the speed of the scene",
-            f"{_long(lasts.hours)} h"
+            _hours(lasts.hours)
             if math.isfinite(lasts.hours)
             else "no hours: "
             + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "without an end"),
@@ -257,6 +261,10 @@ def _damaged_words(damaged: Life) -> str:
 
 def _million(value: float) -> str:
     return "without an end" if math.isinf(value) else f"{_long(value)} million turns"
+
+
+def _hours(value: float) -> str:
+    return f"{_long(value)} h" if value < A_CENTURY else "more than 100 years"
 
 
 def _long(value: float) -> str:

@@ -61,13 +61,13 @@ class Kind:
 KINDS = (
     Kind("stable orbit", "", "stable", CLEAR),
     Kind("unstable orbit", "-1", "period doubling (flip)", "#D55E00"),
-    Kind("unstable orbit", "pair", "second frequency (Neimark–Sacker)", "#CC79A7"),
+    Kind("unstable orbit", "pair", "second frequency (Neimark–Sacker)", "#7B3294"),
     Kind("unstable orbit", "+1", "jump to another orbit (fold)", "#F0C419"),
     Kind("not converged", "", "no orbit found", "#30363D"),
     Kind("no common period", "", "no common period", "#8B929A"),
     Kind("no static state to start from", "", "no static state", "#B9BEC4"),
     Kind("refused", "", "no such scene", "#DDE0E3"),
-    Kind("too many steps", "", "too many steps", "#767C83"),
+    Kind("too many steps", "", "too many steps", "#5C636B"),
 )
 """In the order of their codes in the picture."""
 

@@ -213,8 +213,12 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     plot.quad(**sides, source=frames, fill_color="#FAFBFC", line_color=style.GRID)
     matrix_cells.write_names(plot, _FRAMES)
     y = [-2.36, -2.52, -2.68]
-    colors, widths = [style.DEFECTIVE, style.HEALTHY, style.INK], [2.4, 2.0, 1.2]
-    plot.segment(x0=[0.215] * 3, x1=[0.365] * 3, y0=y, y1=y, line_color=colors, line_width=widths)
+    colors = [style.DEFECTIVE, style.HEALTHY]
+    ends = {"x0": [0.215] * 2, "x1": [0.365] * 2, "y0": y[:2], "y1": y[:2]}
+    plot.segment(**ends, line_color=colors, line_width=[2.4, 2.0])
+    upright = {"x0": [0.29], "x1": [0.29], "y0": [y[2] - 0.06], "y1": [y[2] + 0.06]}
+    plot.segment(**upright, line_color=style.INK, line_alpha=0.45)
+    plot.scatter([0.29], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
     legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": ["", "", "now"]})
     look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, legend, "text", text_baseline="middle", **look)

@@ -49,11 +49,12 @@ def properties(theme: str) -> dict[str, str]:
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_text_of_the_page_is_readable(theme: str) -> None:
     colors = properties(theme)
-    for text in ("ink", "ink-soft", "accent", "good", "bad"):
+    for text in ("ink", "ink-soft", "accent", "good", "bad", "warn"):
         for ground in ("card", "paper", "track-soft"):
             assert contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
     for text, ground in (("accent", "accent-paper"), ("ink-soft", "accent-paper"),
                          ("ink", "accent-paper"), ("bad", "bad-paper"), ("ink", "bad-paper"),
+                         ("ink", "warn-paper"), ("warn", "warn-paper"),
                          ("card", "accent")):  # fmt: skip
         assert contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
 
@@ -96,7 +97,9 @@ def seen_by(kind: str, color: str) -> np.ndarray:
 def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: object) -> None:
     assert callable(turned)
     meanings = [*style.DIRECTION_COLORS[:3], style.HEALTHY]
-    for pair in itertools.combinations(meanings, 2):
+    kinds = [one.color for one in stability_map.KINDS[1:]]
+    assert all(color in DARK_COLORS for color in kinds), "a palette turns dark as a whole"
+    for pair in (*itertools.combinations(meanings, 2), *itertools.combinations(kinds, 2)):
         a, b = (seen_by(kind, turned(color)) for color in pair)
         assert np.linalg.norm(a - b) > 0.06, pair  # 0.02 is just seen
 

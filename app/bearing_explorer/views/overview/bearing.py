@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from bokeh.models import LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
-from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.bearing import BearingDrawing
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
-
-_LOWER = 0.12  # outer raceway radii: small as it is, a line of words takes more of the height
 
 
 class OverviewBearing(BearingDrawing):
@@ -32,12 +24,6 @@ class OverviewBearing(BearingDrawing):
         plot = style.bare_figure(x, y, height=200, sizing_mode="stretch_both", min_width=240)
         plot.min_border_top = 8  # for the words about the load
         return plot
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        sources, ranges = super().data(results)
-        words = sources[f"{self.prefix}_load_words"]
-        words["y"] = words["y"] - _LOWER
-        return sources, ranges
 
     def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
         """The bars say it; a scale would take a tenth of the height."""

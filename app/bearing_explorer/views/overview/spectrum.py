@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips
+from bearing_explorer.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.plots.levels import (
     FREQUENCY,
     HIGHEST,
@@ -75,7 +75,7 @@ def layers() -> list[Layer]:
             "y",
             _CURVE_WORDS,
             ("which",),
-            look={"text_color": of_curve, "text_align": "right"},
+            look={"text_color": of_curve, "text_align": "right", **ON_PAPER},
         ),
     ]
 

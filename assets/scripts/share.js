@@ -133,6 +133,7 @@ export function render({ model }) {
     return { tab: said.get("tab") ?? "", lesson: said.get("lesson") ?? "" }
   }
   let shown = null, said = null
+  let going = null  // the tab that Back leads to, until it is shown
   follow(model, ["state"], () => {
     const { address, whole, undo: back, redo: again, pinned: grey, said: sentence } = model.state
     undo.disabled = !back
@@ -144,8 +145,10 @@ export function render({ model }) {
     // The first is that of the page as it was opened: what is in the address stays, even if it
     // could not be read. Back goes to the last tab or lesson; changes of the scene are undone by Undo.
     const place = place_of(address)
+    const there = going === null || place.tab === going
+    if (there) going = null
     if (shown === null) history.replaceState(place, "")
-    else if (shown !== address) {
+    else if (there && shown !== address) {
       const moved = place.tab !== history.state?.tab || place.lesson !== history.state?.lesson
       history[moved ? "pushState" : "replaceState"](place, "", `?${address}`)
     }
@@ -157,9 +160,12 @@ export function render({ model }) {
     if (!root.isConnected) return window.removeEventListener("popstate", gone_back)
     if (!place) return
     if (place.lesson !== place_of(shown).lesson) announce("lessons", { name: place.lesson })
-    if (place.tab !== place_of(shown).tab) announce("show", place.tab)
+    const from = going ?? place_of(shown).tab
+    going = place.tab
+    if (place.tab !== from) announce("show", place.tab)
   }
   window.addEventListener("popstate", gone_back)
+  on_event("asked", root, ({ name }) => { if (name !== going) going = null })
   const failed = (error) => {
     console.warn("the report could not be made", error)
     say("The report could not be made.")

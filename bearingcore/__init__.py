@@ -7,6 +7,7 @@ from bearingcore.bearings.catalogue import (
     catalogue_text,
     read_catalogue,
 )
+from bearingcore.bearings.designation import Designation, read_designation
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
@@ -46,6 +47,7 @@ __all__ = [
     "CatalogueBearing",
     "ContactPressures",
     "Defect",
+    "Designation",
     "Diagnosis",
     "Equilibrium",
     "Film",
@@ -86,6 +88,7 @@ __all__ = [
     "preset_notes",
     "presets",
     "read_catalogue",
+    "read_designation",
     "read_floor",
     "read_table",
     "simulate",

@@ -146,7 +146,7 @@ def _diagnosed(found: list[Record]) -> Counter[tuple[str, str]]:
             f"{answer.probability:5.2f} {result:<12} {numbers} {took:5.2f}s"
         )
         if result != RIGHT:
-            print(f"    {answer.status}")
+            print(f"    {answer.status}: {answer.sentence}")
     return counts
 
 

@@ -164,7 +164,7 @@ def _cwru(path: Path) -> Record:
         if given is None
         else float(np.asarray(given).reshape(-1)[0])
     )
-    kind = re.search(r"_(IR|OR|B)_(\d{3})", name)
+    kind = re.search(r"_(IR|OR|B)_?(\d{3})", name)
     truth = {"IR": "inner race", "OR": "outer race", "B": "ball"}[kind[1]] if kind else HEALTHY
     rate = 48_000.0 if name.startswith(("48k", "Normal")) else 12_000.0
     extent = either = None

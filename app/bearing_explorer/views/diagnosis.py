@@ -165,7 +165,7 @@ class PartDiagnosis(MeasuredView):
             return BUSY
         if isinstance(answer, str):
             return answer
-        return answer.status + part_words.truth(question)
+        return answer.sentence + part_words.truth(question)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         found = self.diagnosis(results.scene.bearing)

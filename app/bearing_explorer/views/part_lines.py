@@ -61,11 +61,7 @@ class Zoom:
 
 def leading(diagnosis: Diagnosis) -> PartEvidence | None:
     """The part that stands out, be it enough to be named or not; None where none is seen."""
-    if not diagnosis.evidence or diagnosis.fault == NONE_SEEN:
-        return None
-    if diagnosis.names_a_part:
-        return diagnosis.of(diagnosis.fault)
-    return max(diagnosis.evidence, key=lambda one: one.level)
+    return None if diagnosis.fault == NONE_SEEN else diagnosis.leading
 
 
 def shaft_frequency(diagnosis: Diagnosis) -> float:

@@ -10,10 +10,11 @@ from bearing_explorer.plots import style
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
 from bearingcore import Diagnosis
 from bearingcore.common.numbers import percent_off, probability
-from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part import say
+from bearingcore.diagnosis.part.evidence import LIKELY, NONE_SEEN, PartEvidence
 
-LIKELY = 0.9
-"""Probability from which a part is called damaged without a "probably"."""
+SIDEBANDS = 2.0
+"""[dB] above their surroundings from which sidebands are spoken of."""
 
 _FREQUENCY = {
     "outer race": "the outer-race frequency (BPFO)",
@@ -48,9 +49,11 @@ def plain(found: Diagnosis) -> str:
     if found.names_a_part:
         one = found.of(found.fault)
         modulated = f", modulated once per {one.sideband_source} turn"
+        turns = one.part != "outer race" and float(one.sidebands[:3].mean()) >= SIDEBANDS
+        doubt = say.perhaps_a_ball() if found.perhaps_a_ball else ""
         return (
             f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
-            f"{'' if one.part == 'outer race' else modulated}."
+            f"{modulated if turns else ''}.{doubt}"
         )
     if found.fault == NONE_SEEN:
         return (
@@ -58,8 +61,7 @@ def plain(found: Diagnosis) -> str:
             "make it. Damage whose impacts make the vibration swing by "
             f"{swing(found.detectable_depth)} would have shown."
         )
-    words = found.status.removeprefix("Cannot tell: ").partition(" Shaft speed ")[0]
-    return words[:1].upper() + words[1:]
+    return found.detail
 
 
 def swing(depth: float) -> str:
@@ -143,15 +145,6 @@ def truth(question: Question) -> str:
     return words
 
 
-def chance(false_alarm: float) -> str:
-    """The probability of a false alarm, in words."""
-    if false_alarm < 1e-4:
-        return "below 0.01 %"
-    if false_alarm > 0.995:
-        return "nearly always"
-    return f"{style.number(100.0 * false_alarm, 1 if false_alarm < 0.01 else 2)} %"
-
-
 def slip(value: float) -> str:
     """A slip with its sign."""
     return percent_off(value)
@@ -191,7 +184,7 @@ def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
         else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
         "band": band(one.band.low, one.band.high),
         "direction": one.direction,
-        "chance": chance(one.false_alarm),
+        "probability": probability(one.probability),
     }
 
 

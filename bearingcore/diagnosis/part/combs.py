@@ -25,43 +25,40 @@ _DRAWS = 40_000
 _TAIL = 0.005
 
 
-def harmonics(values: NDArray[np.float64], step: float, frequency: NDArray[np.float64],
-              count: int = HARMONICS) -> NDArray[np.float64]:  # fmt: skip
-    """The greatest value within one step of each harmonic: (count, len(frequency)).
+def lines_at(values: NDArray[np.float64], step: float, frequency: NDArray[np.float64],
+             count: int = HARMONICS, away: float = 0.0) -> NDArray[np.float64]:  # fmt: skip
+    """The greatest value within one step of places `away` [Hz] from each harmonic.
 
-    Zero where a harmonic is above the values' last frequency.
+    (count, len(frequency)); zero where a place is above the values' last frequency or below 0.
     """
     peak = values.copy()
     np.maximum(peak[1:], values[:-1], out=peak[1:])
     np.maximum(peak[:-1], values[1:], out=peak[:-1])
-    index = np.rint(np.outer(np.arange(1, count + 1), frequency / step)).astype(np.int64)
-    beyond = index >= len(peak)
-    found = peak[np.minimum(index, len(peak) - 1)]
+    places = np.arange(1, count + 1)[:, None] * (frequency / step) + away / step
+    index = np.rint(places).astype(np.int64)
+    beyond = (index >= len(peak)) | (index < 1)
+    found = peak[np.clip(index, 0, len(peak) - 1)]
     found[beyond] = 0.0
     return np.asarray(found)
 
 
-def without(levels: LineLevels, spacing: float, width: float) -> NDArray[np.float64]:
-    """Levels (m,) [dB], cut, with every multiple of `spacing` [Hz] put at 0 within `width` [Hz]."""
+def cut(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Levels (m,) [dB] between FAINTEST and LOUDEST, and no more than 0 where hidden."""
     level = np.clip(levels.level, FAINTEST, LOUDEST)
-    if spacing > 0.0:
-        frequency = levels.step * np.arange(len(level))
-        away = np.abs(frequency - spacing * np.rint(frequency / spacing))
-        level[away <= width] = np.minimum(level[away <= width], 0.0)
-    return level
+    return np.asarray(np.where(hidden, np.minimum(level, 0.0), level))
+
+
+def near_multiples(levels: LineLevels, spacing: float, width: float) -> NDArray[np.bool_]:
+    """Which frequencies (m,) are within `width` [Hz] of multiples of a spacing; none for 0."""
+    frequency = levels.step * np.arange(len(levels.level))
+    if spacing <= 0.0:
+        return np.zeros(len(frequency), dtype=bool)
+    return np.asarray(np.abs(frequency - spacing * np.rint(frequency / spacing)) <= width)
 
 
 def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
     """Level [dB] of combs, the mean without the loudest line, from their lines (HARMONICS, n)."""
     return np.asarray((lines.sum(axis=0) - lines.max(axis=0)) / (len(lines) - 1))
-
-
-def noise_chance(level: float, averages: float) -> float:
-    """Probability that the comb at one frequency reaches a level [dB] by noise alone."""
-    sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)))
-    if level >= edge:
-        return float(_TAIL * np.exp(-(level - edge) / scale))
-    return float(1.0 - np.searchsorted(sorted_levels, level) / len(sorted_levels))
 
 
 def noise_level(chance: float, averages: float) -> float:

@@ -1,4 +1,4 @@
-"""The answer that the margins allow, and its sentence."""
+"""The answer that the evidence allows, its status and its sentence."""
 
 from __future__ import annotations
 
@@ -7,19 +7,27 @@ import math
 import numpy as np
 
 from bearingcore.diagnosis.part import say
-from bearingcore.diagnosis.part.combs import harmonics
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis, EnvelopeLines
-from bearingcore.diagnosis.part.judged import (
-    LEAST_DEPTH,
-    NOISE_MARGIN,
-    OTHER_MARGIN,
-    PART_MARGIN,
-    Judged,
+from bearingcore.diagnosis.part.evidence import (
+    CANNOT_TELL,
+    LIKELY,
+    NONE_SEEN,
+    Diagnosis,
+    EnvelopeLines,
 )
+from bearingcore.diagnosis.part.judged import NOISE_MARGIN, Judged
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal
-from bearingcore.diagnosis.part.search import Combs
+from bearingcore.diagnosis.part.parts import BALL
+from bearingcore.diagnosis.part.probability import LEAD, SURE
+from bearingcore.diagnosis.part.status import DiagnosisStatus, Reason
 
-ENOUGH_POWER = 0.06
+NAMED = 0.5
+"""Probability from which a part is named."""
+
+LEAST_SWING = 0.03
+"""Share of its mean by which lines that count swing the envelope. Healthy bearings show their lines
+too, by 1 or 2 %."""
+
+ENOUGH_SWING = 0.06
 """The swing that must be visible before the absence of lines means anything."""
 
 SMOOTH = 3.3
@@ -29,104 +37,120 @@ bearing is called healthy then."""
 MUCH_DROPPED, MUCH_CLIPPED = 0.1, 0.02
 """Shares from which the absence of lines means nothing."""
 
-FAINT = 1.0
-"""[dB] above the level of noise from which lines, too faint to name a part, forbid to call it
-healthy."""
-
-SURE = 0.99
-"""The greatest probability: a cause outside the model is always possible."""
+FAINT = 2.5
+"""Deviations from which a ball's lines, too faint to name it, forbid to call it healthy."""
 
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
     """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
-    own, other = judged.own, judged.other
-    others_stand_out = other.level - judged.combs.noise >= NOISE_MARGIN
-    blows = _impulsiveness(judged.combs, signal)
-    fault, chance = CANNOT_TELL, _likely(judged)
-    if judged.seen and judged.margin >= 0.0:
+    own = judged.own
+    fault, probability = CANNOT_TELL, own.probability
+    others_stand_out = judged.other_above_noise >= NOISE_MARGIN
+    if own.probability >= NAMED:
         fault = own.part
-        status = say.damaged(own)
-    elif judged.seen:
-        status = _undecided(judged)
-    elif judged.above_noise >= FAINT and own.depth >= LEAST_DEPTH:
-        status = say.faint(own)
-    elif others_stand_out and _deep(judged):
-        status = say.unexplained(other)
-    elif signal.dropped > MUCH_DROPPED:
-        status = say.nothing_but("parts of the signal dropped out", signal.dropped)
-    elif signal.clipped > MUCH_CLIPPED:
-        status = say.nothing_but("the signal is clipped", signal.clipped)
-    elif blows > SMOOTH:
-        status = say.blows(blows, signal.duration)
-    elif judged.detectable > ENOUGH_POWER:
-        status = say.weak(judged.detectable, signal.duration)
+        status, detail = DiagnosisStatus.PART_NAMED, say.damaged(own)
+        if own.part != BALL and own.probability < LIKELY:
+            detail += say.perhaps_a_ball()
+    elif (reason := _lines_in_doubt(judged) or _hidden(signal)) is not None:
+        status, detail = reason
+    elif others_stand_out and judged.other_swing >= ENOUGH_SWING:
+        status, detail = DiagnosisStatus.OTHER_SOURCE, say.unexplained(judged.other)
+    elif (reason := _nothing_and_why(signal, judged)) is not None:
+        status, detail = reason
     else:
-        fault, chance = NONE_SEEN, _unharmed(judged)
-        status = say.healthy(judged.detectable)
-    one = judged.combs.envelopes[judged.best.place]
-    frequency = one.levels.step * np.arange(len(one.levels.level), dtype=float)
+        fault, probability = NONE_SEEN, min(SURE, 1.0 - judged.detectable)
+        status, detail = DiagnosisStatus.NONE_SEEN, say.healthy(judged.detectable)
     return Diagnosis(
         fault=fault,
-        probability=chance,
-        status=status + say.speed(shaft, source),
+        probability=probability,
+        status=status,
+        detail=detail,
         evidence=judged.evidence,
         shaft_speed=None if shaft is None else 2.0 * math.pi * shaft,
         speed_source=source,
-        other=other if others_stand_out else None,
+        other=judged.other if others_stand_out else None,
         detectable_depth=judged.detectable,
-        spectrum=EnvelopeLines(frequency, one.levels.level, one.band, one.direction),
+        spectrum=_spectrum(judged),
     )
 
 
-def _undecided(judged: Judged) -> str:
-    """Reason why visible lines do not identify one part."""
-    if judged.above_second < PART_MARGIN:
-        return say.alike(judged.own, judged.second.lines.part, judged.second.level)
-    if judged.above_other < OTHER_MARGIN:
-        return say.no_stronger(judged.own, judged.other)
-    return say.no_sidebands(judged.own)
+def _spectrum(judged: Judged) -> EnvelopeLines:
+    """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
+    own = judged.own
+    one = next(
+        one
+        for one in judged.resolutions[-1].envelopes
+        if (one.band, one.direction) == (own.band, own.direction)
+    )
+    frequency = one.levels.step * np.arange(len(one.levels.level), dtype=float)
+    return EnvelopeLines(frequency, one.levels.level, one.band, one.direction)
 
 
-def _impulsiveness(combs: Combs, signal: ListenedSignal) -> float:
+def _lines_in_doubt(judged: Judged) -> Reason | None:
+    """The reason why lines of a part name none, if there are any."""
+    clear = [
+        one
+        for one in judged.evidence
+        if one.part != BALL and one.level - one.noise >= NOISE_MARGIN and one.swing >= LEAST_SWING
+    ]
+    own = max(judged.evidence, key=lambda one: (one in clear, one.lead))
+    needed = LEAST_SWING if own.lead >= LEAD else ENOUGH_SWING
+    if own.part != BALL and own.lead >= 0.0 and own.swing >= needed:
+        return DiagnosisStatus.PERHAPS_A_BALL, say.marked(own)
+    ball = next(one for one in judged.evidence if one.part == BALL)
+    if ball.deviations >= FAINT:
+        return DiagnosisStatus.FAINT, say.faint(ball)
+    if len(clear) > 1:
+        return DiagnosisStatus.ALIKE, say.alike(*clear)
+    if clear:
+        return DiagnosisStatus.NOT_ALONE, say.not_alone(own, judged.other)
+    return None
+
+
+def _hidden(signal: ListenedSignal) -> Reason | None:
+    """The fault of the signal that may hide damage, if it has one."""
+    if signal.dropped > MUCH_DROPPED:
+        words = say.nothing_but("parts of the signal dropped out", signal.dropped)
+        return DiagnosisStatus.DROPPED_OUT, words
+    if signal.clipped > MUCH_CLIPPED:
+        return DiagnosisStatus.CLIPPED, say.nothing_but("the signal is clipped", signal.clipped)
+    return None
+
+
+def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
+    """The reason why the absence of lines means nothing, if there is one."""
+    blows = _impulsiveness(judged, signal)
+    if blows > SMOOTH:
+        return DiagnosisStatus.IRREGULAR, say.blows(blows, signal.duration)
+    if judged.detectable > ENOUGH_SWING:
+        return DiagnosisStatus.INSENSITIVE, say.weak(judged.detectable, signal.duration)
+    return None
+
+
+def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
     """The greatest kurtosis of broad bands below the recorder's own filter.
 
     Above five sixths of the range there is often nothing but that filter's rest. What chance adds
     in a short signal is taken off: five deviations of the kurtosis of noise, sqrt(20/N).
     """
-    sixth = signal.rate / 12.0
+    sixth, envelopes = signal.rate / 12.0, judged.resolutions[0].envelopes
     broad = [
         one.kurtosis - 5.0 * math.sqrt(20.0 / (signal.duration * (one.band.high - one.band.low)))
-        for one in combs.envelopes
+        for one in envelopes
         if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
     ]
-    return max(broad or [one.kurtosis for one in combs.envelopes])
+    return max(broad or [one.kurtosis for one in envelopes])
 
 
-def _deep(judged: Judged) -> bool:
-    """Whether the lines of something else swing the envelope as damage does."""
-    combs, frequency = judged.combs, judged.other.frequency
-    index = int(np.abs(combs.frequency - frequency).argmin())
-    one = combs.envelopes[int(combs.level[:, index].argmax())]
-    depths = np.sort(harmonics(one.levels.depth, one.levels.step, np.array([frequency]))[:, 0])
-    return bool(depths[:-1].mean() >= LEAST_DEPTH)
-
-
-def _likely(judged: Judged) -> float:
-    """Probability that the leading part is the damaged one."""
-    return SURE / (1.0 + math.exp(-(judged.margin + 1.0) / 1.0))
-
-
-def _unharmed(judged: Judged) -> float:
-    """Probability that nothing is damaged where nothing is seen."""
-    return min(SURE, 1.0 - judged.detectable)
-
-
-def silent(status: str, source: str, shaft: float | None = None) -> Diagnosis:
+def silent(
+    status: DiagnosisStatus, detail: str, source: str, shaft: float | None = None
+) -> Diagnosis:
     """The diagnosis where nothing can be looked at."""
     return Diagnosis(
         fault=CANNOT_TELL,
         probability=0.0,
         status=status,
+        detail=detail,
         evidence=(),
         shaft_speed=None if shaft is None else 2.0 * math.pi * shaft,
         speed_source=source,

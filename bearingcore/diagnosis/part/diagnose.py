@@ -2,21 +2,16 @@
 
 Knocks of a damaged part repeat at a frequency that the geometry gives. The signal is whitened, so
 that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's pre-whitening, smoothed);
-squared envelopes are taken in the bands of the fast kurtogram; in their spectra combs of six
-harmonics are looked for, with one common slip (see `combs`). A part is named if its comb
-
-- is well above the level that noise reaches anywhere in the search (NOISE_MARGIN),
-- swings the envelope by more than healthy bearings do (LEAST_DEPTH),
-- is well above the combs of the other parts (PART_MARGIN) and above every other comb there is
-  (OTHER_MARGIN), of this bearing or not, but those that follow from it: multiples and sidebands,
-- has the sidebands that its own turning makes: an inner race those of the shaft, a ball the cage's.
-
-The margins are few, and the same for every machine.
+squared envelopes are taken in the bands of the fast kurtogram; in their spectra combs of lines are
+looked for, with one common slip (see `combs`, `judged`, `spin`). What they are worth is a
+probability for each part (`probability`), and a part is named if it is more probable than not.
+The numbers in it are few, and the same for every machine.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,17 +19,20 @@ import numpy as np
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.diagnosis.part import say
-from bearingcore.diagnosis.part.decide import decide, silent
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, Diagnosis
-from bearingcore.diagnosis.part.judged import ALONE, Judged, judge
+from bearingcore.diagnosis.part.decide import ENOUGH_SWING, decide, silent
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
+from bearingcore.diagnosis.part.judged import judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
-from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.diagnosis.part.parts import BALL, PartLines, part_lines
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.diagnosis.part.unknown_speed import in_range
 from bearingcore.signals.recording import Recording
 
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 """[rad/s] between which an unknown shaft is looked for."""
 
+TONES_COUNT = 0.6
+"""Share of a swing that counts where tones are not whitened away."""
 
 MOST_SAMPLES = 20_000_000
 """Samples of all directions that are analysed at most by default: about a minute of
@@ -76,10 +74,11 @@ def diagnose(
     low, high, source = _speeds(recording, shaft_speed)
     most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
     if recording.acceleration.size > most:
-        return silent(say.too_many(recording.acceleration.size, most), source)
+        words = say.too_many(recording.acceleration.size, most)
+        return silent(DiagnosisStatus.TOO_LONG, words, source)
     signal = ListenedSignal(recording)
-    if signal.nothing_to_hear is not None:
-        return silent(signal.nothing_to_hear, source)
+    if signal.unusable is not None:
+        return silent(*signal.unusable, source)
     if high <= low * (1.0 + 1e-9):
         return _at_speed(signal, bearing, low, slip, source)
     return in_range(signal, bearing, low, high, slip, source)
@@ -117,44 +116,38 @@ def _at_speed(
     parts = part_lines(bearing)
     refused = unfit(signal, parts, shaft)
     if refused is not None:
-        return silent(refused, source, shaft)
+        return silent(*refused, source, shaft)
     given, own = shaft, signal.shaft(shaft * (1.0 - slip), shaft * (1.0 + slip))
     # lines broader than the window that they are looked for in make nothing finer
     if own.clear and signal.duration * 2.0 * slip * shaft > 1.0:
         shaft = own.frequency
         source += ", refined from the shaft lines in the signal"
-    judged = judge(signal, parts, shaft, slip, given)
-    answer = decide(signal, judged, shaft, source)
-    return (
-        answer
-        if answer.names_a_part
-        else _second_opinion(signal, bearing, judged, answer, given, slip)
-    )
+    answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
+    if answer.names_a_part:
+        return answer
+    return _second_opinion(signal, parts, answer, shaft, given, slip)
 
 
 def _second_opinion(
     signal: ListenedSignal,
-    bearing: Bearing,
-    judged: Judged,
+    parts: Sequence[PartLines],
     answer: Diagnosis,
+    shaft: float,
     given: float,
     slip: float,
 ) -> Diagnosis:
     """Diagnosis of the signal as it is, where the whitened one names no part.
 
     A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
-    are none of the bearing's show too, so this names a part only where it leads in the
-    whitened signal too, or by far in a band; else it keeps a bearing from being called
-    healthy.
+    are none of the bearing's show too, so that lines count by a part of their swing; where they do
+    not name a part, they keep a bearing from being called healthy.
     """
-    shaft = judged.combs.shaft
-    again = judge(signal.unwhitened(), part_lines(bearing), shaft, slip, given)
-    if again.stands_alone:
-        other = max(again.above_other, again.above_other_in_band - ALONE)
-        return decide(signal, replace(again, above_other=other), shaft, answer.speed_source)
-    if not (again.seen and again.margin >= 0.0):
-        return answer
-    if answer.fault == CANNOT_TELL and judged.leads_to(again):
-        return decide(signal, again, shaft, answer.speed_source)
-    words = say.faint(again.own) + say.speed(shaft, answer.speed_source)
-    return replace(answer, fault=CANNOT_TELL, status=words)
+    judged = judge(signal.unwhitened(), parts, shaft, slip, given).counting(TONES_COUNT)
+    again = decide(signal, judged, shaft, answer.speed_source)
+    if again.names_a_part and again.fault != BALL:
+        return again
+    perhaps = again.status == DiagnosisStatus.PERHAPS_A_BALL
+    if answer.fault == NONE_SEEN and perhaps and judged.own.swing >= ENOUGH_SWING:
+        return replace(answer, fault=CANNOT_TELL, probability=again.probability,
+                       status=again.status, detail=again.detail)  # fmt: skip
+    return answer

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.numbers import number
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.diagnosis.part.parts import PARTS
+from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.signals.filter_bank import Band
 
 NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
+LIKELY = 0.9
+"""Probability from which a part is called damaged without a "probably"."""
+
 FAULTS = (*PARTS, NONE_SEEN, CANNOT_TELL)
 
 
@@ -35,8 +41,18 @@ class PartEvidence:
         [dB] of them together: the mean without the loudest, so that no single line decides.
     noise
         [dB] that noise alone reaches in one of a thousand signals.
+    lead
+        [dB] above noise, above all other lines in the band and above the other race's, and of the
+        sidebands that the part should make; the least of these. Below 0 the lines are not there.
     depth
         by how much the envelope swings at these lines, as a share of its mean.
+    swing
+        the same with the first sidebands.
+    deviations
+        by how much all bands together show these lines above all others, in short segments, in
+        standard deviations; of a ball above races and shaft sidebands too.
+    probability
+        that this part is the damaged one.
     sidebands : (h, 2) [dB]
         levels below and above each harmonic, `sideband_spacing` away.
     sideband_spacing
@@ -49,8 +65,6 @@ class PartEvidence:
         of the recording in which they were.
     kurtosis
         of the signal in that band: 2 for noise, more for knocks.
-    false_alarm
-        how often noise alone would do as well, all bands and slips counted.
     """
 
     part: str
@@ -62,14 +76,22 @@ class PartEvidence:
     harmonics: NDArray[np.float64]
     level: float
     noise: float
+    lead: float
     depth: float
+    swing: float
+    deviations: float
+    probability: float
     sidebands: NDArray[np.float64]
     sideband_spacing: float
     sideband_source: str
     band: Band
     direction: str
     kurtosis: float
-    false_alarm: float
+
+
+def leading_by(one: PartEvidence) -> tuple[float, float]:
+    """The order of parts: by probability, then by lead."""
+    return one.probability, one.lead
 
 
 @dataclass(frozen=True)
@@ -122,7 +144,9 @@ class Diagnosis:
         that the fault named is the true one, never 1; without a clear result that of the part
         that leads.
     status
-        sentences to pass on.
+        how it ended.
+    detail
+        the finding in a sentence, or why nothing is clear.
     evidence
         of each part: outer race, inner race, ball; empty where nothing could be looked at.
     shaft_speed
@@ -139,13 +163,27 @@ class Diagnosis:
 
     fault: str
     probability: float
-    status: str
+    status: DiagnosisStatus
+    detail: str
     evidence: tuple[PartEvidence, ...]
     shaft_speed: float | None
     speed_source: str
     other: OtherLines | None
     detectable_depth: float
     spectrum: EnvelopeLines | None
+
+    @property
+    def sentence(self) -> str:
+        """The answer in sentences, to pass on, with the shaft speed on which it rests."""
+        words = self.detail
+        if not self.conclusive:
+            words = f"Cannot tell: {words[:1].lower()}{words[1:]}"
+        if not self.evidence:
+            return words
+        if self.shaft_speed is None:
+            return f"{words} No shaft speed is known ({self.speed_source})."
+        speed = number(30.0 / math.pi * self.shaft_speed, 4)
+        return f"{words} Shaft speed {speed} turns a minute ({self.speed_source})."
 
     @property
     def conclusive(self) -> bool:
@@ -156,6 +194,16 @@ class Diagnosis:
     def names_a_part(self) -> bool:
         """Whether a part is named."""
         return self.fault in PARTS
+
+    @property
+    def perhaps_a_ball(self) -> bool:
+        """Whether a damaged ball may have made the lines of the race that is named."""
+        return self.fault in (OUTER, INNER) and self.probability < LIKELY
+
+    @property
+    def leading(self) -> PartEvidence | None:
+        """Evidence of the part that leads, be it named or not; None with no evidence."""
+        return max(self.evidence, key=leading_by, default=None)
 
     def of(self, part: str) -> PartEvidence:
         """The evidence of a part, by its name; KeyError where nothing could be looked at."""
@@ -184,11 +232,14 @@ class Diagnosis:
             ("sidebands", "dB", [one.sidebands.mean() for one in parts], "their mean"),
             ("sideband_spacing", "Hz", [one.sideband_spacing for one in parts]),
             ("envelope_swing", "1", [one.depth for one in parts], "at the lines, of its mean"),
+            ("swing_with_sidebands", "1", [one.swing for one in parts]),
+            ("lead", "dB", [one.lead for one in parts], "above noise and all other lines"),
+            ("deviations", "1", [one.deviations for one in parts], "in all bands together"),
+            ("probability", "1", [one.probability for one in parts]),
             ("band_low", "Hz", [one.band.low for one in parts]),
             ("band_high", "Hz", [one.band.high for one in parts]),
             ("direction", "", [one.direction for one in parts]),
             ("kurtosis", "1", [one.kurtosis for one in parts]),
-            ("false_alarm", "1", [one.false_alarm for one in parts], "as good by noise alone"),
         )
         if spectrum is None:
             return columns

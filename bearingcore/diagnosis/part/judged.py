@@ -1,23 +1,35 @@
-"""Levels of the combs of the parts against noise, each other and all other lines."""
+"""Evidence of each part in all bands and at all resolutions, and how probable its damage is.
+
+A comb of lines at a race's frequency is judged in the band that shows it best, by two numbers:
+
+- its lead: how far it stands above noise, above every other comb in that band but those that
+  follow from it (multiples, sidebands), above the other race's comb, and, on a part that turns,
+  how far its sidebands do. It says whether the race's lines are in the signal at all.
+- its swing: by how much lines and first sidebands swing the envelope. Balls of a sound bearing and
+  marks that a damaged ball has pressed into a race make faint lines too; a race that every ball
+  strikes makes strong ones.
+
+Balls wander and slip, so their lines are broad: see `spin`.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bearingcore.diagnosis.part.combs import HARMONICS, harmonics
-from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence
+from bearingcore.diagnosis.part.combs import HARMONICS, comb_level, lines_at
+from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence, leading_by
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal
-from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PartLines
+from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PARTS, PartLines
+from bearingcore.diagnosis.part.probability import CALIBRATION, log_probability, probabilities
 from bearingcore.diagnosis.part.search import (
     TURNS,
-    WANDER,
     Combs,
-    Found,
-    excess,
+    Listened,
     listen,
     multiples,
     near,
@@ -25,18 +37,13 @@ from bearingcore.diagnosis.part.search import (
     sideband_combs,
     within,
 )
+from bearingcore.diagnosis.part.spin import may_be, spin
 
 NOISE_MARGIN = 2.0
-"""[dB] above the level that noise reaches in one of a thousand signals."""
-
-PART_MARGIN = 2.5
-"""[dB] above the combs of the other parts."""
-
-OTHER_MARGIN = 2.5
-"""[dB] above combs of any other frequency."""
+"""[dB] above the level that noise reaches in one of a thousand signals, for lines to be clear."""
 
 SIDEBAND_MARGIN = 2.0
-"""[dB] above their surroundings that the sidebands of a turning part have on average."""
+"""[dB] by which sidebands may miss what is asked of them before the lead becomes negative."""
 
 SIDEBAND_LEAD = 6.0
 """[dB] by which sidebands that the part does not make may be stronger than those it does."""
@@ -44,77 +51,61 @@ SIDEBAND_LEAD = 6.0
 SIDEBAND_REACH = 25.0
 """[dB] below the lines themselves down to which sidebands are expected."""
 
-STRONG_SIDEBANDS, WEAK_SIDEBANDS = 9.0, 14.0
-"""[dB] below the lines: those of a part that turns through the load are not fainter than the one,
-those of a part that stands still not louder than the other. They decide where lines do not."""
+SIDEBAND_EXCESS = 2.5
+"""[dB] by which a comb at a sideband may be above the lines that it follows from."""
 
-ALONE = 3.0
-"""[dB] beyond the margins by which a part leads that fills a band."""
+BALL_MARGIN = 3.0
+"""[dB] by which a ball's comb is above those of the races, if it is to count as one of its own."""
 
-LEAD_UNDER_NOISE = 2.0
-"""[dB] below the level of noise down to which a part that leads may be borne out otherwise."""
+WEAK_SIDEBANDS = 14.0
+"""[dB] below the lines: cage sidebands of a race's line are fainter, those of a ball's are not."""
 
 SLOWER, FAINTER = (2, 3), 0.7
 """Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
 its own are then."""
 
-LEAST_DEPTH = 0.03
-"""Share of its mean by which the envelope swings at each line of a damaged part. Healthy bearings
-show their lines too, by 1 or 2 %."""
+MOST_BANDS = 12
+"""Bands of a resolution, the loudest at a part's line, in which its lead is looked for."""
 
 
 @dataclass(frozen=True)
 class Judged:
-    """The combs at the resolution that shows most, and how they compare."""
+    """The evidence of each part, and what else is in the signal.
 
-    combs: Combs
-    best: Found
-    second: Found
-    other: OtherLines
-    above_noise: float
-    above_second: float
-    above_other: float
-    above_other_in_band: float
-    """The same against those in the band alone in which the part is clearest."""
-    above_sidebands: float
+    Attributes
+    ----------
+    shaft
+        turns a second [Hz].
+    evidence
+        of outer race, inner race and ball.
+    other
+        the strongest lines that are none of the bearing's.
+    other_above_noise, other_swing
+        [dB] of these, and by how much they swing the envelope.
+    detectable
+        the least swing of the envelope, as a share of its mean, that would have been seen.
+    resolutions
+        what it rests on.
+    """
+
+    shaft: float
     evidence: tuple[PartEvidence, ...]
+    other: OtherLines
+    other_above_noise: float
+    other_swing: float
     detectable: float
+    resolutions: tuple[Combs, ...]
 
     @property
     def own(self) -> PartEvidence:
-        """Evidence of the best part."""
-        return next(one for one in self.evidence if one.part == self.best.lines.part)
+        """Evidence of the part that leads."""
+        return max(self.evidence, key=leading_by)
 
-    @property
-    def margin(self) -> float:
-        """[dB] by which the tightest of the conditions is met; below 0 if one is not."""
-        return min(
-            self.above_noise - NOISE_MARGIN,
-            self.above_second - PART_MARGIN,
-            self.above_other - OTHER_MARGIN,
-            self.above_sidebands,
+    def counting(self, share: float) -> Judged:
+        """The same where a share of each swing counts."""
+        return replace(
+            self, evidence=_weighed(replace(one, swing=share * one.swing) for one in self.evidence)
         )
-
-    @property
-    def seen(self) -> bool:
-        """Whether any part's lines are clear at all."""
-        return self.above_noise >= NOISE_MARGIN and self.own.depth >= LEAST_DEPTH
-
-    @property
-    def stands_alone(self) -> bool:
-        """Whether a part fills a band by far, whatever else knocks in other bands."""
-        margins = (
-            self.above_noise - NOISE_MARGIN,
-            self.above_second - PART_MARGIN,
-            self.above_other_in_band - OTHER_MARGIN,
-        )
-        return self.seen and min(margins) >= ALONE and self.above_sidebands >= 0.0
-
-    def leads_to(self, other: Judged) -> bool:
-        """Whether the same part leads here as there, by the same lines and not under all noise."""
-        apart = abs(self.best.frequency / other.best.frequency - 1.0)
-        same = self.best.lines.part == other.best.lines.part
-        return same and apart <= WANDER and self.above_noise >= -LEAD_UNDER_NOISE
 
 
 def judge(
@@ -124,20 +115,19 @@ def judge(
     slip: float,
     given: float | None = None,
 ) -> Judged:
-    """The best combs of the parts at a speed [Hz], compared."""
-    combs, resolutions = most_telling(signal, parts, shaft, slip, True, given)
-    return compare(signal, combs, resolutions, parts, slip, given)
+    """The evidence of the parts at a speed [Hz]."""
+    return compare(listened(signal, parts, shaft, slip, True, given), parts, slip, given)
 
 
-def most_telling(
+def listened(
     signal: ListenedSignal,
     parts: Sequence[PartLines],
     shaft: float,
     slip: float,
     known_speed: bool,
     given: float | None = None,
-) -> tuple[Combs, list[Combs]]:
-    """The combs at the resolution where one is highest above noise, and at all of them."""
+) -> tuple[Combs, ...]:
+    """The combs at all resolutions, the coarsest first."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
     envelopes = signal.envelopes(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
@@ -145,186 +135,240 @@ def most_telling(
         resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns, given))
         if turns / shaft >= signal.duration:
             break  # longer segments than the signal are the same again
-    return max(resolutions, key=excess), resolutions
+    return tuple(resolutions)
 
 
 def compare(
-    signal: ListenedSignal,
-    combs: Combs,
-    resolutions: Sequence[Combs],
+    resolutions: tuple[Combs, ...],
     parts: Sequence[PartLines],
     slip: float,
     given: float | None = None,
 ) -> Judged:
-    """Levels of the combs of the parts against noise, each other and all other lines."""
-    shaft = combs.shaft
-    cage = next(lines.sidebands for lines in parts if lines.part == BALL) * shaft
-    best, rivals = _ranked(combs, cage, slip, given or shaft)
-    second = rivals[0]
-    free = multiples(combs, best.frequency, (1, 2, 3))
-    follows = sideband_combs(combs, best.frequency, (shaft, cage))
-    if best.lines.part == BALL:  # its spin itself is half its line
-        free |= multiples(combs, best.frequency, (0.5, 1.5))
-        follows |= sideband_combs(combs, 0.5 * best.frequency, (shaft, cage))
-    free |= _slower(combs, best)
-    own = np.zeros(len(combs.frequency), dtype=bool)
+    """The evidence of the parts in combs at all resolutions."""
+    shaft = resolutions[0].shaft
+    compared = [_Comparison(combs, parts, slip, given or shaft) for combs in resolutions]
+    turning = spin(resolutions[0], parts)
+    evidence = []
     for lines in parts:
-        own |= within(combs, lines, slip + 0.005, given or shaft, combs.frequency)
-    loudest = combs.level.max(axis=0)
-    others = np.where(free | follows | own, -np.inf, loudest)
-    followers = np.where(follows & ~free & ~own, loudest, -np.inf)
-    index = int(others.argmax())
-    other = OtherLines(
-        float(combs.frequency[index]), float(combs.frequency[index]) / shaft, float(others[index])
-    )
-    in_band = combs.level[best.place]
-    in_band = float(np.where(free | follows | own, -np.inf, in_band).max())
-    above_other = min(
-        best.level - other.level, best.level - float(followers.max(initial=-np.inf)) + OTHER_MARGIN
-    )
-    evidence = tuple(
-        _evidence(combs, best if found.lines == best.lines else found, cage)
-        for found in combs.found
+        around = turning.frequency if lines.part == BALL else None
+        best = max((one.clearest(lines, around) for one in compared), key=_speaking)
+        evidence.append(replace(best, deviations=turning.of(lines.part)))
+    other, above, swing = max(
+        (one.others(evidence) for one in compared), key=lambda found: found[1]
     )
     return Judged(
-        combs=combs,
-        best=best,
-        second=second,
+        shaft=shaft,
+        evidence=_weighed(evidence),
         other=other,
-        above_noise=best.level - combs.noise,
-        above_second=best.level - second.level,
-        above_other=above_other,
-        above_other_in_band=best.level - in_band,
-        above_sidebands=_above_sidebands(combs, best, cage),
-        evidence=evidence,
-        detectable=min(_detectable(one, signal) for one in resolutions),
+        other_above_noise=above,
+        other_swing=swing,
+        detectable=min(_detectable(combs) for combs in resolutions),
+        resolutions=resolutions,
     )
 
 
-def _slower(combs: Combs, best: Found) -> np.ndarray:
-    """Which combs (n,) are the best one's own, seen at a half or a third of its frequency.
-
-    A motion may repeat every second or third knock only, and then lines are between the knocks'
-    own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
-    """
-    found = np.zeros(len(combs.frequency), dtype=bool)
-    for part in SLOWER:
-        near_it = np.flatnonzero(multiples(combs, best.frequency, (1.0 / part,)))
-        if not len(near_it):
-            continue
-        column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
-        one = combs.envelopes[int(combs.level[:, column].argmax())]
-        at = np.array([combs.frequency[column]])
-        depth = harmonics(one.levels.depth, one.levels.step, at, part * (HARMONICS // part))[:, 0]
-        shared = np.arange(1, len(depth) + 1) % part == 0
-        if depth[~shared].mean() < FAINTER * depth[shared].mean():
-            found[near_it] = True
-    return found
+def _weighed(evidence: Iterable[PartEvidence]) -> tuple[PartEvidence, ...]:
+    """The evidence with the probabilities that follow."""
+    parts = tuple(evidence)
+    told = probabilities(parts, CALIBRATION)
+    return tuple(replace(one, probability=told[one.part]) for one in parts)
 
 
-def _ranked(combs: Combs, cage: float, slip: float, given: float) -> tuple[Found, list[Found]]:
-    """The part whose comb is highest, and its rivals.
-
-    No rival is a part whose comb is a multiple of the best one's, or its skirt: it has those lines
-    for free. Where one comb is in the windows of two parts, as a ball's and an outer race's may,
-    the sidebands decide.
-    """
-    ranked = sorted(combs.found, key=lambda found: -found.level)
-    top = ranked[0]
-    at = np.array([top.frequency])
-    same = [found for found in ranked if within(combs, found.lines, slip, given, at)[0]]
-    best = _by_sidebands(combs, top, same, cage) if len(same) > 1 else top
-    if best is None:
-        return top, [found for found in same if found is not top]
-    for_free = [
-        found
-        for found in ranked
-        if found is not best
-        and any(
-            near(combs, factor * top.frequency, np.array([found.frequency]))[0]
-            for factor in (1, 2, 3)
-        )
-    ]
-    rivals = [found for found in ranked if found is not best and found not in for_free]
-    if not rivals:  # all that is left shares its lines: there is nothing else to distinguish
-        rivals = [replace(for_free[-1], level=combs.noise)]
-    return best, rivals
-
-
-def _by_sidebands(combs: Combs, top: Found, same: Sequence[Found], cage: float) -> Found | None:
-    """Which of the parts that share a comb its sidebands speak for, or None."""
-    shaft_level, cage_level = _sidebands(combs, top, cage)
-    strong, weak = top.level - STRONG_SIDEBANDS, top.level - WEAK_SIDEBANDS
-    with_inner = any(found.lines.part == INNER for found in same)
-    fits = {
-        OUTER: cage_level <= weak and (shaft_level <= weak or not with_inner),
-        INNER: shaft_level >= strong and cage_level <= shaft_level - SIDEBAND_LEAD,
-        BALL: cage_level >= strong and shaft_level <= cage_level - SIDEBAND_LEAD,
-    }
-    fitting = [found for found in same if fits[found.lines.part]]
-    if len(fitting) != 1:
-        return None
-    # the comb is the same: so are its place and its level
-    return replace(fitting[0], frequency=top.frequency, level=top.level, place=top.place)
-
-
-def _sidebands(combs: Combs, found: Found, cage: float) -> tuple[float, float]:
-    """Mean level [dB] of the first sidebands of shaft and of cage, about the first harmonics."""
-    one, at = combs.envelopes[found.place], np.array([found.frequency])
-
-    def mean(spacing: float) -> float:
-        sides = side_levels(one, at, spacing)
-        return float(np.mean([side[: HARMONICS // 2].mean() for side in sides]))
-
-    return mean(combs.shaft), mean(cage)
-
-
-def _above_sidebands(combs: Combs, best: Found, cage: float) -> float:
-    """By how much [dB] the sidebands of a turning part are there, and more than those of another.
-
-    An outer race stands still and needs none: infinity.
-    """
-    if best.lines.sidebands == 0.0:
-        return math.inf
-    shaft_level, cage_level = _sidebands(combs, best, cage)
-    own, other = (
-        (shaft_level, cage_level) if best.lines.part == INNER else (cage_level, shaft_level)
-    )
-    return min(
-        own - SIDEBAND_MARGIN, own - other + SIDEBAND_LEAD, own - best.level + SIDEBAND_REACH
-    )
-
-
-def _evidence(combs: Combs, found: Found, cage: float) -> PartEvidence:
-    one = combs.envelopes[found.place]
-    lines, at = found.lines, np.array([found.frequency])
-    spacing = cage if lines.part == BALL else combs.shaft
-    levels = harmonics(one.cleared, one.levels.step, at)[:, 0]
-    depths = np.sort(harmonics(one.levels.depth, one.levels.step, at)[:, 0])
-    nominal = lines.order * combs.shaft
-    return PartEvidence(
-        part=lines.part,
-        nominal_frequency=nominal,
-        nominal_order=lines.order,
-        frequency=found.frequency,
-        order=found.frequency / combs.shaft,
-        slip=found.frequency / nominal - 1.0,
-        harmonics=levels,
-        level=found.level,
-        noise=combs.noise,
-        depth=float(depths[:-1].mean()),
-        sidebands=np.hstack(side_levels(one, at, spacing)),
-        sideband_spacing=spacing,
-        sideband_source="cage" if lines.part == BALL else "shaft",
-        band=one.band,
-        direction=one.direction,
-        kurtosis=one.kurtosis,
-        false_alarm=found.chance,
-    )
-
-
-def _detectable(combs: Combs, signal: ListenedSignal) -> float:
+def _detectable(combs: Combs) -> float:
     """The least swing of the envelope in the widest band that would have been seen."""
     widest = max(combs.envelopes, key=lambda one: one.band.high - one.band.low)
     needed = 10.0 ** (0.1 * (combs.noise + NOISE_MARGIN)) - 1.0
     return float(np.median(widest.levels.floor)) * math.sqrt(max(needed, 0.0))
+
+
+@dataclass(frozen=True)
+class _Comparison:
+    """The combs of one resolution against each other."""
+
+    combs: Combs
+    parts: Sequence[PartLines]
+    slip: float
+    given: float
+
+    @property
+    def cage(self) -> float:
+        """Turns of the cage a second [Hz]."""
+        return self.combs.shaft * self.ball.sidebands
+
+    @property
+    def ball(self) -> PartLines:
+        """The lines of a ball."""
+        return next(lines for lines in self.parts if lines.part == BALL)
+
+    def clearest(self, lines: PartLines, around: float | None) -> PartEvidence:
+        """The lines of a part in the band that speaks most for it, perhaps around a place [Hz]."""
+        combs = self.combs
+        near_it = within(combs, lines, self.slip, self.given, combs.frequency)
+        if around is not None:  # a race's own lines are none of a ball's
+            near_it = np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
+            near_it &= ~self._windows_of(OUTER, INNER)
+            near_it[np.abs(combs.frequency - around).argmin()] = True
+        inside = np.flatnonzero(near_it)
+        level = combs.level[:, inside]
+        explained: dict[float, NDArray[np.float64]] = {}
+        found = []
+        for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
+            frequency = float(combs.frequency[inside[level[place].argmax()]])
+            if frequency not in explained:
+                explained[frequency] = self._explained(frequency, lines)
+            others = float((combs.level[place] - explained[frequency]).max())
+            found.append(self._evidence(lines, combs.envelopes[place], frequency, others))
+        return max(found, key=_speaking)
+
+    def _explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
+        """By how much [dB] combs (n,) may be higher as they follow from a part's lines.
+
+        Infinity for multiples of its frequency [Hz] and for what another part may have.
+        """
+        combs, spacings = self.combs, (self.combs.shaft, self.cage)
+        free = (
+            multiples(combs, frequency, (1, 2, 3))
+            | self._windows_of(*PARTS)
+            | self._slower(frequency)
+        )
+        follows = sideband_combs(combs, frequency, spacings)
+        if lines.part == BALL:  # its spin itself is half its line
+            free |= multiples(combs, frequency, (0.5, 1.5))
+            follows |= sideband_combs(combs, 0.5 * frequency, spacings)
+        return np.where(free, np.inf, np.where(follows, SIDEBAND_EXCESS, 0.0))
+
+    def _windows_of(self, *names: str) -> NDArray[np.bool_]:
+        """Which combs (n,) some parts may have."""
+        combs, slip = self.combs, self.slip + 0.005
+        own = [
+            within(combs, lines, slip, self.given, combs.frequency)
+            for lines in self.parts
+            if lines.part in names
+        ]
+        return np.asarray(np.any(own, axis=0))
+
+    def _slower(self, frequency: float) -> NDArray[np.bool_]:
+        """Which combs (n,) are those of a frequency [Hz], seen at a half or a third of it.
+
+        A motion may repeat every second or third knock only, and then lines are between the knocks'
+        own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
+        """
+        combs = self.combs
+        found = np.zeros(len(combs.frequency), dtype=bool)
+        for part in SLOWER:
+            near_it = np.flatnonzero(multiples(combs, frequency, (1.0 / part,)))
+            if not len(near_it):
+                continue
+            column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
+            one = combs.envelopes[int(combs.level[:, column].argmax())]
+            at = np.array([combs.frequency[column]])
+            count = part * (HARMONICS // part)
+            depth = lines_at(one.levels.depth, one.levels.step, at, count)[:, 0]
+            shared = np.arange(1, len(depth) + 1) % part == 0
+            if depth[~shared].mean() < FAINTER * depth[shared].mean():
+                found[near_it] = True
+        return found
+
+    def _above_rivals(self, own: PartEvidence) -> float:
+        """By how much [dB] a part's comb is above the races', but those that are multiples of it.
+
+        A damaged ball marks races, so its lines are no rivals of a race's: see `probabilities`.
+        They are a sideband of a race's where they are not clearly stronger.
+        """
+        rivals = [
+            one.level
+            for one in self.combs.found
+            if one.lines.part not in (own.part, BALL)
+            and not any(
+                near(self.combs, factor * own.frequency, np.array([one.frequency]))[0]
+                for factor in (1, 2, 3)
+            )
+        ]
+        needed = BALL_MARGIN if own.part == BALL else 0.0
+        return own.level - needed - max(rivals, default=-math.inf)
+
+    def _above_sidebands(self, own: PartEvidence, one: Listened) -> float:
+        """By how much [dB] the sidebands of a part are such as its own turning makes.
+
+        An outer race stands still and needs none. Where a race's line may be a ball's, cage
+        sidebands speak for the ball.
+        """
+        at = np.array([own.frequency])
+
+        def mean(spacing: float) -> float:
+            sides = side_levels(one, at, spacing)
+            return float(np.mean([side[: HARMONICS // 2].mean() for side in sides]))
+
+        shaft, cage = mean(self.combs.shaft), mean(self.cage)
+        above = math.inf
+        if own.part in (INNER, BALL):
+            turning, other = (shaft, cage) if own.part == INNER else (cage, shaft)
+            above = min(
+                turning,
+                turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN,
+                turning - own.level + SIDEBAND_REACH + SIDEBAND_MARGIN,
+            )
+        if own.part != BALL and may_be(own.frequency, self.ball.order * self.combs.shaft):
+            above = min(above, max(own.level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage)
+        return above
+
+    def _evidence(
+        self, lines: PartLines, one: Listened, frequency: float, others: float
+    ) -> PartEvidence:
+        combs, at = self.combs, np.array([frequency])
+        spacing = self.cage if lines.part == BALL else combs.shaft
+        levels = lines_at(one.cleared, one.levels.step, at)[:, 0]
+        depth = np.where(one.hidden, 0.0, one.levels.depth)
+        swings = [
+            lines_at(depth, one.levels.step, at, away=away)[:, 0]
+            for away in (0.0, -spacing, spacing)
+        ]
+        nominal = lines.order * combs.shaft
+        level = float(comb_level(levels[:, None])[0])
+        own = PartEvidence(
+            part=lines.part,
+            nominal_frequency=nominal,
+            nominal_order=lines.order,
+            frequency=frequency,
+            order=frequency / combs.shaft,
+            slip=frequency / nominal - 1.0,
+            harmonics=levels,
+            level=level,
+            noise=combs.noise,
+            lead=level - max(others, combs.noise),
+            depth=_without_greatest(swings[0]),
+            swing=_without_greatest(np.sqrt(np.square(swings).sum(axis=0))),
+            deviations=0.0,
+            probability=0.0,
+            sidebands=np.hstack(side_levels(one, at, spacing)),
+            sideband_spacing=spacing,
+            sideband_source="cage" if lines.part == BALL else "shaft",
+            band=one.band,
+            direction=one.direction,
+            kurtosis=one.kurtosis,
+        )
+        lead = min(own.lead, self._above_rivals(own), self._above_sidebands(own, one))
+        return replace(own, lead=lead)
+
+    def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
+        """The strongest comb of no part, how far above noise it is [dB], and its swing."""
+        combs = self.combs
+        explained = np.where(self._windows_of(*PARTS), np.inf, 0.0)
+        for lines, part in zip(self.parts, evidence, strict=True):
+            if part.level > part.noise:
+                explained = np.maximum(explained, self._explained(part.frequency, lines))
+        level = np.where(explained > 0.0, -np.inf, combs.level)
+        place, column = np.unravel_index(int(level.argmax()), level.shape)
+        frequency, one = float(combs.frequency[column]), combs.envelopes[int(place)]
+        depths = lines_at(one.levels.depth, one.levels.step, np.array([frequency]))[:, 0]
+        found = OtherLines(frequency, frequency / combs.shaft, float(level[place, column]))
+        return found, found.level - combs.noise, _without_greatest(depths)
+
+
+def _speaking(own: PartEvidence) -> float:
+    return log_probability(own, CALIBRATION)
+
+
+def _without_greatest(values: NDArray[np.float64]) -> float:
+    """Mean of all values but the greatest: no single line decides."""
+    return float(np.sort(values)[:-1].mean())

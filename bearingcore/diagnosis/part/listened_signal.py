@@ -11,6 +11,7 @@ from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.combs import HARMONICS
 from bearingcore.diagnosis.part.parts import PartLines
 from bearingcore.diagnosis.part.shaft import ShaftLines, shaft_lines
+from bearingcore.diagnosis.part.status import DiagnosisStatus, Reason
 from bearingcore.signals.dropouts import SignalFaults, signal_faults
 from bearingcore.signals.filter_bank import Envelope, split, squared_envelopes
 from bearingcore.signals.recording import Recording
@@ -44,10 +45,10 @@ class ListenedSignal:
         self.columns = [_with_a_floor(np.asarray(columns[index])) for index in usable]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
         self.whitening: float | None = WHITENING
-        self.nothing_to_hear: str | None = None
+        self.unusable: Reason | None = None
         if not usable:
             share = min(one.dropped_share for one in faults)
-            self.nothing_to_hear = say.dropout_message(share)
+            self.unusable = DiagnosisStatus.DROPPED_OUT, say.dropout_message(share)
 
     def unwhitened(self) -> ListenedSignal:
         """The same signal, not whitened: resonances and tones keep their level."""
@@ -95,12 +96,14 @@ def _with_a_floor(samples: np.ndarray) -> np.ndarray:
     return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
 
 
-def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> str | None:
+def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> Reason | None:
     """Why nothing can be said, or None."""
     slowest = min(lines.order for lines in parts) * shaft
     top = max(lines.order for lines in parts) * shaft
     if signal.duration * slowest < FEWEST_PASSES:
-        return say.too_short(signal.duration, signal.duration * slowest, FEWEST_PASSES)
+        words = say.too_short(signal.duration, signal.duration * slowest, FEWEST_PASSES)
+        return DiagnosisStatus.TOO_SHORT, words
     if 0.5 * signal.rate < (HARMONICS + 2.0) * top:
-        return say.too_slow(signal.rate, 2.0 * (HARMONICS + 2.0) * top)
+        words = say.too_slow(signal.rate, 2.0 * (HARMONICS + 2.0) * top)
+        return DiagnosisStatus.TOO_COARSE, words
     return None

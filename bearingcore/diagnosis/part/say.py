@@ -14,12 +14,13 @@ from bearingcore.common.numbers import (
     thousands,
 )
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence
+from bearingcore.diagnosis.part.parts import BALL
 
 
 def dropout_message(share: float) -> str:
     """Status where a `share` of the samples dropped out, too many to analyse the rest."""
     return (
-        f"Cannot tell: {percent(share, 2)} of the signal is one and the same number, as if the "
+        f"{percent(share, 2)} of the signal is one and the same number, as if the "
         "sensor had dropped out."
     )
 
@@ -27,7 +28,7 @@ def dropout_message(share: float) -> str:
 def too_short(duration: float, passes: float, fewest: int) -> str:
     """Too few knocks."""
     return (
-        f"Cannot tell: {number(duration)} s hold "
+        f"{number(duration)} s hold "
         f"{count(round(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
         "needed."
     )
@@ -35,16 +36,13 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
 
 def too_many(samples: int, most: int) -> str:
     """More to listen to than may be."""
-    return (
-        f"Cannot tell: too many samples: {thousands(samples)}, allowed are most_samples = "
-        f"{thousands(most)}."
-    )
+    return f"Too many samples: {thousands(samples)}, allowed are most_samples = {thousands(most)}."
 
 
 def too_slow(rate: float, needed: float) -> str:
     """Sampled too slowly."""
     return (
-        f"Cannot tell: sampled at {number(rate, 4)} Hz, the signal does not reach high enough to "
+        f"Sampled at {number(rate, 4)} Hz, the signal does not reach high enough to "
         f"show how knocks repeat at this speed; {number(needed, 4)} Hz or more are needed."
     )
 
@@ -52,45 +50,54 @@ def too_slow(rate: float, needed: float) -> str:
 def damaged(own: PartEvidence) -> str:
     """A part is named."""
     shown = int((own.harmonics > own.noise).sum())
+    clear = (
+        f"{number(own.deviations, 2)} deviations clearer than anything else in all bands together"
+        if own.part == BALL
+        else f"{decibels(own.level)} above what surrounds them, {shown} of {len(own.harmonics)} "
+        "harmonics clear"
+    )
     return (
         f"Damage on the {own.part}: knocks repeat {number(own.frequency, 4)} times a second "
-        f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), "
-        f"{decibels(own.level)} above what surrounds them, {shown} of {len(own.harmonics)} "
-        "harmonics clear, demodulation band "
-        f"{span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
+        f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), {clear}, "
+        f"demodulation band {span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
     )
 
 
-def alike(own: PartEvidence, part: str, level: float) -> str:
+def perhaps_a_ball() -> str:
+    """What else may make a race's lines."""
+    return " A damaged ball may have marked the race."
+
+
+def marked(own: PartEvidence) -> str:
+    """The lines of a race, too faint for its own damage."""
+    return (
+        f"Lines of the {own.part} are there ({number(own.frequency, 4)} Hz, {decibels(own.level)} "
+        f"above what surrounds them), but swing the envelope by {percent(own.swing, 2)} only. A "
+        "ball may have made them, or a sound bearing. Measure again, nearer to the bearing."
+    )
+
+
+def alike(one: PartEvidence, other: PartEvidence) -> str:
     """The lines of two parts are seen."""
     return (
-        f"Cannot tell: something knocks, but the lines of {own.part} ({decibels(own.level)}) and "
-        f"{part} ({decibels(level)}) are too much alike."
+        f"Something knocks, but the lines of {one.part} ({decibels(one.level)}) and {other.part} "
+        f"({decibels(other.level)}) are too much alike. A damaged ball marks both races."
     )
 
 
-def no_stronger(own: PartEvidence, other: OtherLines) -> str:
-    """Lines that are none of this bearing's are as high."""
+def not_alone(own: PartEvidence, other: OtherLines) -> str:
+    """Lines at a part's frequency that others reach, or without its sidebands."""
     return (
-        f"Cannot tell: the lines of the {own.part} ({decibels(own.level)}) are no stronger than "
-        f"others that repeat {number(other.order)} times a turn ({decibels(other.level)}), which "
-        "are none of this bearing's. Check its geometry and speed."
-    )
-
-
-def no_sidebands(own: PartEvidence) -> str:
-    """The part turns, and its lines do not show it."""
-    return (
-        f"Cannot tell: lines are where the {own.part} would have them ({decibels(own.level)}), but "
-        f"without the sidebands of the {own.sideband_source} that it makes as it turns through the "
-        "load. Check the bearing's geometry."
+        f"Lines are where the {own.part} would have them ({decibels(own.level)}), but others, "
+        f"which repeat {number(other.order)} times a turn ({decibels(other.level)}), are as "
+        "strong, or the sidebands are not its own. Check the bearing's geometry and speed."
     )
 
 
 def unexplained(other: OtherLines) -> str:
     """Something else knocks."""
     return (
-        f"Cannot tell: something repeats {number(other.order)} times a turn "
+        f"Something repeats {number(other.order)} times a turn "
         f"({number(other.frequency, 4)} Hz, {decibels(other.level)} above what surrounds it), "
         "which is no line of this bearing. Check its geometry and speed, or look for another "
         "source."
@@ -99,13 +106,13 @@ def unexplained(other: OtherLines) -> str:
 
 def nothing_but(why: str, share: float) -> str:
     """Nothing seen, and it means nothing."""
-    return f"Cannot tell: no damage shows, but {why} ({percent(share, 2)}), which may hide it."
+    return f"No damage shows, but {why} ({percent(share, 2)}), which may hide it."
 
 
 def blows(kurtosis: float, duration: float) -> str:
     """Knocks that do not repeat as a part's do."""
     return (
-        f"Cannot tell: the signal knocks (kurtosis {number(kurtosis, 2)}, where smooth running has "
+        f"The signal knocks (kurtosis {number(kurtosis, 2)}, where smooth running has "
         f"2), but in {number(duration)} s not at the rate of any part of this bearing. Blows from "
         "elsewhere and wide-spread wear do that. Measure again, longer."
     )
@@ -114,7 +121,7 @@ def blows(kurtosis: float, duration: float) -> str:
 def weak(detectable: float, duration: float) -> str:
     """Nothing seen, but nothing would have been."""
     return (
-        f"Cannot tell: no damage shows, but in {number(duration)} s it would only if it made the "
+        f"No damage shows, but in {number(duration)} s it would only if it made the "
         f"envelope swing by {percent(detectable, 2)} or more. A longer recording shows more."
     )
 
@@ -130,7 +137,7 @@ def healthy(detectable: float) -> str:
 def faint(own: PartEvidence) -> str:
     """Lines too faint to name a part."""
     return (
-        f"Cannot tell: faint lines are where damage on the {own.part} would have them "
+        f"Faint lines are where damage on the {own.part} would have them "
         f"({number(own.frequency, 4)} Hz, {decibels(own.level)} above what surrounds them; noise "
         f"reaches {decibels(own.noise)}). Measure again, longer or nearer to the bearing."
     )
@@ -140,13 +147,6 @@ def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
     """Knocks, but the speed decides whose they are."""
     ways = " or ".join(f"the {part} at {number(60.0 * speed, 4)}" for part, speed in readings)
     return (
-        f"Cannot tell: knocks repeat {number(frequency, 4)} times a second, which may be {ways} "
+        f"Knocks repeat {number(frequency, 4)} times a second, which may be {ways} "
         "turns a minute. Enter the shaft speed."
     )
-
-
-def speed(shaft: float | None, source: str) -> str:
-    """On what speed it rests."""
-    if shaft is None:
-        return f" No shaft speed is known ({source})."
-    return f" Shaft speed {number(60.0 * shaft, 4)} turns a minute ({source})."

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from bearingcore.diagnosis.part.combs import (
     HARMONICS,
     comb_level,
-    harmonics,
-    noise_chance,
+    cut,
+    lines_at,
+    near_multiples,
     noise_level,
-    without,
 )
-from bearingcore.diagnosis.part.parts import BALL, PartLines
+from bearingcore.diagnosis.part.parts import PartLines
 from bearingcore.signals.filter_bank import Band, Envelope
 from bearingcore.signals.line_levels import LineLevels, line_levels
 
@@ -53,6 +53,8 @@ class Listened:
     levels: LineLevels = field(repr=False)
     cleared: NDArray[np.float64] = field(repr=False)
     """Levels [dB] without the lines of the shaft."""
+    hidden: NDArray[np.bool_] = field(repr=False)
+    """Where lines of the shaft are."""
 
 
 @dataclass(frozen=True)
@@ -67,17 +69,11 @@ class Found:
         of its first line [Hz].
     level
         [dB], see `combs`.
-    place
-        of the band in which it was seen.
-    chance
-        how often noise alone does as well, somewhere in the part's window and any band.
     """
 
     lines: PartLines
     frequency: float
     level: float
-    place: int
-    chance: float
 
 
 @dataclass(frozen=True)
@@ -121,8 +117,7 @@ class Combs:
         """Independent combs among those within slip of a frequency [Hz], in all bands."""
         segment = self.turns / self.shaft
         places = 1.0 + 2.0 * slip * frequency * segment * 0.5 * HARMONICS
-        either = 2.0 if lines.part == BALL else 1.0
-        return places * either * max(1.0, INDEPENDENT_BANDS * len(self.envelopes)) * len(TURNS)
+        return places * max(1.0, INDEPENDENT_BANDS * len(self.envelopes)) * len(TURNS)
 
 
 def listen(
@@ -154,8 +149,11 @@ def listen(
     for direction, envelope in envelopes:
         levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
         width = 1.5 / segment + 5e-4 * shaft
-        cleared = without(levels, shaft if known_speed else 0.0, width)
-        listened.append(Listened(direction, envelope.band, envelope.kurtosis, levels, cleared))
+        hidden = near_multiples(levels, shaft if known_speed else 0.0, width)
+        cleared = cut(levels, hidden)
+        listened.append(
+            Listened(direction, envelope.band, envelope.kurtosis, levels, cleared, hidden)
+        )
     duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
     resolution = 1.0 / min(segment, duration)
     slowest = 0.9 * min(lines.order for lines in parts) * (1.0 - slip)
@@ -163,7 +161,7 @@ def listen(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
     )
     level = np.stack(
-        [comb_level(harmonics(one.cleared, one.levels.step, frequency)) for one in listened]
+        [comb_level(lines_at(one.cleared, one.levels.step, frequency)) for one in listened]
     )
     combs = Combs(turns, shaft, tuple(listened), frequency, level, ())
     found = tuple(_best(combs, lines, slip, given or shaft) for lines in parts)
@@ -171,20 +169,10 @@ def listen(
 
 
 def _best(combs: Combs, lines: PartLines, slip: float, given: float) -> Found:
-    nominal = lines.order * combs.shaft
     inside = np.flatnonzero(within(combs, lines, slip, given, combs.frequency))
     level = combs.level[:, inside]
-    if lines.part == BALL:
-        level = np.stack(
-            [
-                comb_level(_with_sidebands(one, combs.frequency[inside], lines, combs.shaft))
-                for one in combs.envelopes
-            ]
-        )
     place, column = np.unravel_index(int(level.argmax()), level.shape)
-    frequency, best = float(combs.frequency[inside[column]]), float(level[place, column])
-    chance = noise_chance(best, combs.averages) * combs.cells(lines, nominal, slip)
-    return Found(lines, frequency, best, int(place), min(1.0, chance))
+    return Found(lines, float(combs.frequency[inside[column]]), float(level[place, column]))
 
 
 def within(
@@ -201,39 +189,15 @@ def within(
     return np.asarray(np.abs(frequency - middle) <= reach)
 
 
-def _with_sidebands(
-    one: Listened, frequency: NDArray[np.float64], lines: PartLines, shaft: float
-) -> NDArray[np.float64]:
-    """Lines of a ball: each itself, or its two sidebands if both are louder."""
-    return np.maximum(
-        harmonics(one.cleared, one.levels.step, frequency),
-        np.minimum(*side_levels(one, frequency, lines.sidebands * shaft)),
-    )
-
-
 def side_levels(
-    one: Listened, frequency: NDArray[np.float64], spacing: float, count: int = HARMONICS
+    one: Listened, frequency: NDArray[np.float64], spacing: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Levels [dB] at a distance [Hz] below and above each harmonic: twice (count, n)."""
-    step = one.levels.step
-    level = one.cleared  # where a sideband falls on a line of the shaft it is no evidence
-    peak = level.copy()
-    np.maximum(peak[1:], level[:-1], out=peak[1:])
-    np.maximum(peak[:-1], level[1:], out=peak[:-1])
-    order = np.arange(1, count + 1)[:, None]
-    sides = []
-    for away in (-spacing, spacing):
-        index = np.rint((order * frequency + away) / step).astype(np.int64)
-        beyond = (index >= len(peak)) | (index < 1)
-        side = peak[np.clip(index, 0, len(peak) - 1)]
-        side[beyond] = 0.0
-        sides.append(side)
-    return sides[0], sides[1]
-
-
-def excess(combs: Combs) -> float:
-    """By how much [dB] the best comb of any part is above the level of noise."""
-    return max(found.level for found in combs.found) - combs.noise
+    """Levels [dB] at a distance [Hz] below and above each harmonic: twice (HARMONICS, n)."""
+    # where a sideband falls on a line of the shaft it is no evidence
+    below, above = (
+        lines_at(one.cleared, one.levels.step, frequency, away=away) for away in (-spacing, spacing)
+    )
+    return below, above
 
 
 def near(combs: Combs, frequency: float, other: NDArray[np.float64]) -> NDArray[np.bool_]:

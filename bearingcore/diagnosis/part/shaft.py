@@ -12,7 +12,7 @@ from bearingcore.diagnosis.part.combs import (
     FAINTEST,
     HARMONICS,
     comb_level,
-    harmonics,
+    lines_at,
     noise_level,
 )
 from bearingcore.diagnosis.part.search import RARE
@@ -76,7 +76,7 @@ def shaft_lines(
             levels = line_levels(values, rate, segment, top, 2.0 * low)
             resolution = 1.0 / min(segment, len(values) / rate)
             frequency = np.arange(low, high + 0.25 * resolution, 0.25 * resolution)
-            lines = harmonics(
+            lines = lines_at(
                 np.clip(levels.level, FAINTEST, LOUDEST), levels.step, frequency, HARMONICS
             )
             level = comb_level(lines)
@@ -98,7 +98,7 @@ def _slowest(levels: LineLevels, frequency: float, low: float, noise: float) -> 
         part = frequency / parts
         if part < low:
             continue
-        lines = harmonics(
+        lines = lines_at(
             np.clip(levels.level, FAINTEST, LOUDEST), levels.step, np.array([part]), 2 * HARMONICS
         )[:, 0]
         between = np.sort(lines[np.arange(1, len(lines) + 1) % parts != 0])

@@ -7,18 +7,14 @@ from dataclasses import dataclass, replace
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.diagnosis.part import say
-from bearingcore.diagnosis.part.decide import SURE, decide, silent
+from bearingcore.diagnosis.part.decide import NAMED, decide, silent
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, Diagnosis
-from bearingcore.diagnosis.part.judged import (
-    NOISE_MARGIN,
-    Judged,
-    compare,
-    judge,
-    most_telling,
-)
+from bearingcore.diagnosis.part.judged import NOISE_MARGIN, Judged, compare, judge, listened
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import PartLines, part_lines
+from bearingcore.diagnosis.part.probability import SURE
 from bearingcore.diagnosis.part.shaft import ShaftLines
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 NARROW = 1.3
 """A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
@@ -38,15 +34,18 @@ def in_range(
     parts = part_lines(bearing)
     refused = unfit(signal, parts, low) or unfit(signal, parts, high)
     if refused is not None:
-        return silent(refused, source)
+        return silent(*refused, source)
     own = signal.shaft(low, high)
     hypotheses = []
     if own.clear:
         hypotheses.append(_Hypothesis(own, judge(signal, parts, own.frequency, slip)))
     middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
-    combs = most_telling(signal, parts, middle, reach, known_speed=False)[0]
-    strongest = max(combs.found, key=lambda found: found.level)
-    stands_out = strongest.level - combs.noise >= NOISE_MARGIN
+    resolutions = listened(signal, parts, middle, reach, known_speed=False)
+    strongest, above = max(
+        ((found, found.level - combs.noise) for combs in resolutions for found in combs.found),
+        key=lambda pair: pair[1],
+    )
+    stands_out = above >= NOISE_MARGIN
     if stands_out:
         for lines in parts:
             speed = strongest.frequency / lines.order
@@ -57,19 +56,19 @@ def in_range(
         if own.clear:
             return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
         if not stands_out:
-            judged = compare(signal, combs, [combs], parts, reach)
+            judged = compare(resolutions, parts, reach)
             return decide(signal, judged, None, f"{source}, not found")
         return _undecided_speed(signal, hypotheses, strongest.frequency, source)
     first = holding[0]
     rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)
     alone = high <= NARROW * low and rival is None
     if not (first.shaft.clear or alone):
-        return _undecided_speed(signal, holding, first.judged.best.frequency, source)
+        return _undecided_speed(signal, holding, first.judged.own.frequency, source)
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
-        return _undecided_speed(signal, [first, rival], first.judged.best.frequency, source)
-    part = first.judged.best.lines.part
+        return _undecided_speed(signal, [first, rival], first.judged.own.frequency, source)
+    part = first.judged.own.part
     found = _FOUND if first.shaft.clear else f"taken from the lines of the {part}"
-    return decide(signal, first.judged, first.judged.combs.shaft, found)
+    return decide(signal, first.judged, first.judged.shaft, found)
 
 
 _FOUND = "found by the shaft's own lines"
@@ -81,12 +80,13 @@ def _undecided_speed(
     """Knocks that may be of one part or another, as the speed may be."""
     readings: dict[str, float] = {}
     for one in hypotheses:
-        readings.setdefault(one.judged.best.lines.part, one.judged.combs.shaft)
+        readings.setdefault(one.judged.own.part, one.judged.shaft)
     decided = decide(signal, hypotheses[0].judged, None, source)
     return replace(
         decided,
         fault=CANNOT_TELL,
-        status=say.which_speed(frequency, list(readings.items())),
+        status=DiagnosisStatus.SPEED_OPEN,
+        detail=say.which_speed(frequency, list(readings.items())),
         probability=SURE / max(2, len(readings)),
     )
 
@@ -109,10 +109,10 @@ class _Hypothesis:
     @property
     def holds(self) -> bool:
         """Whether a part would be named at that speed."""
-        return self.judged.seen and self.judged.margin >= 0.0
+        return self.judged.own.probability >= NAMED
 
     def agrees(self, other: _Hypothesis, slip: float) -> bool:
         """Whether another speed is the same, and the part."""
-        ratio = self.judged.combs.shaft / other.judged.combs.shaft
-        same = self.judged.best.lines.part == other.judged.best.lines.part
+        ratio = self.judged.shaft / other.judged.shaft
+        same = self.judged.own.part == other.judged.own.part
         return same and abs(ratio - 1.0) <= 2.0 * slip

@@ -367,7 +367,7 @@ def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
 
 def _no_size(found: Diagnosis) -> str:
     """Why no extent is looked for where the outer race is not named."""
-    words = found.status
+    words = found.sentence
     if found.fault == INNER:
         words += (
             " The defect of an inner race turns with the shaft, so its size cannot be estimated "

@@ -8,6 +8,7 @@ import pytest
 from bearingcore import diagnose, envelope_spectrum, presets, size_defect, spectrum
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.signals.recording import Recording
 
 RIG = presets["fan-rig"]
@@ -48,7 +49,8 @@ def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(
     monkeypatch.setattr("bearingcore.diagnosis.part.diagnose.ListenedSignal", begun)
     found = diagnose(signal, RIG.bearing, 260.0, most_samples=39_999)
     assert found.fault == CANNOT_TELL
-    assert found.status == (
+    assert found.status == DiagnosisStatus.TOO_LONG
+    assert found.sentence == (
         f"Cannot tell: too many samples: {thousands(40_000)}, allowed are most_samples = "
         f"{thousands(39_999)}."
     )

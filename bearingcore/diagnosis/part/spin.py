@@ -1,0 +1,127 @@
+"""The lines of a damaged ball, in all bands together.
+
+A ball slips in the part of its way where it carries little, and its axis wanders: its lines are
+broad, and slower than rolling by up to some per cent. So short segments are looked at, the first
+harmonics only, and the mean level of all bands, as what a spot strikes rings everywhere. How far a
+comb stands out is counted in deviations of the combs of all other frequencies in the same signal.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.diagnosis.part.combs import lines_at
+from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PartLines
+from bearingcore.diagnosis.part.search import Combs
+
+SPIN_HARMONICS = 3
+"""Of twice the spin frequency: the lines of higher ones are too broad."""
+
+LAG, AHEAD = 0.06, 0.02
+"""Shares by which a ball may spin slower and faster than it would by rolling alone."""
+
+RACE_SLIP = 0.025
+"""The same of a race's line."""
+
+DEVIATION = 1.4826
+"""Standard deviations of normal numbers in a median of their distances from their median."""
+
+
+@dataclass(frozen=True)
+class Spin:
+    """Prominence of the lines of each part in all bands together.
+
+    Attributes
+    ----------
+    frequency
+        twice the spin frequency at which a ball's lines stand out most [Hz].
+    outer, inner, ball
+        deviations of the combs at other frequencies by which each part's comb is above them.
+    parent
+        the same of combs beside it or at its sidebands, where no ball has lines: of such as are
+        stronger, a ball's may be the foot or a sideband.
+    shaft_sidebands, cage_sidebands
+        the same of the sidebands of the ball's lines.
+    """
+
+    frequency: float
+    outer: float
+    inner: float
+    ball: float
+    parent: float
+    shaft_sidebands: float
+    cage_sidebands: float
+
+    @property
+    def deviations(self) -> float:
+        """By how much a ball's lines stand out more than what else explains them.
+
+        Sidebands of a race may be in a ball's window, but are no stronger than the race's own
+        lines. Shaft sidebands where the cage's should be are those of another bearing's inner race.
+        """
+        foreign = self.shaft_sidebands - self.cage_sidebands
+        parent = self.parent if self.parent > self.ball else 0.0
+        return self.ball - max(0.0, self.outer, self.inner, parent, foreign)
+
+    def of(self, part: str) -> float:
+        """Deviations by the name of the part."""
+        return {OUTER: self.outer, INNER: self.inner, BALL: self.deviations}[part]
+
+
+def may_be(frequency: NDArray[np.float64] | float, nominal: float) -> NDArray[np.bool_]:
+    """Which frequencies [Hz] the line of a ball may have that rolling would give the nominal."""
+    ratio = np.asarray(frequency) / nominal
+    return np.asarray((ratio >= 1.0 - LAG) & (ratio <= 1.0 + AHEAD))
+
+
+def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
+    """The lines of the parts in all bands of short segments."""
+    order = {lines.part: lines.order for lines in parts}
+    cage = next(lines.sidebands for lines in parts if lines.part == BALL)
+    at, shaft = combs.frequency, combs.shaft
+    own = _deviations(combs, (0.0,))
+    window = may_be(at, order[BALL] * shaft) & np.isfinite(own)
+    column = int(np.where(window, own, -np.inf).argmax())
+    places = at[column] + cage * shaft * np.arange(-2, 3)[:, None]
+    beside = (np.abs(at - places) <= shaft / combs.turns).any(axis=0) & ~window & np.isfinite(own)
+
+    def race(part: str) -> float:
+        inside = np.abs(at / (order[part] * shaft) - 1.0) <= RACE_SLIP
+        return float(np.max(own[inside & np.isfinite(own)], initial=-np.inf))
+
+    def sides(spacing: float) -> float:
+        return float(np.nan_to_num(_deviations(combs, (-spacing, spacing))[column]))
+
+    return Spin(
+        frequency=float(at[column]),
+        outer=race(OUTER),
+        inner=race(INNER),
+        ball=float(own[column]) if window.any() else -math.inf,
+        parent=float(np.max(own[beside], initial=-np.inf)),
+        shaft_sidebands=sides(shaft),
+        cage_sidebands=sides(cage * shaft),
+    )
+
+
+def _deviations(combs: Combs, beside: Sequence[float]) -> NDArray[np.float64]:
+    """The mean level at some distances [Hz] from harmonics of each frequency, in all bands (n,).
+
+    In deviations of all frequencies from their median; NaN where lines of the shaft hide it.
+    """
+    total = np.zeros((SPIN_HARMONICS * len(beside), len(combs.frequency)))
+    for one in combs.envelopes:
+        level = np.where(one.hidden, np.nan, one.cleared)
+        total += np.vstack([
+            lines_at(level, one.levels.step, combs.frequency, SPIN_HARMONICS, away)
+            for away in beside
+        ])  # fmt: skip
+    seen = np.isfinite(total)
+    count = seen.sum(axis=0)
+    mean = np.where(seen, total, 0.0).sum(axis=0) / np.where(count, count, np.nan)
+    away = mean - np.nanmedian(mean)
+    return np.asarray(away / max(DEVIATION * float(np.nanmedian(np.abs(away))), 1e-9))

@@ -1,0 +1,55 @@
+"""Outcomes of a diagnosis of the damaged part."""
+
+from __future__ import annotations
+
+from bearingcore.errors import Status
+
+
+class DiagnosisStatus(Status):
+    """The outcome of a diagnosis of the damaged part."""
+
+    PART_NAMED = "part named"
+    NONE_SEEN = "none seen"
+    PERHAPS_A_BALL = "race's lines, perhaps by a ball"
+    ALIKE = "parts alike"
+    NOT_ALONE = "not alone"
+    FAINT = "faint lines"
+    OTHER_SOURCE = "other source"
+    IRREGULAR = "irregular knocks"
+    DROPPED_OUT = "dropped out"
+    CLIPPED = "clipped"
+    INSENSITIVE = "too short to exclude damage"
+    TOO_SHORT = "too short"
+    TOO_COARSE = "sampled too slowly"
+    TOO_LONG = "too many samples"
+    SPEED_OPEN = "shaft speed open"
+
+    @property
+    def sentence(self) -> str:
+        """The status as a sentence."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    DiagnosisStatus.PART_NAMED: "One part's lines stand out as those of damage do.",
+    DiagnosisStatus.NONE_SEEN: "No part's lines show, and those of damage would have.",
+    DiagnosisStatus.PERHAPS_A_BALL: (
+        "The lines of a race are there, but faint: marks of a damaged ball or a sound bearing may "
+        "make them."
+    ),
+    DiagnosisStatus.ALIKE: "The lines of both races are there, neither much stronger.",
+    DiagnosisStatus.NOT_ALONE: "Lines are where a part has them, but do not stand out as its own.",
+    DiagnosisStatus.FAINT: "Lines are where a part has them, too faint to be sure.",
+    DiagnosisStatus.OTHER_SOURCE: "Something repeats that is no line of this bearing.",
+    DiagnosisStatus.IRREGULAR: "The signal knocks, but not at the rate of any part.",
+    DiagnosisStatus.DROPPED_OUT: "Parts of the signal dropped out, which may hide damage.",
+    DiagnosisStatus.CLIPPED: "The signal is clipped, which may hide damage.",
+    DiagnosisStatus.INSENSITIVE: "Nothing shows, but the signal is too short to show damage.",
+    DiagnosisStatus.TOO_SHORT: "The recording holds too few ball passes.",
+    DiagnosisStatus.TOO_COARSE: "The sample rate is too low to show how knocks repeat.",
+    DiagnosisStatus.TOO_LONG: "The recording has more samples than are allowed.",
+    DiagnosisStatus.SPEED_OPEN: "Which part knocks depends on the shaft speed, which is not known.",
+}
+
+Reason = tuple[DiagnosisStatus, str]
+"""A status, and why in a sentence."""

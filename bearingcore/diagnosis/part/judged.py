@@ -270,22 +270,24 @@ class _Comparison:
         return found
 
     def _above_rivals(self, own: PartEvidence) -> float:
-        """By how much [dB] a part's comb is above the races', but those that are multiples of it.
+        """By how much [dB] a part's comb is above the races'.
 
-        A damaged ball marks races, so its lines are no rivals of a race's: see `probabilities`.
-        They are a sideband of a race's where they are not clearly stronger.
+        A race has the lines of one that is its multiple for free, and sidebands decide where both
+        have the same. A damaged ball marks races, so its lines are no rivals of theirs, see
+        `probabilities`; its own must be clearly stronger, as races have sidebands and halves of
+        their lines where a ball's may be.
         """
-        rivals = [
-            one.level
+        ball = own.part == BALL
+        above = [
+            own.level - one.level - (BALL_MARGIN if ball else 0.0)
             for one in self.combs.found
             if one.lines.part not in (own.part, BALL)
             and not any(
                 near(self.combs, factor * own.frequency, np.array([one.frequency]))[0]
-                for factor in (1, 2, 3)
+                for factor in ((1,) if ball else (1, 2, 3))
             )
         ]
-        needed = BALL_MARGIN if own.part == BALL else 0.0
-        return own.level - needed - max(rivals, default=-math.inf)
+        return min(above, default=math.inf)
 
     def _above_sidebands(self, own: PartEvidence, one: Listened) -> float:
         """By how much [dB] the sidebands of a part are such as its own turning makes.

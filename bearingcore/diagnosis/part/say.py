@@ -15,6 +15,7 @@ from bearingcore.common.numbers import (
 )
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence
 from bearingcore.diagnosis.part.parts import BALL
+from bearingcore.diagnosis.part.probability import DEVIATIONS
 
 
 def dropout_message(share: float) -> str:
@@ -52,7 +53,7 @@ def damaged(own: PartEvidence) -> str:
     shown = int((own.harmonics > own.noise).sum())
     clear = (
         f"{number(own.deviations, 2)} deviations clearer than anything else in all bands together"
-        if own.part == BALL
+        if own.part == BALL and own.deviations >= DEVIATIONS
         else f"{decibels(own.level)} above what surrounds them, {shown} of {len(own.harmonics)} "
         "harmonics clear"
     )

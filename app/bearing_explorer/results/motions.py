@@ -86,19 +86,19 @@ def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
     return default_step_rate(scene, sample_rate, highest)
 
 
-def is_costly(scene: Scene, sample_rate: float, duration: float) -> bool:
-    """Whether a motion takes too long to be marched in full while a slider moves."""
+def _contacts(scene: Scene, how: Marching) -> float:
+    """Contacts of a flat bearing that a second of motion would step; 0 where there is none."""
     try:
-        rate = step_rate_of(scene, sample_rate) or 0.0
+        rate = how.step_rate or step_rate_of(scene, how.sample_rate) or 0.0
     except ValueError:
-        return False  # there is no motion
-    return duration * rate * _step_cost(scene) > MOST_IN_FULL
-
-
-def _step_cost(scene: Scene) -> float:
-    """Cost of a step, in contacts of a flat bearing with massless balls."""
+        return 0.0  # there is no motion
     cost = scene.bearing.total_balls * (1.0 if is_planar(scene) else GENERAL_COST)
-    return cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
+    return rate * cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
+
+
+def is_costly(scene: Scene, how: Marching) -> bool:
+    """Whether a motion takes too long to be marched in full while a slider moves."""
+    return how.duration * _contacts(scene, how) > MOST_IN_FULL
 
 
 def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> float:
@@ -106,20 +106,14 @@ def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> fl
 
     `at_rest`: what may be touched of one that is not coarse.
     """
-    most = MOST_TOUCHED if how.coarse else at_rest
-    if scene.balls == MASSLESS or math.isinf(most):
-        return how.duration
-    try:
-        rate = how.step_rate or step_rate_of(scene, how.sample_rate) or 0.0
-    except ValueError:
-        return how.duration  # there is no motion
-    if rate == 0.0:
+    most, contacts = MOST_TOUCHED if how.coarse else at_rest, _contacts(scene, how)
+    if scene.balls == MASSLESS or not contacts:
         return how.duration
     shortest = SHORTEST
     if how.coarse and scene.cage_speed > 0.0:
         preview = PREVIEW_PASSES * scene.bearing.ball_spacing / scene.cage_speed
         shortest = min(max(preview, PREVIEW_DURATION), SHORTEST)
-    return min(how.duration, max(most / (rate * _step_cost(scene)), shortest))
+    return min(how.duration, max(most / contacts, shortest))
 
 
 def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> float:

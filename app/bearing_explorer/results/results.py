@@ -372,12 +372,8 @@ class Results:
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
     def _is_coarse(self, scene: Scene) -> bool:
-        settings = self.settings
-        return (
-            self.moving
-            and settings.step_rate is None
-            and motions.is_costly(scene, settings.sample_rate, settings.duration)
-        )
+        how = self.settings.marching
+        return self.moving and how.step_rate is None and motions.is_costly(scene, how)
 
     def _marching_of(self, *scenes: Scene) -> Marching:
         """Settings of motions: coarse where one of them takes too long while a slider moves."""

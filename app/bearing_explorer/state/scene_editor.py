@@ -520,32 +520,28 @@ class SceneEditor:
 
         What is wrong with it stands in the words of the floor.
         """
-        choice = self.floors[self.selected]
         shown = " ".join(name.split())[:40] or "The file"
-        if found is None:
-            self.floors[self.selected] = dataclasses.replace(
-                choice, kind="measured", words=f"{shown}: {wrong}", bad=True
-            )
-            return
-        floor, extent, depth, center = found
         stays = math.degrees(self.defects[self.selected].center) % 360.0
-        of_file = math.degrees(center) % 360.0
-        words = f"{shown}: {len(floor.places)} points"
-        if abs(math.remainder(of_file - stays, 360.0)) > 0.05:
-            words += (
-                f". Its middle is at {of_file:.4g}° in the file; the defect stays at {stays:.4g}°, "
-                "where Centre moves it"
-            )
+        change: dict[str, Any]
         try:
+            if found is None:
+                raise ValueError(wrong)
+            floor, extent, depth, center = found
             self._change(floor=floor, extent=extent, depth=depth)
         except ValueError as error:
-            self.floors[self.selected] = dataclasses.replace(
-                choice, kind="measured", words=f"{shown}: {sentence_of(error)}", bad=True
-            )
+            change = {"words": f"{shown}: {sentence_of(error)}", "bad": True}
         else:
-            self.floors[self.selected] = dataclasses.replace(
-                choice, kind="measured", measured=floor, words=words, bad=False
-            )
+            of_file = math.degrees(center) % 360.0
+            words = f"{shown}: {len(floor.places)} points"
+            if abs(math.remainder(of_file - stays, 360.0)) > 0.05:
+                words += (
+                    f". Its middle is at {of_file:.4g}° in the file; the defect stays at "
+                    f"{stays:.4g}°, where Centre moves it"
+                )
+            change = {"measured": floor, "words": words, "bad": False}
+        self.floors[self.selected] = dataclasses.replace(
+            self.floors[self.selected], kind="measured", **change
+        )
 
     # State for the browser
 

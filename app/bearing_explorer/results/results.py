@@ -48,24 +48,29 @@ from bearingcore.statics.equilibrium import (
 from bearingcore.statics.passes import drops_now
 
 Answer = TypeVar("Answer")
+Compute = TypeVar("Compute", bound=Callable[..., object])
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """Greatest extents of maps [rad]: the first that holds the extent shown. 90° as in the paper."""
 
-OVER_STRETCH = frozenset(
-    {
-        "equilibrium",
-        "healthy_equilibrium",
-        "modes",
-        "healthy_modes",
-        "bands",
-        "healthy_bands",
-        "chain",
-        "chain_before",
-        "dof_comparison",
-    }
-)
-"""Attributes of `Results` over the cage angles of its curves, fewer while a slider moves."""
+SLOW: set[str] = set()
+"""Attributes of `Results` that take long enough to be drawn after the others."""
+OF_MOTION: set[str] = set()
+"""Attributes that are made of a simulated motion."""
+OVER_STRETCH: set[str] = set()
+"""Attributes over the cage angles of the curves, fewer while a slider moves."""
+
+
+def of_kind(*kinds: set[str]) -> Callable[[Compute], Compute]:
+    """Note the name of an attribute in these sets."""
+
+    def note(compute: Compute) -> Compute:
+        for kind in kinds:
+            kind.add(compute.__name__)
+        return compute
+
+    return note
+
 
 LONGEST_ORBIT = 60
 """Ball passes of the longest orbit that is looked for while sliders move."""
@@ -109,36 +114,7 @@ class Results:
         called in long searches: whether the results are no longer wanted.
     """
 
-    #: attributes that take long enough to be drawn after the others
-    slow = frozenset(
-        {
-            "motion",
-            "ball_mass",
-            "excerpt",
-            "spectra",
-            "late_spectra",
-            "healthy_late_spectra",
-            "orbit",
-            "orbit_spectra",
-            "dof_comparison",
-            "chain",
-            "chain_before",
-        }
-    )
-
-    #: attributes that are made of a simulated motion
-    moving_ones = frozenset(
-        {
-            "motion",
-            "ball_mass",
-            "excerpt",
-            "spectra",
-            "late_spectra",
-            "orbit",
-            "dof_comparison",
-            "chain",
-        }
-    )
+    slow = SLOW
 
     def __init__(
         self,
@@ -222,11 +198,13 @@ class Results:
         return np.degrees(inside)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
     def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
         return statics.curves(self.reference, *self.stretch)
@@ -269,11 +247,13 @@ class Results:
         return statics.equilibrium_at(self.scene.replace(balls=MASSLESS), self.cage_angle)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
         return self._modes(self.scene)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
     def healthy_modes(self) -> Modes:
         """The same without the defect."""
         return self._of_pinned(self._modes, self.reference)
@@ -283,6 +263,7 @@ class Results:
         return statics.modes(scene, first, last, n)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
     def bands(self) -> dict[str, tuple[float, float]]:
         """Between which frequencies [Hz] each mode moves over the stretch.
 
@@ -292,6 +273,7 @@ class Results:
         return self.modes.bands() if self.moving else self._bands(self.scene)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
     def healthy_bands(self) -> dict[str, tuple[float, float]]:
         """The same without the defect."""
         if self.moving:
@@ -344,7 +326,7 @@ class Results:
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
-        scenes = [self.scene] if shown & self.moving_ones else []
+        scenes = [self.scene] if shown & OF_MOTION else []
         if "dof_comparison" in shown:
             scenes.append(self.scene.replace(dofs=other_dofs(self.scene)))
         if "ball_mass" in shown:
@@ -385,6 +367,7 @@ class Results:
         return self._marching_of(self.scene)
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION)
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
         return motions.motion(self.scene, self._marching).motion
@@ -395,21 +378,25 @@ class Results:
         return motions.motion(self.scene, self._marching).since
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""
         return motions.excerpt(self.scene, self._marching)
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION)
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
         return motions.spectra(self.scene, self._marching)
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
         """The same of the settled motion; empty where it did not stay finite."""
         return motions.late_spectra(self.scene, self._marching)
 
     @cached_property
+    @of_kind(SLOW)
     def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect."""
         return self._of_pinned(motions.late_spectra, self.reference, self._marching)
@@ -425,6 +412,7 @@ class Results:
             raise ValueError(words) from None
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION)
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
         how = self._marching_of(self.scene.replace(balls=WITH_MASS))
@@ -436,6 +424,7 @@ class Results:
         return common_ball_passes(self.scene)
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION)
     def orbit(self) -> Orbit | None:
         """The motion that repeats itself; None where it takes too many ball passes to look for.
 
@@ -451,6 +440,7 @@ class Results:
         return motions.orbit(*key, give_up=self._give_up)
 
     @cached_property
+    @of_kind(SLOW)
     def orbit_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of a record as long as the second half of the motion; empty without an orbit."""
         if self.orbit is None or not self.orbit.multipliers.size:
@@ -497,11 +487,13 @@ class Results:
         return load if math.isfinite(load) else None
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
     def chain(self) -> Chain:
         """Results from the loads of the balls to the vibration."""
         return chain(self)
 
     @cached_property
+    @of_kind(SLOW, OVER_STRETCH)
     def chain_before(self) -> Chain:
         """The same of the scene before the last change; before the first, of what is in grey."""
         scene = self.reference if self.before is None else self.before
@@ -510,6 +502,7 @@ class Results:
         return _chain_of(scene, self.cage_angle, self.settings, self.moving)
 
     @cached_property
+    @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
     def dof_comparison(self) -> DofComparison:
         """The scene with its free directions against those it needs, or against all five."""
         chosen, other = self.scene.active_dofs, other_dofs(self.scene)

@@ -30,6 +30,7 @@ ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
     f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. The Bearing tab takes yours."
 )
+ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02
 """[Pa·s] assumed where no viscosity is given: a usual oil, warm."""
 
@@ -62,7 +63,8 @@ class Endurance:
     healthy
         the life without the defects.
     assumed
-        what these answers assume of a bearing whose groove radii are not known; empty otherwise.
+        what these answers assume of a bearing whose groove radii are not known, or whose inside is
+        estimated; empty otherwise.
     rating [N], rating_words
         the dynamic load rating that was used, and where it comes from.
     no_life, no_pressures, no_film
@@ -85,7 +87,8 @@ class Endurance:
 def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
     with_grooves = with_usual_grooves(scene)
-    assumed = "" if with_grooves is None else ASSUMED_GROOVES
+    told = [ESTIMATED] if scene.bearing.estimated else []
+    assumed = " ".join(told if with_grooves is None else [*told, ASSUMED_GROOVES])
     scene = with_grooves or scene
     rating, rating_words = inputs.dynamic_load_rating, "given"
     no_life = ""

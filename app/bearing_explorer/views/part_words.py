@@ -16,6 +16,12 @@ from bearingcore.diagnosis.part.evidence import LIKELY, NONE_SEEN, PartEvidence
 SIDEBANDS = 2.0
 """[dB] above their surroundings from which sidebands are spoken of."""
 
+COUNTED = (
+    " The number of balls is an estimate: with another one, damage of a race shows at another "
+    "frequency and is missed. Count them, or read the frequencies off the maker's sheet."
+)
+"""What "no damage seen" leaves open where the number of balls follows from a designation."""
+
 _FREQUENCY = {
     "outer race": "the outer-race frequency (BPFO)",
     "inner race": "the inner-race frequency (BPFI)",
@@ -44,8 +50,8 @@ def headline(found: Diagnosis) -> str:
     return "No damage seen" if found.fault == NONE_SEEN else "No clear result"
 
 
-def plain(found: Diagnosis) -> str:
-    """The finding in a sentence."""
+def plain(found: Diagnosis, question: Question) -> str:
+    """The finding in a sentence or three."""
     if found.names_a_part:
         one = found.of(found.fault)
         modulated = f", modulated once per {one.sideband_source} turn"
@@ -59,9 +65,13 @@ def plain(found: Diagnosis) -> str:
         return (
             "Nothing in this signal repeats as a damaged outer race, inner race or ball would "
             "make it. Damage whose impacts make the vibration swing by "
-            f"{swing(found.detectable_depth)} would have shown."
+            f"{swing(found.detectable_depth)} would have shown.{_counted(question)}"
         )
     return found.detail
+
+
+def _counted(question: Question) -> str:
+    return COUNTED if "n_balls" in question.bearing.estimated else ""
 
 
 def swing(depth: float) -> str:
@@ -97,7 +107,7 @@ def pass_on(found: Diagnosis, question: Question) -> str:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
             f"{probability(found.probability)}). Measure again at the usual time. This says "
-            "nothing about lubrication, balance or other bearings."
+            f"nothing about lubrication, balance or other bearings.{_counted(question)}"
         )
     return f"{head}no clear result from this signal."
 
@@ -113,7 +123,8 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
         [
             "Bearing",
             f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 5)} mm on "
-            f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}",
+            f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}"
+            f"{', estimated from the designation' if bearing.estimated else ''}",
         ],
     ]
     if not question.measured.in_si:

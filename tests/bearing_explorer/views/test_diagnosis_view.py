@@ -129,12 +129,23 @@ def test_a_healthy_machine_is_told_so_in_words_to_pass_on():
     assert "Measure again at the usual time." in words
 
 
+def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
+    question, found = asked("none"), diagnosed("none")
+    bearing = dataclasses.replace(question.bearing, estimated=("n_balls", "ball_diameter"))
+    state = panel_state(dataclasses.replace(question, bearing=bearing), found)
+    assert part_words.COUNTED in state["plain"]
+    assert part_words.COUNTED in state["pass_on"]
+    assert dict(state["facts"])["Bearing"].endswith("estimated from the designation")
+    counted = panel_state(question, found)
+    assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
+
+
 def test_a_part_that_is_hardly_told_is_only_probably_damaged():
     found = dataclasses.replace(diagnosed("inner race"), probability=0.8)
     assert part_words.headline(found) == "The inner race is probably damaged"
     ball = dataclasses.replace(diagnosed("inner race"), fault="ball")
     assert part_words.headline(ball) == "A ball is damaged"
-    assert "ball-spin frequency" in part_words.plain(ball)
+    assert "ball-spin frequency" in part_words.plain(ball, asked("inner race"))
     assert panel_state(asked("inner race"), ball)["part"] == "ball"
 
 

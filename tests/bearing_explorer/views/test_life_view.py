@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
+from bearing_explorer.results.endurance import ESTIMATED, LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import facts_of
@@ -71,6 +71,14 @@ def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
     loads = [equilibrium(one, looked_at(scene)).ball_load for one in (scene, usual)]
     np.testing.assert_allclose(loads[1], loads[0], atol=1e-9)
     assert with_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
+
+
+def test_the_life_of_an_estimated_bearing_says_so() -> None:
+    scene = presets["fan-rig"]
+    bearing = dataclasses.replace(scene.bearing, estimated=("n_balls", "ball_diameter"))
+    words = endurance(scene.replace(bearing=bearing), LifeInputs()).assumed
+    assert words.startswith(ESTIMATED)
+    assert ESTIMATED not in endurance(scene, LifeInputs()).assumed
 
 
 def number(text: str) -> float:

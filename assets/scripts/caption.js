@@ -1,6 +1,8 @@
 // Head of a view: title, a line about it and the rest behind "?", and a menu that exports the figure:
 // pictures, numbers, Python; the numbers as a table to read, too.
 
+const LAID_OUT = 150   // ms until figures have followed a change of their width
+const SENTENCE = 70    // px below enlarged figures
 const MOST_ROWS = 300  // of a table on the page; the file has all
 const UNITS = { n_m_per_rad: "N·m/rad", n_per_rad: "N/rad", n_per_m: "N/m", m_per_s2: "m/s²", deg: "°",
                 um: "µm", mm: "mm", hz: "Hz", ms: "ms", db: "dB", n: "N", s: "s", m: "m" }
@@ -102,6 +104,39 @@ export function render({ model }) {
     copy.focus()
   })
 
+  // Over the whole screen and back: its figures share the height that is left.
+  const host = () => enlarge.getRootNode().host.getRootNode().host  // the view
+  const heights = new Map()  // of its figures, while it is enlarged
+  const resize = () => {
+    const plots = figures_on_screen(model.figures)
+    const rows = new Set(plots.map(({ el }) => Math.round(el.getBoundingClientRect().top))).size
+    const end = Math.max(...plots.map(({ el }) => el.getBoundingClientRect().bottom))
+    const more = Math.floor((innerHeight - end - SENTENCE) / rows)
+    for (const { model: plot } of more > 0 ? plots : []) {
+      heights.set(plot, plot.height)
+      if (plot.height) plot.setv({ height: plot.height + more }, { sync: false })
+    }
+  }
+  const set_large = (large) => {
+    const view = host()
+    view.popover = large ? "manual" : null
+    view.classList.toggle("enlarged", large)
+    enlarge.textContent = large ? "Close" : "Enlarge"
+    if (large) {
+      view.showPopover()
+      setTimeout(resize, LAID_OUT)
+    } else {
+      for (const [plot, height] of heights) plot.setv({ height }, { sync: false })
+      heights.clear()
+    }
+    enlarge.focus()
+  }
+  const enlarge = button("Enlarge", () => set_large(!host().matches(".enlarged")), { class: "enlarge" })
+  enlarge.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && host().matches(".enlarged")) set_large(false)
+  })
+  on_event("tab", enlarge, () => { if (host()?.matches(".enlarged")) set_large(false) })
+
   const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
                                      "aria-label": `Export “${model.title}”` }, "Export")
   follow(model, ["empty", "nothing", "figures"], () => {
@@ -109,8 +144,9 @@ export function render({ model }) {
     for (const one of pictures) one.hidden = !drawn
     for (const one of numbers) one.hidden = model.empty
     opener.hidden = model.nothing && !drawn
+    enlarge.hidden = !model.figures.length
   })
   const menu = menu_of([...pictures, ...numbers, python], { class: "menu", "aria-label": `Export “${model.title}”` })
   opens_below(opener, menu, 190)
-  return element("header", {}, element("div", { class: "words" }, head, line, rest, grey), opener, menu, dialog, table)
+  return element("header", {}, element("div", { class: "words" }, head, line, rest, grey), enlarge, opener, menu, dialog, table)
 }

@@ -229,6 +229,8 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     seen = []
     for _ in range(45):
         page.keyboard.press("Tab")
+        if page.evaluate("focused() === document.body"):  # past the last control
+            break
         seen.append(
             page.evaluate(
                 """() => {
@@ -255,6 +257,33 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     page.keyboard.press("ArrowLeft")
     settle(page)
     assert page.screenshot(clip=clip) != before
+
+
+def test_a_view_fills_the_screen_and_goes_back(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    page.set_viewport_size({"width": 1920, "height": 1080})
+    open_page(page, explorer)
+    show(page, "vibration")
+    view = page.locator(".view-vibration-time")
+    heights = "all => all.map(one => one.getBoundingClientRect().height)"
+    before = view.locator("canvas").evaluate_all(heights)
+    enlarge = view.locator(".enlarge")
+    enlarge.press("Enter")
+    expect(enlarge).to_have_text("Close")
+    box = view.bounding_box()
+    assert box is not None
+    assert (box["x"], box["y"], box["width"], box["height"]) == (0.0, 0.0, 1920.0, 1080.0)
+    large = "([all, least]) => all.every(one => one.getBoundingClientRect().height > least)"
+    page.wait_for_function(
+        f"least => ({large})([[...deep(document, '.view-vibration-time')].flatMap(view =>"
+        " [...deep(view.shadowRoot, 'canvas')]).filter(one => one.clientHeight), least])",
+        arg=1.4 * max(before),
+    )
+    enlarge.press("Escape")
+    expect(enlarge).to_have_text("Enlarge")
+    expect(enlarge).to_be_focused()
+    settle(page)
+    assert view.locator("canvas").evaluate_all(heights) == before
 
 
 def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) -> None:

@@ -50,7 +50,7 @@ if (kind == 0) return value > 0 ? `Radial load ${si(value, 'N')} at ${rounded(an
                                 : 'No radial load'
 if (kind == 1) return `Axial load ${si(Math.abs(value), 'N')} ` +
                       (value > 0 ? '⊙ towards you' : '⊗ away from you')
-if (kind == 4) return `Defect drawn ${value >= 1 ? value : rounded(value, 2)}× as deep`
+if (kind == 4) return `Defect depth × ${value >= 1 ? value : rounded(value, 2)}`
 return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
 _BAR_WORDS = """

@@ -29,7 +29,7 @@ TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 SLOTS = len(style.BALL_COLORS)
 PIXELS = 500  # stretches of a line that are kept apart
 LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
-NAME_WIDTH = 0.17
+NAME_WIDTH, LONG_NAME_WIDTH = 0.17, 0.24  # of "ball 12", and of "ball 12 of row 2"
 ROW_HEIGHT = 0.065  # of its height
 EVENT_ROWS = 3
 
@@ -104,10 +104,11 @@ class PassageView(View):
             f"{self.prefix}_ball_names",
             "from",
             "at",
-            f"return `{BALL}`",
+            f"return narrow && row.row ? `${{row.ball}}, row ${{row.row}}` : `{BALL}`",
             reads=(*NAMED, "slot"),
             x_share=True,
             y_share=True,
+            fitting=style.NARROW,
             look={"text_color": by_number("slot", style.BALL_COLORS)},
         )
 
@@ -126,7 +127,7 @@ def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarr
     """The names of balls in a row, shares of the figure's width and height."""
     slots = np.arange(float(balls.size))
     return {
-        "from": 0.02 + NAME_WIDTH * slots,
+        "from": 0.02 + (LONG_NAME_WIDTH if bearing.rows else NAME_WIDTH) * slots,
         "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
         **named(bearing, balls),
         "slot": slots,

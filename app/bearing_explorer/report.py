@@ -22,8 +22,7 @@ from bokeh.embed import json_item
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
-from bearing_explorer.plots.defect_words import extent_words
-from bearing_explorer.plots.element_words import row_words, with_elements_of
+from bearing_explorer.plots.element_words import extent_words, row_words, with_elements_of
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of

@@ -1,10 +1,12 @@
-"""Names of the rolling elements of a bearing: balls or rollers, one by one, row by row."""
+"""Names of rolling elements, balls or rollers, one by one, row by row; sizes of defects."""
 
 from __future__ import annotations
 
+import math
 import re
 
-from bearingcore import Bearing
+from bearing_explorer.plots import style
+from bearingcore import Bearing, Defect
 
 _BALL = re.compile(r"\b([Bb])all(?=s?\b)(?![- ]pass)")
 
@@ -37,3 +39,9 @@ def with_elements_of(bearing: Bearing, text: str) -> str:
     if element == "ball":
         return text
     return _BALL.sub(lambda found: element.title() if found[1] == "B" else element, text)
+
+
+def extent_words(defect: Defect, bearing: Bearing) -> str:
+    """Extent of a defect in degrees and along its race: "12.9° (5.97 mm)"."""
+    length = style.with_prefix(defect.extent * defect.raceway_radius(bearing), "m")
+    return f"{style.number(math.degrees(defect.extent))}° ({length})"

@@ -3,6 +3,8 @@
 One canvas instead of fifteen: column j and row i of the matrix are the unit square at (j, -i). That
 paints several times faster than a figure for each term, and shows where in the matrix each stands.
 Below the diagonal, where the matrix only repeats itself, is room for the number of loaded balls.
+The numbers of a cell are next to it, out of sight while the cell fills the frame: then the
+drawing's own axes show, with the numbers of the cells in view, see cell_axes.js.
 """
 
 from __future__ import annotations
@@ -14,10 +16,17 @@ from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import (
+    ColumnDataSource,
+    CustomJS,
+    CustomJSTickFormatter,
+    FixedTicker,
+    Range1d,
+)
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
@@ -138,3 +147,55 @@ def trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tupl
         return -1.0, 1.0
     middle = 0.5 * (finite.min() + finite.max())
     return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
+
+
+_TICK_WORDS = "const k = shown.data.at.indexOf(tick)\nreturn k < 0 ? '' : shown.data.words[k]"
+
+
+def axes_when_zoomed(
+    plot: figure,
+    cells: Sequence[Cell],
+    scale_of: str,
+    sources: Sequence[ColumnDataSource],
+    **known: Any,
+) -> None:
+    """Show the axes of a bare figure while it is zoomed into.
+
+    Parameters
+    ----------
+    cells
+        one for each of NAMES.
+    scale_of
+        JavaScript: body of a function of `k`, a cell, which returns the quantities of its sides:
+        ``{x: side, y: side}``, each ``{first, last, factor, unit, words}``. What is written is a
+        place over `factor`; empty `words` stand for the name of the cell.
+    sources
+        sources whose news change that; the function knows them as `sources`.
+    known
+        further models that it knows.
+    """
+    axes = []
+    for axis in (plot.xaxis[0], plot.yaxis[0]):
+        shown = ColumnDataSource({"at": [], "words": []}, syncable=False)
+        axis.ticker = FixedTicker(ticks=[], minor_ticks=[], syncable=False)
+        axis.formatter = CustomJSTickFormatter(args={"shown": shown}, code=_TICK_WORDS)
+        axis.syncable = False  # it is the browser that shows and hides it
+        axes.append([axis, axis.ticker, shown])
+    follow = CustomJS(
+        args={
+            "plot": plot,
+            "axes": axes,
+            "cells": [[cell.left, cell.right, cell.bottom, cell.top] for cell in cells],
+            "cell_names": NAMES,
+            "sources": list(sources),
+            "home": [[shown.start, shown.end] for shown in (plot.x_range, plot.y_range)],
+            **known,
+        },
+        code=f"{style.JS_PREFIX}const scale_of = (k) => {{{scale_of}}}\n"
+        + asset_text("cell_axes.js"),
+    )
+    for end in ("start", "end"):
+        plot.x_range.js_on_change(end, follow)
+        plot.y_range.js_on_change(end, follow)
+    for source in sources:
+        source.js_on_change("data", follow)

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.defect_words import extent_words
-from bearing_explorer.plots.element_words import row_words
+from bearing_explorer.plots.element_words import extent_words, row_words
 from bearing_explorer.plots.layers import ball_dots, curve, draw
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.results import Results

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import color_scales, matrix_cells, style
-from bearing_explorer.plots.cell_axes import axes_when_zoomed
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.plots.heat_map import Places, Side, ends, goes_there, reading
 from bearing_explorer.plots.matrix_cells import NEGLIGIBLE, PLACES, SIDES, UNITS, Cell, write
@@ -117,7 +116,7 @@ class StiffnessMaps(View):
         _crosshair(plot, now)
         _hover(plot, frames, cells, places, points)
         goes_there(plot, places)
-        axes_when_zoomed(plot, _CELLS, matrix_cells.NAMES, _SCALE_OF, [grid])
+        matrix_cells.axes_when_zoomed(plot, _CELLS, _SCALE_OF, [grid])
         return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

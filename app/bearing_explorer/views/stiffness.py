@@ -14,7 +14,6 @@ from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import matrix_cells, style
-from bearing_explorer.plots.cell_axes import axes_when_zoomed
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
 from bearing_explorer.plots.ranges import ROOM, StickyRange
@@ -73,8 +72,8 @@ class Stiffness(View):
         plot.line("x", "y", source=healthy, line_color=style.HEALTHY, line_width=1.6)
         plot.line("x", "y", source=defective, line_color=style.DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
-        names = matrix_cells.NAMES
-        axes_when_zoomed(plot, _FRAMES, names, _SCALE_OF, [cells, axis], units=[*UNITS, ""])
+        units = [*UNITS, ""]
+        matrix_cells.axes_when_zoomed(plot, _FRAMES, _SCALE_OF, [cells, axis], units=units)
         return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

@@ -49,6 +49,10 @@ CLOSED = 1e-7
 """An orbit is closed when it misses its beginning by this part of its own size."""
 
 
+LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
+"""Losses of stability by the place at which the largest multiplier leaves the unit circle."""
+
+
 @dataclass(frozen=True)
 class Orbit:
     """A periodic motion of a scene and what becomes of small disturbances of it.

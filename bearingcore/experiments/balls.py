@@ -18,10 +18,20 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
-from bearingcore.experiments.points import Experiment, Point, Reference, failed, least_time
-from bearingcore.scene.scene import WITH_MASS, Scene
+from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import default_step_rate, simulate
+from bearingcore.experiments.points import (
+    NOT_WATCHED,
+    Experiment,
+    Point,
+    Reference,
+    Watch,
+    failed,
+    least_time,
+    measured_in_turn,
+)
+from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 
 Array = NDArray[np.float64]
@@ -36,8 +46,12 @@ ERRORS = {
 REACH = {"0.3-2.1 kHz": 0.1, "2.1-5 kHz": 0.5, "5-10 kHz": 0.5}
 """[dB] within which the two families must agree, and a method is good enough."""
 
+_SHARE_OF_REFERENCE = 0.5
+
 FINEST = 32
 """Steps a sample of the reference."""
+FINER = 8
+"""As many times more for the second family, whose order is lower."""
 
 LEFT_OUT = (
     "general-purpose methods, which hold to tolerances between strikes and take five times as long "
@@ -93,9 +107,13 @@ BALL_METHODS: dict[str, Marcher] = {
 """By name: the program's own, and the same steps in variables that jump as a contact closes."""
 
 
-def third_octaves(history: Array, sample_rate: float) -> dict[str, Array]:
-    """Power in third octaves [dB] of the housing's acceleration along x and y, by band."""
-    frequency, density = spectrum(history[:, 5], sample_rate)
+NO_MASS = "massless balls"
+"""The model without the mass of balls, by the program's own steps."""
+
+
+def third_octaves(acceleration: Array, sample_rate: float) -> dict[str, Array]:
+    """Power in third octaves [dB] of the housing's acceleration (samples, 2), by band."""
+    frequency, density = spectrum(acceleration, sample_rate)
     levels = {}
     for name, (low, high) in BANDS.items():
         edges = np.geomspace(low, high, max(round(3.0 * math.log2(high / low)), 1) + 1)
@@ -117,10 +135,11 @@ def balls_experiment(
     duration: float = 1.4,
     sample_rate: float = 65536.0,
     steps: tuple[int, ...] = (1, 2, 3, 4, 8, 16),
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> Experiment:
-    """Error against cost of ways to march balls with mass, contacts in the plane.
+    """Error against cost of ways to march balls with mass, and of leaving the mass out.
+
+    Contacts stay in the plane.
 
     Parameters
     ----------
@@ -130,8 +149,8 @@ def balls_experiment(
         [s], [Hz]
     steps
         a sample: the settings at which each method is measured.
-    progress, cancelled
-        see `points`.
+    watch
+        progress, points as they come, and cancelling.
 
     Raises
     ------
@@ -140,18 +159,21 @@ def balls_experiment(
     """
     scene = scene.replace(balls=WITH_MASS)
     if scene.active_dofs != ("x", "y") or place_parts(scene, scene.active_dofs) != 1:
-        raise checks.refuse("dofs", scene.active_dofs, "x and y, at contact angle 0")
+        raise checks.refuse("dofs", " ".join(scene.active_dofs), "x y, at contact angle 0")
     began = time.perf_counter()
-    if progress is not None:
-        progress(0.0, "reference by two families")
+    report = watch.within(0.0, _SHARE_OF_REFERENCE)
 
     def levels(method: str, at: Scene = scene) -> dict[str, Array]:
-        march = BALL_METHODS[method](at, FINEST, duration, sample_rate)
-        return third_octaves(march.history, sample_rate)
+        finest = FINEST if method == "RK4" else FINER * FINEST
+        march = BALL_METHODS[method](at, finest, duration, sample_rate)
+        return third_octaves(march.history[:, 5], sample_rate)
 
+    report(0.0)
     truth = levels("RK4")
+    report(0.33)
     heavier = scene.replace(density=1.0001 * scene.bearing.density)
     spread = apart(levels("RK4", heavier), truth)
+    report(0.67)
     agreement = apart(levels("RK4 in velocities"), truth)
     spreads = ", ".join(f"{name} {value:.2f} dB" for name, value in spread.items())
     reference = Reference(
@@ -161,27 +183,45 @@ def balls_experiment(
         time.perf_counter() - began,
         f"spread with balls heavier by a part in ten thousand: {spreads}",
     )
-    points = []
-    tasks = [(name, stride) for name in BALL_METHODS for stride in steps]
-    for name, stride in in_turn(tasks, str, progress, cancelled, begin=0.3):
-        words = f"{stride * sample_rate:.0f} steps/s"
+    usual = default_step_rate(scene, sample_rate, highest_natural_frequency(scene))
 
-        def work(name: str = name, stride: int = stride) -> BallMarch:
-            return BALL_METHODS[name](scene, stride, duration, sample_rate)
-
-        march, seconds, runs = least_time(work)
+    def measure(task: tuple[str, int]) -> Point:
+        name, stride = task
+        if name == NO_MASS:
+            return _massless(scene, duration, sample_rate, truth)
+        rate = stride * sample_rate
+        march, seconds, runs = least_time(
+            lambda: BALL_METHODS[name](scene, stride, duration, sample_rate)
+        )
+        words = f"{rate:.0f} steps/s"
         if march.failure:
-            points.append(failed(name, words, stride, march.failure, seconds, march.calls))
-            continue
-        errors = apart(third_octaves(march.history, sample_rate), truth)
-        points.append(Point(name, words, stride, errors, seconds, runs, march.calls))
-    return Experiment(
+            return failed(name, words, rate, march.failure, seconds, march.calls)
+        errors = apart(third_octaves(march.history[:, 5], sample_rate), truth)
+        in_use = name == "RK4" and rate == usual
+        return Point(name, words, rate, errors, seconds, runs, march.calls, in_use=in_use)
+
+    tasks = [(NO_MASS, 1), *((name, stride) for name in BALL_METHODS for stride in steps)]
+    experiment = Experiment(
         "balls",
-        f"Ways to march balls with mass over {duration:g} s",
+        f"Ways to march balls with mass over {duration:g} s, and balls without",
         ERRORS,
         "evaluations of all contacts",
         {"": reference},
-        tuple(points),
+        (),
         LEFT_OUT,
-        completed=len(points) == len(tasks),
     )
+    return measured_in_turn(experiment, tasks, str, measure, watch, begin=_SHARE_OF_REFERENCE)
+
+
+def _massless(scene: Scene, duration: float, sample_rate: float, truth: dict[str, Array]) -> Point:
+    """The motion without the mass of balls against the one with it."""
+    found, seconds, runs = least_time(
+        lambda: simulate(scene.replace(balls=MASSLESS), duration, sample_rate)
+    )
+    words = f"{found.step_rate:.0f} steps/s"
+    if not found.completed:
+        return failed(NO_MASS, words, found.step_rate, found.reason, seconds)
+    signal = found.outer_acceleration[: round(duration * sample_rate)]
+    errors = apart(third_octaves(signal, sample_rate), truth)
+    calls = found.right_hand_side_calls
+    return Point(NO_MASS, words, found.step_rate, errors, seconds, runs, calls)

@@ -6,6 +6,7 @@ A setting is one number: steps a second [Hz] for fixed steps, the tolerance rela
 
 from __future__ import annotations
 
+import importlib.util
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore import kernels
+from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
 
@@ -57,12 +59,18 @@ class Method:
         does it.
     note
         what it is, in a sentence.
+    order
+        of convergence where all forces are smooth; 0 for steps that choose themselves.
+    slow
+        True where it takes longer than the others together.
     """
 
     name: str
     fixed_step: bool
     march: Marcher
     note: str
+    order: int = 0
+    slow: bool = False
 
 
 def intervals(rate: float, duration: float) -> int:
@@ -98,7 +106,7 @@ def _of_scipy(name: str) -> Marcher:
 
         n = intervals(sample_rate, duration)
         time = np.arange(n + 1) / sample_rate
-        limited = _Limited(problem, MOST_SCIPY_CALLS)
+        limited = _Limited(problem)
         try:
             answer = solve_ivp(  # type: ignore[call-overload]
                 limited.rate,
@@ -119,7 +127,56 @@ def _of_scipy(name: str) -> Marcher:
     return march
 
 
-MOST_SCIPY_CALLS = 5_000_000
+def _of_cvode(name: str) -> Marcher:
+    """CVODE of SUNDIALS with the compiled right-hand side, through scikit-sundae."""
+
+    def march(
+        problem: MotionProblem, tolerance: float, duration: float, sample_rate: float
+    ) -> March:
+        n = intervals(sample_rate, duration)
+        time = np.arange(n + 1) / sample_rate
+        limited, scale = _Limited(problem), problem.scale
+        failure = ""
+        try:
+            states = by_cvode(
+                lambda t, y: limited.rate(t, y * scale) / scale,
+                problem.start / scale,
+                time,
+                name,
+                tolerance,
+            )
+        except _TooManyCallsError as error:
+            states, failure = np.full((1, problem.start.size), math.nan), str(error)
+        history = history_of(problem, time[: len(states)], states * scale)
+        if not failure and len(history) < n + 1:
+            failure = f"no step is small enough after {time[len(history) - 1]:.2g} s"
+        return March(history, sample_rate, limited.calls, failure)
+
+    return march
+
+
+HAS_CVODE = importlib.util.find_spec("sksundae") is not None
+"""Whether scikit-sundae is installed: the extra "cvode"."""
+
+
+def by_cvode(
+    rate: Callable[[float, Array], Array], start: Array, time: Array, method: str, tolerance: float
+) -> Array:
+    """States at times [s], as far as CVODE came, of y' = rate(t, y) in variables of the size 1.
+
+    `method`: "Adams" or "BDF".
+    """
+    from sksundae.cvode import CVODE  # imported late: optional
+
+    def fill(t: float, y: Array, rates: Array) -> None:
+        rates[:] = rate(t, y)
+
+    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_CALLS)
+    return np.array(solver.solve(time, start).y)
+
+
+MOST_CALLS = 500_000
+"""Right-hand sides after which a general-purpose method is given up."""
 
 
 class _TooManyCallsError(RuntimeError):
@@ -127,15 +184,15 @@ class _TooManyCallsError(RuntimeError):
 
 
 class _Limited:
-    """A right-hand side that counts, and gives up after `most` calls."""
+    """A right-hand side that counts, and gives up after MOST_CALLS."""
 
-    def __init__(self, problem: MotionProblem, most: int) -> None:
-        self._problem, self._most, self.calls = problem, most, 0
+    def __init__(self, problem: MotionProblem) -> None:
+        self._problem, self.calls = problem, 0
 
     def rate(self, t: float, y: Array) -> Array:
         self.calls += 1
-        if self.calls > self._most:
-            raise _TooManyCallsError(f"more than {self._most:,} right-hand sides")
+        if self.calls > MOST_CALLS:
+            raise _TooManyCallsError(f"more than {thousands(MOST_CALLS)} right-hand sides")
         return self._problem.rate(t, y)
 
 
@@ -162,18 +219,33 @@ METHODS: dict[str, Method] = {
             _runge_kutta(velocities=False),
             "Runge-Kutta of order 4 as the program uses it: in variables that do not jump where "
             "the scene allows them",
+            order=4,
         ),
         Method(
             "RK4 in velocities",
             True,
             _runge_kutta(velocities=True),
             "the same steps with velocities as variables, which jump in rate as a ball touches",
+            order=4,
         ),
         Method("scipy RK45", False, _of_scipy("RK45"), "embedded pair of Dormand and Prince"),
-        Method("scipy DOP853", False, _of_scipy("DOP853"), "Runge-Kutta of order 8"),
+        Method("scipy DOP853", False, _of_scipy("DOP853"), "Runge-Kutta of order 8", slow=True),
         Method("scipy LSODA", False, _of_scipy("LSODA"), "Adams or BDF by stiffness"),
-        Method("scipy Radau", False, _of_scipy("Radau"), "implicit Runge-Kutta of order 5"),
-        Method("scipy BDF", False, _of_scipy("BDF"), "implicit, of variable order"),
+        Method(
+            "scipy Radau", False, _of_scipy("Radau"), "implicit Runge-Kutta of order 5", slow=True
+        ),
+        Method("scipy BDF", False, _of_scipy("BDF"), "implicit, of variable order", slow=True),
+        Method("CVODE Adams", False, _of_cvode("Adams"), "Adams methods of SUNDIALS"),
+        Method("CVODE BDF", False, _of_cvode("BDF"), "backward differences of SUNDIALS"),
     )
 }
 """Ways to march by name."""
+
+
+def usable_methods(*, slow: bool = True) -> tuple[str, ...]:
+    """Names of the methods whose packages are installed; without `slow` only quick ones."""
+    return tuple(
+        name
+        for name, method in METHODS.items()
+        if (slow or not method.slow) and (HAS_CVODE or not name.startswith("CVODE"))
+    )

@@ -9,17 +9,25 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from bearingcore.common import checks
-from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import simulate
-from bearingcore.dynamics.orbit import orbit
+from bearingcore.dynamics.orbit import LOSSES, orbit
 from bearingcore.dynamics.problem import Array, motion_problem
 from bearingcore.experiments.motions import BAND
-from bearingcore.experiments.points import RIGHT, Experiment, Point, failed, least_time
+from bearingcore.experiments.points import (
+    NOT_WATCHED,
+    Experiment,
+    Point,
+    Watch,
+    failed,
+    least_time,
+    measured_in_turn,
+)
 from bearingcore.experiments.references import (
     MotionReference,
     bins_that_count,
@@ -43,8 +51,16 @@ FULL, EXACT, SETTLED = "all five directions", "exact edges", "settled motion"
 SETTLING = 0.25
 """Part of a marched motion that counts as transient where an orbit is compared with it."""
 
-MODELS = ("2 DOF", "3 DOF", "5 DOF", "quasi-static", *(f"{e} edges" for e in EDGES), "transient",
-          "orbit")  # fmt: skip
+_REFERENCES = (0.0, 0.25, 0.5, 0.75)
+"""Parts of the work at which the references begin and end."""
+
+AGAINST = {
+    **dict.fromkeys(("2 DOF", "3 DOF", "5 DOF", "quasi-static"), FULL),
+    **{f"{edge} edges": EXACT for edge in EDGES},
+    **dict.fromkeys(("transient", "orbit"), SETTLED),
+}
+"""Reference of each model."""
+MODELS = tuple(AGAINST)
 
 
 def models_experiment(
@@ -52,8 +68,7 @@ def models_experiment(
     *,
     duration: float = 0.7,
     sample_rate: float = 65536.0,
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Errors of simpler models against their cost, on `scene`.
 
@@ -70,8 +85,8 @@ def models_experiment(
         [s] of motion.
     sample_rate
         [Hz].
-    progress, cancelled
-        see `points`.
+    watch
+        progress, points as they come, and cancelling.
 
     Raises
     ------
@@ -80,26 +95,25 @@ def models_experiment(
     """
     if scene.shaft_speed == 0.0:
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
-    if progress is not None:
-        progress(0.0, "references by two families")
-    runner = _Models(scene, duration, sample_rate)
-    points = [runner.point(model) for model in in_turn(MODELS, str, progress, cancelled, begin=0.3)]
-    return Experiment(
+    runner = _Models(scene, duration, sample_rate, watch)
+    experiment = Experiment(
         "models",
         f"Models of the motion over {duration:g} s, each solved with the program's defaults",
         MODEL_ERRORS,
         "right-hand sides",
         runner.references,
-        tuple(points),
+        (),
         "healthy bearing as a model of a damaged one; models without contact",
-        completed=len(points) == len(MODELS),
     )
+    return measured_in_turn(experiment, MODELS, str, runner.point, watch, begin=_REFERENCES[-1])
 
 
 class _Models:
     """The scene's fuller models by two families, and each model held against one of them."""
 
-    def __init__(self, scene: Scene, duration: float, sample_rate: float) -> None:
+    def __init__(self, scene: Scene, duration: float, sample_rate: float, watch: Watch) -> None:
+        parts = iter(pairwise(_REFERENCES))
+        self._reports = (watch.within(begin, end) for begin, end in parts)
         self.scene, self.duration, self.sample_rate = scene, duration, sample_rate
         self.band = BAND * highest_natural_frequency(scene)
         own = self._reference(scene)
@@ -111,6 +125,8 @@ class _Models:
             self._no_full = str(refused)
         else:
             self._no_full = ""
+        edges_in_use = {f"{defect.edge} edges" for defect in scene.defects}
+        self._in_use = {f"{len(scene.active_dofs)} DOF", "transient", *edges_in_use}
         exact = scene.defects and all(d.edge == "exact" for d in scene.defects)
         edges = own if exact else self._reference(_edged(scene, "exact"))
         self._by_name = {FULL: full, EXACT: edges, SETTLED: own}
@@ -120,23 +136,29 @@ class _Models:
             self.references[FULL] = replace(self.references[FULL], note=note)
 
     def _reference(self, scene: Scene) -> MotionReference:
-        return motion_reference(motion_problem(scene), self.duration, self.sample_rate, self.band)
+        problem = motion_problem(scene)
+        report = next(self._reports)
+        return motion_reference(problem, self.duration, self.sample_rate, self.band, report)
 
     def point(self, model: str) -> Point:
         """One model, or why it cannot be computed."""
+        point = self._point(model)
+        return replace(point, against=AGAINST[model], in_use=model in self._in_use)
+
+    def _point(self, model: str) -> Point:
         try:
             if model.endswith("DOF"):
                 dofs = DOF_NAMES[: int(model[0])]
-                return self._marched(model, _with(self.scene, dofs), FULL)
+                return self._marched(model, _with(self.scene, dofs))
             if model.endswith("edges"):
-                return self._marched(model, _edged(self.scene, model.split()[0]), EXACT)
+                return self._marched(model, _edged(self.scene, model.split()[0]))
             if model == "quasi-static":
                 return self._quasi_static()
             return self._transient() if model == "transient" else self._orbit()
         except ValueError as refused:
             return failed(model, "", math.nan, str(refused))
 
-    def _marched(self, model: str, scene: Scene, against: str) -> Point:
+    def _marched(self, model: str, scene: Scene) -> Point:
         motion, seconds, runs = least_time(
             lambda: simulate(scene, self.duration, self.sample_rate).outer_acceleration
         )
@@ -144,10 +166,10 @@ class _Models:
         words = f"{found.step_rate:.0f} steps/s"
         if not found.completed:
             return failed(model, words, found.step_rate, found.reason, seconds)
-        errors = self._errors(against, motion[:, :2], found.inner_displacement[:, :2])
+        errors = self._errors(AGAINST[model], motion[:, :2], found.inner_displacement[:, :2])
         return Point(
             model, words, found.step_rate, errors, seconds, runs, found.right_hand_side_calls,
-            RIGHT, against, {"step_rate": found.step_rate},
+            settings={"step_rate": found.step_rate},
         )  # fmt: skip
 
     def _errors(self, against: str, acceleration: Array, inner: Array) -> dict[str, float]:
@@ -176,7 +198,7 @@ class _Models:
         errors = self._errors(FULL, np.zeros_like(inner), inner)
         return Point(
             "quasi-static", f"{n} cage angles", float(n), errors, seconds, runs,
-            int(state.evaluations.sum()), RIGHT, FULL,
+            int(state.evaluations.sum()),
         )  # fmt: skip
 
     def _settled(self) -> tuple[int, Array]:
@@ -204,7 +226,7 @@ class _Models:
         }
         return Point(
             "transient", f"{found.step_rate:.0f} steps/s", found.step_rate, errors, seconds, runs,
-            found.right_hand_side_calls, RIGHT, SETTLED, {"step_rate": found.step_rate},
+            found.right_hand_side_calls, settings={"step_rate": found.step_rate},
         )  # fmt: skip
 
     def _orbit(self) -> Point:
@@ -213,7 +235,7 @@ class _Models:
         found, seconds, runs = least_time(lambda: orbit(self.scene))
         words = f"{found.ball_passes} ball pass" + ("es" if found.ball_passes != 1 else "")
         if not found.stable:
-            why = found.status + (f" through {found.through}" if found.through else "")
+            why = found.status + (f": {LOSSES[found.through]}" if found.through else "")
             return failed("orbit", words, math.nan, why, seconds, found.right_hand_side_calls)
         frequency, density = spectrum(truth, self.sample_rate)
         mine = found.spectrum(self.sample_rate).density[:, :2]
@@ -223,7 +245,7 @@ class _Models:
         errors = {"spectrum": float(decibel.max()), "level": abs(level)}
         return Point(
             "orbit", words, float(found.ball_passes), errors, seconds, runs,
-            found.right_hand_side_calls, RIGHT, SETTLED,
+            found.right_hand_side_calls,
         )  # fmt: skip
 
 

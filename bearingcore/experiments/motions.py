@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -9,12 +10,19 @@ import numpy as np
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
-from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate, hermite_weights
 from bearingcore.dynamics.problem import motion_problem
-from bearingcore.experiments.integrators import METHODS, Method
-from bearingcore.experiments.points import Experiment, Point, failed, least_time
+from bearingcore.experiments.integrators import HAS_CVODE, METHODS, Method, usable_methods
+from bearingcore.experiments.points import (
+    NOT_WATCHED,
+    Experiment,
+    Point,
+    Watch,
+    failed,
+    least_time,
+    measured_in_turn,
+)
 from bearingcore.experiments.references import MOTION_ERRORS, MotionReference, motion_reference
 from bearingcore.scene.scene import Scene
 
@@ -22,12 +30,17 @@ BAND = 1.25
 """Spectra count up to this times the highest natural frequency."""
 
 TOLERANCES = {
-    "scipy RK45": (1e-3, 1e-6, 1e-9),
-    "scipy DOP853": (1e-3, 1e-6, 1e-9),
-    "scipy LSODA": (1e-3, 1e-6, 1e-9),
+    "scipy RK45": (1e-2, 1e-4, 1e-6, 1e-9),
+    "scipy DOP853": (1e-2, 1e-4, 1e-6, 1e-9, 1e-11),
+    "scipy LSODA": (1e-2, 1e-4, 1e-6, 1e-9, 1e-11),
     "scipy Radau": (1e-3, 1e-6),
     "scipy BDF": (1e-3, 1e-6),
+    "CVODE Adams": (1e-2, 1e-4, 1e-6, 1e-9, 1e-11),
+    "CVODE BDF": (1e-3, 1e-6, 1e-9),
 }
+
+SHARE_OF_REFERENCE = 0.3
+"""Part of the work that the reference usually is."""
 
 LEFT_OUT = (
     "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods "
@@ -43,8 +56,10 @@ def settings_of(method: Method, step_rate: float) -> tuple[float, ...]:
     return TOLERANCES[method.name]
 
 
-def measured(method: Method, setting: float, reference: MotionReference) -> Point:
-    """One method at one setting against a reference."""
+def measured(
+    method: Method, setting: float, reference: MotionReference, usual: float = math.nan
+) -> Point:
+    """One method at one setting against a reference; `usual`: the program's own steps [Hz]."""
     problem, duration, rate = reference.problem, reference.duration, reference.sample_rate
     march, seconds, runs = least_time(lambda: method.march(problem, setting, duration, rate))
     words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
@@ -53,7 +68,10 @@ def measured(method: Method, setting: float, reference: MotionReference) -> Poin
     history = at_rate(march.history, march.step_rate, rate, len(reference.history))
     errors = reference.errors(history)
     settings = {"step_rate": setting} if method.name == "RK4" else {}
-    return Point(method.name, words, setting, errors, seconds, runs, march.calls, settings=settings)
+    return Point(
+        method.name, words, setting, errors, seconds, runs, march.calls, settings=settings,
+        in_use=method.name == "RK4" and setting == usual,
+    )  # fmt: skip
 
 
 def at_rate(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -> np.ndarray:
@@ -78,8 +96,7 @@ def motion_experiment(
     duration: float = 0.35,
     sample_rate: float = 65536.0,
     methods: Sequence[str] | None = None,
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Error against cost of ways to march the motion of `scene` from rest.
 
@@ -92,9 +109,9 @@ def motion_experiment(
     sample_rate
         [Hz] of the instants at which motions are compared.
     methods
-        names out of `integrators.METHODS`; None takes all.
-    progress, cancelled
-        see `points`.
+        names out of `integrators.METHODS`; None takes all that are installed.
+    watch
+        progress, points as they come, and cancelling.
 
     Raises
     ------
@@ -105,38 +122,35 @@ def motion_experiment(
     sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     if scene.shaft_speed == 0.0:
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
-    names = tuple(METHODS) if methods is None else tuple(methods)
+    names = usable_methods() if methods is None else tuple(methods)
     for name in names:
         checks.choice("method", name, tuple(METHODS))
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
-    if progress is not None:
-        progress(0.0, "reference by two families")
+    report = watch.within(0.0, SHARE_OF_REFERENCE)
+    report(0.0)
     for name in names:
-        if not name.startswith("scipy"):  # so that nothing is compiled while time is taken
+        if METHODS[name].fixed_step:  # so that nothing is compiled while time is taken
             METHODS[name].march(
                 problem, settings_of(METHODS[name], sample_rate)[0], 1e-3, sample_rate
             )
-    reference = motion_reference(problem, duration, sample_rate, BAND * highest)
+    reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
     usual = default_step_rate(scene, sample_rate, highest)
     tasks = [(METHODS[name], s) for name in names for s in settings_of(METHODS[name], usual)]
-    points = [
-        measured(method, setting, reference)
-        for method, setting in in_turn(
-            tasks,
-            lambda task: f"{task[0].name}, {scientific(task[1])}",
-            progress,
-            cancelled,
-            begin=0.1,
-        )
-    ]
-    return Experiment(
+    experiment = Experiment(
         "motion",
         f"Motion over {duration:g} s in {', '.join(problem.dofs)} at {sample_rate:.0f} samples/s",
         MOTION_ERRORS,
         "right-hand sides",
         {"": reference.reference},
-        tuple(points),
-        LEFT_OUT,
-        completed=len(points) == len(tasks),
+        (),
+        LEFT_OUT if HAS_CVODE else f"{LEFT_OUT}; CVODE, as scikit-sundae is not installed",
+    )
+    return measured_in_turn(
+        experiment,
+        tasks,
+        lambda task: f"{task[0].name}, {scientific(task[1])}",
+        lambda task: measured(*task, reference, usual),
+        watch,
+        begin=SHARE_OF_REFERENCE,
     )

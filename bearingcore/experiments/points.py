@@ -5,14 +5,20 @@ from __future__ import annotations
 import math
 import re
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
+import numpy as np
+
 from bearingcore.common.numbers import scientific
+from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
 
 T = TypeVar("T")
+
+Shown = Callable[["Experiment"], object]
+"""Called with what there is of an experiment, after each point."""
 
 RIGHT = "right"
 
@@ -30,18 +36,20 @@ class Point:
     errors
         against the reference, by the names in `Experiment.errors`; NaN where there is none.
     seconds
-        [s] the least of `runs` runs, after one that is not counted.
+        [s] the least of `runs` runs, after one that is not counted; of statics for one equilibrium.
     runs
         how often it was timed.
     evaluations
         right-hand sides, or evaluations of all contacts at one displacement: the cost that does
-        not depend on the machine.
+        not depend on the machine. A mean where the time is one.
     status
         "right", or "failed: " and why.
     against
         which reference the errors are taken from, where an experiment has several.
     settings
         arguments that make `simulate` or `equilibrium` do the same, where they can.
+    in_use
+        True for what the program does with the scene unless it is set otherwise.
     """
 
     method: str
@@ -50,15 +58,23 @@ class Point:
     errors: Mapping[str, float]
     seconds: float
     runs: int
-    evaluations: int
+    evaluations: float
     status: str = RIGHT
     against: str = ""
     settings: Mapping[str, float] = field(default_factory=dict)
+    in_use: bool = False
 
     @property
     def failed(self) -> bool:
         """True where the method gave no answer."""
         return self.status != RIGHT
+
+    @property
+    def label(self) -> str:
+        """The setting in a few letters: "10⁻⁶" for a tolerance, "65.5k" for 65,536 steps."""
+        if self.value < 1.0:
+            return scientific(self.value).removeprefix("1·")
+        return f"{self.value:.0f}" if self.value < 1e4 else f"{self.value / 1e3:.3g}k"
 
 
 @dataclass(frozen=True)
@@ -68,9 +84,9 @@ class Reference:
     Attributes
     ----------
     families
-        the two different families of methods that computed it.
+        the different families of methods that computed it.
     agreement
-        how far they are apart, by the names in `Experiment.errors`.
+        how far the first two are apart, by the names in `Experiment.errors`.
     trusted
         True where they agree well enough to judge the points. Errors below the agreement say
         nothing.
@@ -80,7 +96,7 @@ class Reference:
         what else is to be known.
     """
 
-    families: tuple[str, str]
+    families: tuple[str, ...]
     agreement: Mapping[str, float]
     trusted: bool
     seconds: float
@@ -93,7 +109,7 @@ class Reference:
             f"{name} {scientific(value, 2)}" for name, value in self.agreement.items()
         )
         verdict = "agree" if self.trusted else "DO NOT AGREE, so errors below mean little"
-        text = f"{self.families[0]} and {self.families[1]} {verdict}: apart by {apart}"
+        text = f"{' and '.join(self.families)} {verdict}: apart by {apart}"
         return f"{text}. {self.note}" if self.note else text
 
 
@@ -137,6 +153,36 @@ class Experiment:
         """The points of one method."""
         return tuple(point for point in self.points if point.method == method)
 
+    def per_reference(self) -> dict[str, Experiment]:
+        """An experiment for each reference, with the points that are compared with it."""
+        return {
+            name: replace(
+                self,
+                references={name: reference},
+                points=tuple(point for point in self.points if point.against == name),
+            )
+            for name, reference in self.references.items()
+        }
+
+    def order(self, method: str, error: str) -> float:
+        """Order of convergence: slope of an error over the evaluations, both logarithmic.
+
+        Points that failed, and errors within five times the agreement of the references, say
+        nothing of it. NaN with fewer than three others.
+        """
+        known = [
+            (point.evaluations, point.errors[error])
+            for point in self.of(method)
+            if not point.failed
+            and 5.0 * self.references[point.against].agreement.get(error, 0.0)
+            < point.errors.get(error, nan)
+            < math.inf
+        ]
+        if len(known) < 3:
+            return nan
+        evaluations, errors = np.log(np.array(known)).T
+        return -float(np.polyfit(evaluations, errors, 1)[0])
+
     def frontier(self, error: str | None = None, cost: str = "seconds") -> tuple[Point, ...]:
         """The points that no other point beats in both error and cost, from cheap to exact."""
         name = error or next(iter(self.errors))
@@ -176,11 +222,69 @@ class Experiment:
 nan = math.nan
 
 
+@dataclass(frozen=True)
+class Watch:
+    """Callables by which an experiment reports, and by which it can be ended.
+
+    Attributes
+    ----------
+    progress
+        called with the part done, 0 to 1, and what is being done.
+    cancelled
+        called before each point; True ends with the points that are there.
+    shown
+        called with the experiment as far as it is, after each point.
+    """
+
+    progress: Progress | None = None
+    cancelled: Cancelled | None = None
+    shown: Shown | None = None
+
+    def show(self, experiment: Experiment) -> None:
+        """Show what there is."""
+        if self.shown is not None:
+            self.shown(experiment)
+
+    def within(self, begin: float, end: float) -> Callable[[float], object]:
+        """Progress of references, which are the part from `begin` to `end` of the work."""
+
+        def report(part: float) -> None:
+            if self.progress is not None:
+                self.progress(begin + (end - begin) * part, "references")
+
+        return report
+
+
+NOT_WATCHED = Watch()
+"""Neither reports nor ends early."""
+
+
 def failed(
     method: str, setting: str, value: float, why: str, seconds: float = nan, evaluations: int = 0
 ) -> Point:
     """A point that says that a method did not get there."""
     return Point(method, setting, value, {}, seconds, 1, evaluations, f"failed: {why}")
+
+
+def measured_in_turn(
+    experiment: Experiment,
+    tasks: Sequence[T],
+    name: Callable[[T], str],
+    measure: Callable[[T], Point],
+    watch: Watch,
+    *,
+    begin: float,
+) -> Experiment:
+    """The experiment with a point for each task, shown after each; ends early when cancelled.
+
+    `begin` is the part of the work that its references were.
+    """
+    for task in in_turn(tasks, name, watch.progress, watch.cancelled, begin=begin):
+        experiment = replace(
+            experiment, points=(*experiment.points, measure(task)), completed=False
+        )
+        watch.show(experiment)
+    return replace(experiment, completed=len(experiment.points) == len(tasks))
 
 
 def least_time(

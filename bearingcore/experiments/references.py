@@ -3,7 +3,8 @@
 No method is its own reference. Motions are integrated by a multistep method of variable order
 (LSODA) and by a one-step embedded pair (Dormand and Prince's of order 8, started anew wherever a
 ball meets an edge or floor); static states are found as roots of the forces in double precision
-(MINPACK) and as minima of the energy in extended precision.
+(MINPACK) and as minima of the energy in extended precision. Where scikit-sundae is installed, a
+third code (CVODE, Adams) integrates motions too.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.numbers import scientific
 from bearingcore.dynamics.problem import Array, MotionProblem
-from bearingcore.experiments.integrators import history_of, intervals
+from bearingcore.experiments.integrators import HAS_CVODE, by_cvode, history_of, intervals
 from bearingcore.experiments.points import Reference
 from bearingcore.signals.spectrum import spectrum
 
@@ -29,14 +31,17 @@ KINK_SLIVER = 1e-13
 MOTION_ERRORS = {
     "spectrum": "greatest error of the housing's spectrum [dB], up to 1.25 times the highest "
     "natural frequency, where a direction is within 40 dB of its greatest level",
+    "spectrum, lower half": "the same in the lower half of the frequencies [dB]",
+    "spectrum, upper half": "the same in the upper half of the frequencies [dB]",
     "acceleration": "root mean square error of the housing's acceleration over its root mean "
     "square",
     "displacement": "greatest error of a displacement over the greatest swing about the mean",
+    "final state": "greatest error of a displacement at the end, over the same swing",
 }
 """Errors of motions by name."""
 
 TRUSTED = {"spectrum": 1e-2, "acceleration": 1e-3, "displacement": 1e-4}
-"""Greatest difference of the two families [as MOTION_ERRORS]."""
+"""Greatest difference of the families [as MOTION_ERRORS]."""
 
 LEAST_RTOL = 2.3e-14
 """Relative tolerance, the least that SciPy takes."""
@@ -46,7 +51,7 @@ RESOLUTION = 32.0
 
 @dataclass(frozen=True)
 class MotionReference:
-    """A motion that two families agree on, or not: `reference` says so.
+    """A motion that the families agree on, or not: `reference` says so.
 
     `history` (n, 6, directions) at `sample_rate` [Hz], that of LSODA.
     """
@@ -79,24 +84,32 @@ def motion_errors(
     signal, mine = expected[:, 5], found[:, 5]
     size = math.sqrt(float(np.mean(signal**2)))
     with np.errstate(over="ignore"):
-        displacement = float(np.abs(found[:, (0, 3)] - places).max() / swing)
+        off = np.abs(found[:, (0, 3)] - places) / swing
         acceleration = math.sqrt(float(np.mean((mine - signal) ** 2))) / size
     return {
         "spectrum": spectrum_error(mine, signal, sample_rate, band),
+        "spectrum, lower half": spectrum_error(mine, signal, sample_rate, 0.5 * band),
+        "spectrum, upper half": spectrum_error(mine, signal, sample_rate, band, 0.5 * band),
         "acceleration": acceleration,
-        "displacement": displacement,
+        "displacement": float(off.max()),
+        "final state": float(off[-1].max()),
     }
 
 
-def spectrum_error(found: Array, expected: Array, sample_rate: float, band: float) -> float:
-    """Greatest difference of two signals' spectra [dB], below `band` [Hz] and where it counts."""
+def spectrum_error(
+    found: Array, expected: Array, sample_rate: float, band: float, lowest: float = 0.0
+) -> float:
+    """Greatest difference of two signals' spectra [dB] from `lowest` to `band` [Hz].
+
+    Only where it counts; NaN where nothing does.
+    """
     segment = round(sample_rate / RESOLUTION)
     resolution = RESOLUTION if len(expected) >= segment else sample_rate / len(expected) * 1.001
     if float(np.abs(found).max()) > 1e100:
         return math.inf
     frequency, density = spectrum(expected, sample_rate, resolution)
     other = spectrum(found, sample_rate, resolution).density
-    counts = bins_that_count(frequency, density, band)
+    counts = bins_that_count(frequency, density, band) & (frequency >= lowest)[:, None]
     if not counts.any():
         return math.nan
     with np.errstate(divide="ignore"):
@@ -118,27 +131,41 @@ def bins_that_count(frequency: Array, density: Array, band: float) -> NDArray[np
 
 
 def motion_reference(
-    problem: MotionProblem, duration: float, sample_rate: float, band: float
+    problem: MotionProblem,
+    duration: float,
+    sample_rate: float,
+    band: float,
+    report: Callable[[float], object] = lambda part: None,
 ) -> MotionReference:
-    """The motion by both families at a tolerance of 1e-13, and how far they are apart."""
+    """The motion by all families at a tolerance of 1e-13, and how far they are apart.
+
+    `report` is called with the part done, 0 to 1.
+    """
     began = time.perf_counter()
     time_ = np.arange(intervals(sample_rate, duration) + 1) / sample_rate
-    first = _multistep(problem, time_)
-    second = _embedded_pair(problem, time_)
-    agreement = motion_errors(second, first, sample_rate, band)
+    families = FAMILIES if HAS_CVODE else FAMILIES[:2]
+    histories = [
+        march(_Clocked(problem, report, k / len(families), duration * len(families)), time_)
+        for k, (_, march) in enumerate(families)
+    ]
+    first = histories[0]
+    apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
+    agreement = apart[0]
     unfinished = [
-        name
-        for name, history in (("LSODA", first), ("DOP853", second))
+        name.partition(" ")[0]
+        for (name, _), history in zip(families, histories, strict=True)
         if not np.all(np.isfinite(history))
     ]
-    trusted = not unfinished and all(agreement[name] <= TRUSTED[name] for name in TRUSTED)
-    note = ""
+    trusted = not unfinished and all(
+        one[name] <= TRUSTED[name] for one in apart for name in TRUSTED
+    )
+    note = f"CVODE is apart by {scientific(apart[1]['spectrum'], 2)} dB" if apart[1:] else ""
     if unfinished:
         note = f"{' and '.join(unfinished)} did not finish"
     elif not trusted:
         note = "The motion may be sensitive to its start: errors grow whatever the method"
     reference = Reference(
-        ("LSODA (multistep)", "DOP853 (embedded pair)"),
+        tuple(name for name, _ in families),
         agreement,
         trusted,
         time.perf_counter() - began,
@@ -147,24 +174,47 @@ def motion_reference(
     return MotionReference(problem, duration, sample_rate, band, first, reference)
 
 
-def _scaled_rate(problem: MotionProblem) -> Callable[[float, Array], Array]:
-    """Right-hand side in variables scaled to 1."""
-    scale = problem.scale
-    return lambda t, y: problem.rate(t, y * scale) / scale
+@dataclass
+class _Clocked:
+    """A problem whose right-hand side, in variables scaled to 1, reports how far it is.
+
+    That is `begin` and the time [s] of the motion over `whole`.
+    """
+
+    problem: MotionProblem
+    report: Callable[[float], object]
+    begin: float
+    whole: float
+
+    def rate(self, t: float, y: Array) -> Array:
+        """Scaled rates at time t [s]."""
+        self.report(self.begin + t / self.whole)
+        scale = self.problem.scale
+        return self.problem.rate(t, y * scale) / scale
 
 
-def _multistep(problem: MotionProblem, time_: Array) -> Array:
+def _multistep(clocked: _Clocked, time_: Array) -> Array:
     """History by LSODA at times [s]. It finds jumps by itself: its order falls."""
     from scipy.integrate import odeint  # imported late: slow to import
 
+    problem = clocked.problem
     states = odeint(
-        _scaled_rate(problem), problem.start / problem.scale, time_, tfirst=True, rtol=TOLERANCE,
+        clocked.rate, problem.start / problem.scale, time_, tfirst=True, rtol=TOLERANCE,
         atol=TOLERANCE, mxstep=1_000_000,
     )  # fmt: skip
     return history_of(problem, time_, states * problem.scale)
 
 
-def _embedded_pair(problem: MotionProblem, time_: Array) -> Array:
+def _adams(clocked: _Clocked, time_: Array) -> Array:
+    """History by CVODE's Adams methods at times [s], NaN from where it fails."""
+    problem = clocked.problem
+    states = np.full((len(time_), problem.start.size), math.nan)
+    found = by_cvode(clocked.rate, problem.start / problem.scale, time_, "Adams", TOLERANCE)
+    states[: len(found)] = found
+    return history_of(problem, time_, states * problem.scale)
+
+
+def _embedded_pair(clocked: _Clocked, time_: Array) -> Array:
     """History by DOP853 at times [s], NaN from where it fails; each step is smooth.
 
     A sliver of a step leads across each kink, so that those before and after it end and begin on
@@ -172,13 +222,14 @@ def _embedded_pair(problem: MotionProblem, time_: Array) -> Array:
     """
     from scipy.integrate import DOP853  # imported late: slow to import
 
+    problem = clocked.problem
     kinks = problem.kinks(float(time_[-1]))
     ends = np.append(kinks[:, None] + np.array([-KINK_SLIVER, KINK_SLIVER]), time_[-1])
-    rate, y, now, filled = _scaled_rate(problem), problem.start / problem.scale, 0.0, 1
+    y, now, filled = problem.start / problem.scale, 0.0, 1
     states = np.full((len(time_), y.size), math.nan)
     states[0] = y
     for end in ends[ends > 0.0]:
-        solver = DOP853(rate, now, y, end, rtol=LEAST_RTOL, atol=TOLERANCE)
+        solver = DOP853(clocked.rate, now, y, end, rtol=LEAST_RTOL, atol=TOLERANCE)
         while solver.status == "running":
             solver.step()
             last = int(np.searchsorted(time_, solver.t, side="right"))
@@ -189,3 +240,11 @@ def _embedded_pair(problem: MotionProblem, time_: Array) -> Array:
             break
         y, now = solver.y, end
     return history_of(problem, time_, states * problem.scale)
+
+
+FAMILIES = (
+    ("LSODA (multistep)", _multistep),
+    ("DOP853 (embedded pair)", _embedded_pair),
+    ("CVODE (Adams)", _adams),
+)
+"""Integrators of the references; the last one only where it is installed."""

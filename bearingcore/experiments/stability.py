@@ -1,4 +1,4 @@
-"""Steps that are too long for Runge-Kutta: where linear theory and the motion itself say so.
+"""Where steps are too long for Runge-Kutta, and where the periodic motion itself is unstable.
 
 The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
 static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.common.progress import in_turn
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import (
     contact_damping,
@@ -23,12 +23,13 @@ from bearingcore.dynamics.modes import (
     two_body_matrix,
 )
 from bearingcore.dynamics.motion import default_step_rate
+from bearingcore.dynamics.orbit import LOSSES, orbit
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import BAND, at_rate
-from bearingcore.experiments.points import Reference
+from bearingcore.experiments.points import NOT_WATCHED, Reference, Watch
 from bearingcore.experiments.references import MotionReference, motion_reference
-from bearingcore.scene.scene import DOF_NAMES, Scene
+from bearingcore.scene.scene import DOF_NAMES, MASSLESS, Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 
 Array = NDArray[np.float64]
@@ -38,6 +39,8 @@ VERDICTS = (RIGHT, LOST, WRONG, DIVERGED)
 """`right`: the spectrum is within RIGHT_DB. `amplitude lost`: the motion is smaller than it should
 be by more than a tenth. `wrong`: neither, out of tune or too large. `diverged`: it has grown beyond
 any bound."""
+
+_SHARE_OF_REFERENCE = 0.7
 
 RIGHT_DB, LOST_PART, GROWN = 1.0, 0.9, 100.0
 
@@ -85,7 +88,6 @@ class StabilityChart:
         False where it was cancelled.
     """
 
-    scene: Scene
     linear_limit: dict[str, float]
     highest_frequency: float
     trials: tuple[Trial, ...]
@@ -184,8 +186,7 @@ def stability_chart(
     scene: Scene,
     *,
     duration: float = 0.25,
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> StabilityChart:
     """March `scene` by every fixed-step method at steps from far too long to good.
 
@@ -195,8 +196,8 @@ def stability_chart(
         what moves.
     duration
         [s] of motion.
-    progress, cancelled
-        see `points`.
+    watch
+        progress and cancelling.
 
     Raises
     ------
@@ -207,11 +208,10 @@ def stability_chart(
         raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
-    if progress is not None:
-        progress(0.0, "reference by two families")
     usual = default_step_rate(scene, 65536.0, highest)
     sample_rate = max(65536.0, usual)
-    reference = motion_reference(problem, duration, sample_rate, BAND * highest)
+    report = watch.within(0.0, _SHARE_OF_REFERENCE)
+    reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
     limits = linear_limits(scene)
     # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π
     rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
@@ -220,11 +220,15 @@ def stability_chart(
     trials = [
         _trial(reference, name, rate)
         for name, rate in in_turn(
-            tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s", progress, cancelled, begin=0.2
+            tasks,
+            lambda task: f"{task[0]}, {task[1]:.0f} steps/s",
+            watch.progress,
+            watch.cancelled,
+            begin=_SHARE_OF_REFERENCE,
         )
     ]
     return StabilityChart(
-        scene, limits, highest, tuple(trials), reference.reference, len(trials) == len(tasks)
+        limits, highest, tuple(trials), reference.reference, len(trials) == len(tasks)
     )
 
 
@@ -251,3 +255,56 @@ def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
     if decibel <= RIGHT_DB:
         verdict = RIGHT
     return Trial(name, step_rate, verdict, decibel, amplitude)
+
+
+@dataclass(frozen=True)
+class OrbitAtSpeed:
+    """The periodic motion at one shaft speed.
+
+    Attributes
+    ----------
+    shaft_speed
+        [rad/s]
+    status
+        outcome of the search, as `dynamics.orbit` has it; "refused: " and why where it is none.
+    loss
+        name of its loss of stability, one of LOSSES; empty for a stable orbit or none.
+    multipliers
+        Floquet multipliers (real, imaginary), the largest first.
+    """
+
+    shaft_speed: float
+    status: str
+    loss: str = ""
+    multipliers: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def size(self) -> float:
+        """|μ| of the largest multiplier; NaN without an orbit."""
+        return math.hypot(*self.multipliers[0]) if self.multipliers else math.nan
+
+
+SPEEDS = tuple(2.0 ** (k / 8.0) for k in range(-8, 25))
+"""Shaft speeds over that of the scene at which orbits are looked for."""
+
+MOST_ORBIT_STEPS = 200_000
+
+
+def orbits_over_speed(scene: Scene, watch: Watch = NOT_WATCHED) -> tuple[OrbitAtSpeed, ...]:
+    """Stability of the periodic motion over the shaft speed, from half to eight times the scene's.
+
+    Balls are taken without mass. Ends early when cancelled.
+    """
+    scene = scene.replace(balls=MASSLESS)
+    found = []
+    for factor in in_turn(SPEEDS, str, watch.progress, watch.cancelled):
+        speed = factor * scene.shaft_speed
+        try:
+            one = orbit(scene.replace(shaft_speed=speed), most_steps=MOST_ORBIT_STEPS)
+        except ValueError as refused:
+            found.append(OrbitAtSpeed(speed, f"refused: {refused}"))
+            continue
+        pairs = tuple((float(mu.real), float(mu.imag)) for mu in one.multipliers)
+        loss = LOSSES[one.through] if one.through else ""
+        found.append(OrbitAtSpeed(speed, str(one.status), loss, pairs))
+    return tuple(found)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -19,9 +19,17 @@ from scipy.integrate import trapezoid
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
-from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.dynamics.curves import CURVES, curve_errors, curves_of, swings
-from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
+from bearingcore.experiments.points import (
+    NOT_WATCHED,
+    RIGHT,
+    Experiment,
+    Point,
+    Reference,
+    Watch,
+    least_time,
+    measured_in_turn,
+)
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
@@ -44,7 +52,7 @@ ANGLE_ERRORS = {
 """Errors of a choice of cage angles by name."""
 
 LEFT_OUT = (
-    "gradient descent and BFGS on the energy, which take hundreds of evaluations an angle; plain "
+    "gradient descent on the energy, which takes hundreds of evaluations an angle; plain "
     "Newton steps, which find no way where no ball is touched; the compiled Newton at looser "
     "tolerances, as its last step squares the error and nothing is saved"
 )
@@ -163,8 +171,17 @@ def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
     return Found(precise, np.isfinite(q).all(axis=1) & (residual <= 1e-15), steps * len(q))
 
 
-def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool) -> Found:
-    """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy."""
+def _by_scipy(
+    problem: StaticProblem,
+    tolerance: float,
+    method: str,
+    warm: bool,
+    starts: Array | None = None,
+) -> Found:
+    """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy.
+
+    They start from the guess, `warm` from the angle before, or from `starts` (m, 5) [m].
+    """
     from scipy.optimize import least_squares, root  # imported late: slow to import
 
     active, load = problem.active, problem.load or 1.0
@@ -191,6 +208,7 @@ def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool)
     guess = problem.guess[active] / length
     for k in range(len(q)):
         start = q[k - 1, active] / length if warm and k > 0 and solved[k - 1] else guess
+        start = start if starts is None else starts[k, active] / length
         if method == "least_squares":
             tight = max(tolerance, 2.3e-16)
             fit = least_squares(
@@ -206,24 +224,67 @@ def _by_scipy(problem: StaticProblem, tolerance: float, method: str, warm: bool)
     return Found(q, solved, evaluations)
 
 
-def _compiled(problem: StaticProblem, tolerance: float) -> Found:
-    """The program's own, whose tolerance is fixed: each angle starts from the one before."""
+def _by_minimize(problem: StaticProblem, tolerance: float) -> Found:
+    """`scipy.optimize.minimize` (trust-exact) on the energy, angle by angle, from the guess."""
+    from scipy.optimize import minimize  # imported late: slow to import
+
+    active, load = problem.active, problem.load or 1.0
+    length = float(np.linalg.norm(problem.guess)) or 1e-6
+    q = np.zeros((len(problem.angles), 5))
+    solved = np.zeros(len(q), dtype=bool)
+    evaluations = 0
+
+    def at(u: Array, k: int) -> Contacts:
+        nonlocal evaluations
+        evaluations += 1
+        full = np.zeros((1, 5))
+        full[0, active] = u * length
+        return contacts(problem, full, slice(k, k + 1))
+
+    def energy(u: Array, k: int) -> tuple[float, Array]:
+        found = at(u, k)
+        work = float(u @ problem.force[active]) * length
+        unbalanced: Array = (found.force[0] - problem.force)[active] / load
+        return (float(found.energy[0]) - work) / (load * length), unbalanced
+
+    def curvature(u: Array, k: int) -> Array:
+        slopes: Array = at(u, k).stiffness[0][np.ix_(active, active)] * (length / load)
+        return slopes
+
+    for k in range(len(q)):
+        answer = minimize(
+            energy, problem.guess[active] / length, args=(k,), jac=True, hess=curvature,
+            method="trust-exact", options={"gtol": tolerance},
+        )  # fmt: skip
+        q[k, active], solved[k] = answer.x * length, answer.success
+    return Found(q, solved, evaluations)
+
+
+def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Found:
+    """The program's own, whose tolerance is fixed: each angle starts from the one before.
+
+    Without `warm` from the guess; that takes a call an angle, whose cost is in the time.
+    """
     load = kernels.StaticLoad(problem.force, problem.active)
-    q, _, _, _, status, _, _, evaluations = kernels.static_states(
-        problem.angles, problem.packed, packing.path(problem.scene), load
-    )
+    path = packing.path(problem.scene)
+    parts = [problem.angles] if warm else np.split(problem.angles, len(problem.angles))
+    states = [kernels.static_states(part, problem.packed, path, load) for part in parts]
+    q, status, evaluations = (np.concatenate([one[i] for one in states]) for i in (0, 4, 7))
     return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 
 Solver = Callable[[StaticProblem, float], Found]
 
 _TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-12)
+OWN = "compiled energy Newton"
 
 SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
-    "compiled energy Newton": (_compiled, (kernels.RESIDUAL_AIM,)),
+    OWN: (_compiled, (kernels.RESIDUAL_AIM,)),
+    f"{OWN}, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
     "scipy hybr": (partial(_by_scipy, method="hybr", warm=False), _TOLERANCES),
     "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _TOLERANCES),
     "scipy lm": (partial(_by_scipy, method="lm", warm=False), _TOLERANCES),
+    "scipy trust-exact on the energy": (_by_minimize, _TOLERANCES),
     "scipy least squares": (partial(_by_scipy, method="least_squares", warm=False), _TOLERANCES),
 }
 """Ways to solve, by name, with the tolerances at which each is measured."""
@@ -242,6 +303,9 @@ class StaticReference:
     reference: Reference
 
 
+NEARBY = 1.01
+
+
 def static_reference(problem: StaticProblem) -> StaticReference:
     """Minima of the energy, refined in extended precision, and roots of the forces in double.
 
@@ -251,6 +315,11 @@ def static_reference(problem: StaticProblem) -> StaticReference:
         lambda: refined(problem, _compiled(problem, 0.0).q), runs=1, budget=0.0
     )
     other = _by_scipy(problem, 1e-12, "hybr", warm=False)
+    alone = int((exact.solved & ~other.solved).sum())
+    if alone:
+        near = _by_scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
+        q = np.where(other.solved[:, None], other.q, near.q)
+        other = Found(q, other.solved | near.solved, 0)
     at = contacts(problem, exact.q)
     active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
     least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
@@ -263,10 +332,9 @@ def static_reference(problem: StaticProblem) -> StaticReference:
         if both.any()
         else dict.fromkeys(STATIC_ERRORS, math.nan)
     )
-    alone = int((known & ~other.solved).sum())
     note = f"{int(known.sum())} of {len(known)} cage angles have one equilibrium"
     if alone:
-        note += f"; at {alone} of them MINPACK found none, and the proof is the residual alone"
+        note += f"; at {alone} MINPACK finds one only if it starts within 1 % of it"
     reference = Reference(
         ("energy Newton, refined in 80-bit numbers", "MINPACK hybr on the forces"),
         agreement,
@@ -297,8 +365,7 @@ def statics_experiment(
     *,
     n_angles: int = 121,
     solvers: Sequence[str] | None = None,
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Error against cost of ways to solve the static equilibrium over a period of cage angles.
 
@@ -310,43 +377,67 @@ def statics_experiment(
         equally spaced cage angles in a ball spacing.
     solvers
         names out of SOLVERS; None takes all.
-    progress, cancelled
-        see `points`.
+    watch
+        progress, points as they come, and cancelling.
     """
     names = tuple(SOLVERS) if solvers is None else tuple(solvers)
     for name in names:
         checks.choice("solver", name, tuple(SOLVERS))
-    problem = static_problem(scene, default_cage_angles(scene, n_angles))
-    if progress is not None:
-        progress(0.0, "reference by two families")
-    reference = static_reference(problem)
+    watch.within(0.0, 0.1)(0.0)
+    problems = {
+        "": static_problem(scene, default_cage_angles(scene, n_angles)),
+        **hard_cases(scene),
+    }
+    truths = {case: static_reference(problem) for case, problem in problems.items()}
     for name in names:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
-            SOLVERS[name][0](problem, 0.0)  # so that nothing is compiled while time is taken
-    tasks = [(name, tolerance) for name in names for tolerance in SOLVERS[name][1]]
-    points = []
-    for name, tolerance in in_turn(
-        tasks, lambda task: f"{task[0]}, {scientific(task[1])}", progress, cancelled, begin=0.2
-    ):
-        points.append(_measured(problem, reference, name, tolerance))
-    return Experiment(
+            SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken
+    tasks = [("", name, tolerance) for name in names for tolerance in SOLVERS[name][1]]
+    tasks += [
+        (case, name, SOLVERS[name][1][-1 if len(SOLVERS[name][1]) == 1 else -2])
+        for case in problems
+        if case
+        for name in names
+    ]
+    experiment = Experiment(
         "statics",
-        f"Static equilibrium in {', '.join(scene.active_dofs)}, {len(problem.angles)} cage angles",
+        f"Static equilibrium in {', '.join(scene.active_dofs)}, {n_angles} cage angles",
         STATIC_ERRORS,
-        "evaluations of all contacts at one cage angle",
-        {"": reference.reference},
-        tuple(points),
+        "evaluations of all contacts per equilibrium",
+        {case: truth.reference for case, truth in truths.items()},
+        (),
         LEFT_OUT,
-        completed=len(points) == len(tasks),
+    )
+    return measured_in_turn(
+        experiment,
+        tasks,
+        lambda task: f"{task[1]}, {scientific(task[2])}",
+        lambda task: replace(
+            _measured(problems[task[0]], truths[task[0]], *task[1:]), against=task[0]
+        ),
+        watch,
+        begin=0.1,
     )
 
 
-def _measured(
-    problem: StaticProblem, reference: StaticReference, name: str, tolerance: float
-) -> Point:
+def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
+    """Problems about `scene` at which solvers fail, by their names."""
+    angles = default_cage_angles(scene, 13)
+    loads = {name: 1e-3 * getattr(scene.load, name) for name in ("fx", "fy", "fz", "mx", "my")}
+    edges = path_kinks(scene, float(angles[0]), float(angles[-1]))[:12]
+    cases = {"all balls just touching": (scene.replace(**loads), angles)}
+    if edges.size:
+        cases["a ball at an edge"] = (scene, np.unique([edges - 1e-9, edges, edges + 1e-9]))
+    if scene.bearing.radial_clearance > 0.0:
+        cases["clearance closed"] = (scene.replace(radial_clearance=0.0), angles)
+    return {name: static_problem(*case) for name, case in cases.items()}
+
+
+def _measured(problem: StaticProblem, truth: StaticReference, name: str, tolerance: float) -> Point:
+    """One solver at one tolerance; times and evaluations are for one equilibrium."""
     with np.errstate(all="ignore"):
         found, seconds, runs = least_time(lambda: SOLVERS[name][0](problem, tolerance))
-    known = reference.known
+    known = truth.known
     missing = int((known & ~found.solved).sum())
     errors: dict[str, float] = {}
     status = RIGHT
@@ -354,19 +445,22 @@ def _measured(
         status = f"failed: no answer at {missing} of {int(known.sum())} cage angles"
     elif known.any():
         errors = static_errors(
-            problem, found.q[known].astype(float), reference.stiffness[known],
-            reference.load[known], known,
-        )  # fmt: skip
+            problem, found.q[known].astype(float), truth.stiffness[known], truth.load[known], known
+        )
         if tolerance <= STRICT and not errors["stiffness"] <= WRONG:
             status = "failed: a wrong answer that it calls solved"
+    n = len(problem.angles)
     return Point(
-        name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds, runs,
-        found.evaluations, status,
+        name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds / n, runs,
+        found.evaluations / n, status, in_use=name == OWN,
     )  # fmt: skip
 
 
 # --- number and placing of cage angles ------------------------------------------------------------
 
+
+DRAWN = 361
+"""Cage angles to a ball spacing as the page draws curves."""
 
 PLACINGS = ("equally spaced", "equally spaced and edges")
 """Ways to choose cage angles."""
@@ -376,8 +470,7 @@ def angles_experiment(
     scene: Scene,
     curves: str = "stiffness",
     *,
-    progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Error against cost of cage angles: equally spaced, and with those where a ball meets an edge.
 
@@ -388,12 +481,11 @@ def angles_experiment(
     curves
         "load", "stiffness" or "modes": see `dynamics.curves`. The mean is that of the
         same curves.
-    progress, cancelled
-        see `points`.
+    watch
+        progress, points as they come, and cancelling.
     """
     checks.choice("curves", curves, CURVES)
-    if progress is not None:
-        progress(0.0, "reference by two families")
+    watch.within(0.0, 0.2)(0.0)
     period = default_cage_angles(scene, 2)
     first, last = float(period[0]), float(period[-1])
     truth = _DenseTruth(scene, curves, first, last)
@@ -406,37 +498,37 @@ def angles_experiment(
         angles = np.unique(np.concatenate([np.linspace(first, last, round(n)), kinks]))
         return angles, len(angles)
 
-    counts = tuple(float(2**k + 1) for k in range(4, 12))
+    counts = (17.0, 33.0, 65.0, 129.0, 257.0, float(DRAWN), 513.0, 1025.0, 2049.0)
     tasks = [
         (name, choose, value)
         for name, choose in zip(PLACINGS, (equal, with_edges), strict=True)
         for value in counts
     ]
-    points = []
-    for name, choose, value in in_turn(
-        tasks, lambda task: f"{task[0]}, {task[2]:g}", progress, cancelled, begin=0.2
-    ):
 
-        def work(
-            choose: Callable[[float], tuple[Array, int]] = choose, value: float = value
-        ) -> tuple[Array, Array, int]:
+    def measure(task: tuple[str, Callable[[float], tuple[Array, int]], float]) -> Point:
+        name, choose, value = task
+
+        def work() -> tuple[Array, Array, int]:
             angles, solved = choose(value)
             return angles, curves_of(equilibrium(scene, angles), curves), solved
 
         (angles, values, solved), seconds, runs = least_time(work)
+        errors = truth.errors(angles, values)
+        in_use = name == PLACINGS[0] and value == DRAWN
         words = f"{len(angles)} angles"
-        points.append(
-            Point(name, words, value, truth.errors(angles, values), seconds, runs, solved)
-        )
-    return Experiment(
+        return Point(name, words, value, errors, seconds, runs, solved, in_use=in_use)
+
+    experiment = Experiment(
         "angles",
         f"Cage angles for curves of {curves} over {math.degrees(last - first):.4g}°",
         ANGLE_ERRORS,
         "cage angles solved",
         {"": truth.reference},
-        tuple(points),
+        (),
         "cubic curves between angles: no better than lines at a corner or a root",
-        completed=len(points) == len(tasks),
+    )
+    return measured_in_turn(
+        experiment, tasks, lambda task: f"{task[0]}, {task[2]:g}", measure, watch, begin=0.2
     )
 
 

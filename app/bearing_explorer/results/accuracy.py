@@ -1,74 +1,72 @@
-"""Experiments on speed and accuracy as the page runs them: small enough to be waited for."""
+"""Speed against accuracy: what is shipped for a preset, and what is measured on this machine."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cache
 
+from bearing_explorer.assets import asset_path
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
-from bearingcore import Scene
-from bearingcore.experiments import (
-    Experiment,
-    StabilityChart,
-    angles_experiment,
-    models_experiment,
-    motion_experiment,
-    stability_chart,
-    statics_experiment,
-)
-from bearingcore.experiments.balls import balls_experiment
-from bearingcore.experiments.integrators import METHODS
+from bearingcore import Scene, presets
+from bearingcore.experiments import Measurements, measure, measurements_from
+from bearingcore.experiments.measurements import NAMES, ORBITS, STABILITY
 
-STIFF = ("scipy DOP853", "scipy Radau", "scipy BDF")
-"""Methods that the page leaves out, as they would take most of its time."""
-
-
-@dataclass(frozen=True)
-class Trial:
-    """An experiment on offer: its label in the form, its function, and how small it is here."""
-
-    label: str
-    experiment: Callable[..., Experiment | StabilityChart]
-    size: Mapping[str, Any]
-
-    def run(self, scene: Scene, job: Work) -> Experiment | StabilityChart:
-        """The experiment on a scene."""
-        if self.experiment is balls_experiment and not compiling.ready():
-            raise compiling.StillCompiling
-        return self.experiment(scene, **self.size, progress=job.progress, cancelled=job.cancelled)
-
-
-_QUICK = [name for name in METHODS if name not in STIFF]
+EVERYTHING = "everything"
 TRIALS = {
-    "motion": Trial("Motion: methods", motion_experiment, {"duration": 0.1, "methods": _QUICK}),
-    "stability": Trial("Motion: stability", stability_chart, {"duration": 0.1}),
-    "balls": Trial(
-        "Motion: balls with mass", balls_experiment, {"duration": 0.25, "steps": (2, 3, 4, 8)}
-    ),
-    "models": Trial("Models", models_experiment, {"duration": 0.2}),
-    "statics": Trial("Statics: solvers", statics_experiment, {"n_angles": 31}),
-    "angles": Trial("Cage angles", angles_experiment, {}),
+    EVERYTHING: "Everything",
+    "motion": "Motion: steps and methods",
+    "balls": "Motion: mass of balls",
+    "models": "Models",
+    "statics": "Statics: solvers",
+    "angles": "Cage angles",
+    STABILITY: "Stability: steps",
+    ORBITS: "Stability: orbit over speed",
 }
-"""The experiments by name."""
+"""Choices of the form by name."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """Result of an experiment, and its scene."""
+    """Measurements on this machine, and their scene."""
 
     scene: Scene
-    result: Experiment | StabilityChart
+    result: Measurements
+
+
+@cache
+def shipped(preset: str) -> Measurements | None:
+    """The measurements that come with the program for a preset; None where there are none."""
+    try:
+        path = asset_path(f"accuracy/{preset}.json")
+    except FileNotFoundError:
+        return None
+    return measurements_from(path.read_text(encoding="utf-8"))
+
+
+def preset_like(scene: Scene) -> str:
+    """The preset that is `scene`, or has its bearing, or else the first that is shipped."""
+    same = [name for name, preset in presets.items() if preset == scene]
+    alike = [name for name, preset in presets.items() if preset.bearing == scene.bearing]
+    known = [name for name in (*same, *alike, "fan-rig") if shipped(name) is not None]
+    return known[0] if known else ""
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:
-    """Run an experiment and show it. Runs in a job's thread."""
+    """Measure and show it point by point. Runs in a job's thread."""
+    names = NAMES if name == EVERYTHING else (name,)
+    if "balls" in names and not compiling.ready():
+        raise compiling.StillCompiling
     started = time.perf_counter()
-    result = TRIALS[name].run(scene, job)
-    n = len(result.points if isinstance(result, Experiment) else result.trials)
-    if not n:
-        return "Nothing was measured yet."
-    job.show(Found(scene, result))
-    return f"{n} points after {time.perf_counter() - started:.1f} s."
+    found = measure(
+        scene,
+        names,
+        slow=False,
+        progress=job.progress,
+        cancelled=job.cancelled,
+        shown=lambda part: job.show(Found(scene, part)),
+    )
+    if not found.count:
+        return " ".join(found.refused.values()) or "Nothing was measured yet."
+    return f"{found.count} points after {time.perf_counter() - started:.1f} s."

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable
 
 from bearingcore import kernels, orbit, presets, warm
-from bearingcore.experiments.balls import balls_experiment
+from bearingcore.experiments.balls import BALL_METHODS
 from bearingcore.warm_up import motions_with_mass
 
 log = logging.getLogger(__name__)
@@ -114,7 +114,8 @@ def compile_rest() -> None:
     for name in ("fan-rig", "liew-lim"):
         for law in ("published", "no tension"):
             orbit(presets[name].replace(contact_law=law))
-    balls_experiment(presets["fan-rig"], duration=0.05, steps=(2,))
+    for march in BALL_METHODS.values():
+        march(presets["fan-rig"].replace(balls="with mass"), 2, 0.01, 65536.0)
 
 
 def _slowest() -> tuple[object, ...]:

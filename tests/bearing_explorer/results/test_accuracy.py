@@ -1,24 +1,42 @@
-"""Speed against accuracy on the page: what is drawn is what was measured; clicks are judged."""
+"""Speed against accuracy on the page: what is drawn is what was measured, one reference a chart."""
 
 from __future__ import annotations
 
+import dataclasses
+import html
 import math
 import time
 
-import numpy as np
 import pytest
-from bearing_explorer.results.accuracy import TRIALS, Found, compute
+from bearing_explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.accuracy import COLORS, MOST_METHODS, NAMES, Accuracy, legend, look
+from bearing_explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence, steps_sentence
+from bearing_explorer.views.work_precision import (
+    COLORS,
+    MARKERS,
+    PALE,
+    WorkPrecision,
+    legend,
+    look,
+    sentence,
+)
 from bearing_explorer.widgets.status import status_of
 
 from bearingcore import presets
-from bearingcore.experiments import Experiment, Point, Reference
-from bearingcore.experiments.stability import FIXED_STEP, stability_chart
+from bearingcore.experiments import (
+    Experiment,
+    OrbitAtSpeed,
+    Point,
+    Reference,
+    measure,
+    measurements_from,
+)
+from bearingcore.experiments.integrators import METHODS
+from bearingcore.experiments.stability import stability_chart
 
 RIG = presets["fan-rig"]
 
@@ -36,7 +54,7 @@ EXPERIMENT = Experiment(
     "right-hand sides",
     {"": Reference(("LSODA", "DOP853"), {"spectrum": 2e-7}, True, 1.0)},
     (
-        point("RK4", 32768.0, 1e-2, 1e-3, settings={"step_rate": 32768.0}),
+        point("RK4", 32768.0, 1e-2, 1e-3, settings={"step_rate": 32768.0}, in_use=True),
         point("RK4", 65536.0, 1e-4, 2e-3, settings={"step_rate": 65536.0}),
         point("scipy RK45", 65536.0, 1e-1, 2e-2),
         point("scipy RK45", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
@@ -45,70 +63,90 @@ EXPERIMENT = Experiment(
 )
 
 
-def measured() -> Accuracy:
-    view = Accuracy(PackedSource())
-    view.found = Found(RIG, EXPERIMENT)
-    return view
+def drawn(
+    found: Experiment | None, base: Experiment | None, steps: float | None = None
+) -> WorkPrecision:
+    chart = WorkPrecision("Steps", {"spectrum": "[dB]"}, lambda: None)
+    chart.draw(found, base, "seconds", steps, "")
+    return chart
 
 
-def test_points_stand_where_they_were_measured_and_failures_on_the_edge() -> None:
-    view = measured()
-    sources, ranges = view.data(Results(RIG))
-    assert sources["accuracy_0"]["seconds"].tolist() == [1e-3, 2e-3]
-    assert sources["accuracy_0"]["error"].tolist() == [1e-2, 1e-4]
-    assert sources["accuracy_1"]["error"].tolist() == [1e-1]
-    assert sources["accuracy_2"]["error"].size == 0
-    failed = sources["accuracy_failed"]
-    assert [NAMES[int(k)] for k in failed["method"]] == ["scipy RK45", "scipy LSODA"]
-    assert failed["named"].tolist() == [1.0, 2.0]
-    low, high = ranges["accuracy_error"]
-    assert low < 1e-4
-    assert (failed["error"] > 1e-1).all()
-    assert (failed["error"] < high).all()
-    assert np.isfinite(failed["seconds"]).all()
-    assert set(sources) == set(view.data(Results(RIG.healthy()))[0])
+def test_points_are_where_they_were_measured_and_failures_on_the_upper_edge() -> None:
+    chart = drawn(EXPERIMENT, None)
+    points = chart._points.data
+    assert points["cost"][:3] == [1e-3, 2e-3, 2e-2]
+    assert points["error"][:3] == [1e-2, 1e-4, 1e-1]
+    assert points["marker"][3:] == ["x", "x"]
+    assert points["status"][3] == "failed: diverged <at once>"
+    assert all(1e-1 < error < chart.plot.y_range.end for error in points["error"][3:])
+    assert chart._best.data == {"cost": [1e-3, 2e-3], "error": [1e-2, 1e-4]}
+    assert chart._used.data == {"cost": [1e-3], "error": [1e-2]}
+    assert chart._allowed.location == 0.1
 
 
-def test_words_and_numbers_name_the_reference_and_what_failed() -> None:
-    view = measured()
-    words = view.sentence(Results(RIG))
-    assert "(LSODA, DOP853) differ by" in words
-    assert "2·10⁻⁷ dB" in words
-    assert "scipy RK45 failed: diverged" in words
-    assert view.sentence(Results(RIG.healthy())).startswith("The scene has changed")
-    table = view.table(Results(RIG))
-    assert table["spectrum_error_db"][0] == 1e-2
-    assert table["status"][3].startswith("failed")
-    assert "&lt;at once&gt;" in legend(EXPERIMENT)
+def test_shipped_points_are_pale_where_there_are_others() -> None:
+    both = drawn(dataclasses.replace(EXPERIMENT, points=EXPERIMENT.points[:1]), EXPERIMENT)
+    assert sorted(both._points.data["alpha"]) == [*[PALE] * 5, 1.0]
+    assert set(drawn(None, EXPERIMENT)._points.data["alpha"]) == {1.0}
+
+
+def test_chosen_steps_are_the_ones_in_use() -> None:
+    assert drawn(EXPERIMENT, None, 65536.0)._used.data["error"] == [1e-4]
+
+
+def test_words_name_the_reference_and_what_failed() -> None:
+    words = sentence(EXPERIMENT, "spectrum")
+    assert "LSODA and DOP853 agree, 2·10⁻⁷ dB apart" in words
+    assert "Fastest within 0.1 dB: RK4, 32768 (1 ms, 0.01 dB)" in words
+    assert "scipy RK45, 8192, failed: diverged" in words
+    assert "scipy LSODA: the error is infinite" in words
+    assert "<b>" not in legend(["<b>"])
 
 
 def test_methods_never_look_alike() -> None:
-    assert len({look(slot) for slot in range(MOST_METHODS)}) == MOST_METHODS
+    assert len({look(slot) for slot in range(len(METHODS))}) == len(METHODS)
     assert len(set(COLORS)) == len(COLORS)
+    assert {look(slot)[1] for slot in range(len(METHODS))} <= set(MARKERS)
 
 
-def test_a_click_takes_the_steps_of_the_point_under_it() -> None:
-    view = measured()
-    taken: list[float | None] = []
-    view.take_steps = taken.append
-    view.data(Results(RIG))
-    view._tapped("seconds", 2.02e-3, 1.05e-4)
-    view._tapped("evaluations", 1000, 1e-2)
-    assert taken == [65536.0, 32768.0]
-    view._tapped("seconds", 2e-2, 1e-1)  # its steps cannot be taken
-    assert "RK4" in view._step_words.text
-    for strange in (None, "x", math.nan, -1.0, 0.0, 1e300, True, [1.0]):
-        view._tapped("seconds", strange, 1e-2)
-    assert taken == [65536.0, 32768.0]
+@pytest.mark.parametrize("preset", ["fan-rig", "liew-lim"])
+def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
+    view = Accuracy(PackedSource())
+    results = Results(presets[preset])
+    view.say(results, view.sentence(results))
+    base = shipped(preset)
+    assert base is not None
+    for one, chart in view._charts:
+        words = html.unescape(chart._words.object)
+        assert chart.plot.visible or base.refused[one.experiment] in words
+    known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
+    for name, experiment in base.experiments.items():
+        assert {(name, case) for case in experiment.references} <= known
+    assert view._stability._steps.visible
+    assert view._stability._speeds.visible
+    assert base.machine.processor in view._foot.object
+    assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
+        base.stability.trials if base.stability else ()
+    )
 
 
-def test_measured_steps_are_chosen_from_the_list() -> None:
-    view = measured()
+def test_of_another_scene_it_says_whose_numbers_these_are() -> None:
+    view = Accuracy(PackedSource())
+    other = RIG.replace(extent=0.3)
+    assert preset_like(other) == "fan-rig"
+    assert "not of this scene" in view.sentence(Results(other))
+    assert "not of this scene" not in view.sentence(Results(RIG))
+
+
+def test_measured_steps_are_chosen_from_the_list_and_given_back() -> None:
+    view = Accuracy(PackedSource())
     taken: list[float | None] = []
     view.take_steps = taken.append
     view.say(Results(RIG), "")
-    for text in ("65536", ""):
-        view._steps.widgets["steps"].value = text
+    view._steps.widgets["steps"].value = "65536"
+    view.say(Results(RIG, settings=Settings(step_rate=65536.0)), "")
+    assert "65536 Hz" in view._step_words.text
+    view._steps.widgets["steps"].value = ""
     assert taken == [65536.0, None]
 
 
@@ -120,10 +158,6 @@ def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:
     assert by_hand.spectra["y"].density.max() != ours.spectra["y"].density.max()
     assert "steps set by hand: 131072 Hz" in status_of(by_hand, 0.0)["details"]
     assert not any("by hand" in detail for detail in status_of(ours, 0.0)["details"])
-    view = measured()
-    view.say(by_hand, "words")
-    assert view._steps.values["steps"] == "131072"
-    assert "131072 Hz" in view._step_words.text
 
 
 def test_more_steps_than_the_server_holds_are_refused() -> None:
@@ -131,31 +165,60 @@ def test_more_steps_than_the_server_holds_are_refused() -> None:
         _ = Results(RIG, settings=Settings(step_rate=65536.0 * 128)).motion
 
 
+def test_losses_of_stability_are_named() -> None:
+    orbits = (
+        OrbitAtSpeed(10.0, "stable orbit", "", ((0.5, 0.0),)),
+        OrbitAtSpeed(20.0, "unstable orbit", "period doubling", ((-1.2, 0.0),)),
+        OrbitAtSpeed(30.0, "not converged"),
+    )
+    words = orbits_sentence(orbits)
+    assert "Stable at 1.59 Hz, period doubling from 3.18 Hz" in words
+    assert "No orbit was found at 1 of 3 speeds" in words
+    assert "not measured" in orbits_sentence(())
+    view = Accuracy(PackedSource())
+    base = shipped("fan-rig")
+    assert base is not None
+    view._stability.draw(dataclasses.replace(base, orbits=orbits), None, 10.0)
+    assert view._stability._multipliers["period doubling"].data == {"x": [-1.2], "y": [0.0]}
+
+
 @pytest.mark.proof
 def test_the_stability_chart_holds_every_trial() -> None:
     chart = stability_chart(RIG, duration=0.03)
     view = Accuracy(PackedSource())
-    view.found = Found(RIG, chart)
-    sources, _ = view.data(Results(RIG))
-    sizes = [sources[f"accuracy_verdict_{k}"]["steps"].size for k in range(4)]
-    assert sum(sizes) == len(chart.trials)
-    assert sizes[3] > 0
-    assert sources["accuracy_limits"]["steps"].size == len(FIXED_STEP)  # all are explicit
-    assert "diverges" in view.sentence(Results(RIG))
-    assert view.table(Results(RIG))["verdict"].size == len(chart.trials)
+    view._stability._draw_steps(chart)
+    sizes = {name: len(source.data["x"]) for name, source in view._stability._verdicts.items()}
+    assert sum(sizes.values()) == len(chart.trials)
+    assert sizes["diverged"] > 0
+    assert "diverges" in steps_sentence(chart)
 
 
-@pytest.mark.parametrize("name", ["angles", "models"])
-def test_experiments_run_as_jobs_and_every_name_is_known(name: str) -> None:
+def test_an_experiment_is_shown_point_by_point_and_read_from_its_file() -> None:
     job = Work()
     job.started = time.monotonic()
-    assert "points after" in compute(job, RIG, name)
-    (found,) = job.taken()
+    shares: list[int] = []
+    job.show = lambda found: shares.append(found.result.count)  # type: ignore[method-assign]
+    assert "points after" in compute(job, RIG, "angles")
+    assert shares[:3] == [1, 2, 3]
+    found = measure(RIG, ["angles", "orbits"])
+    again = measurements_from(found.as_json())
+    assert again.count == found.count
+    assert again.experiments["angles"].references == again.experiments["angles"].references
+    for one, other in zip(
+        found.experiments["angles"].points, again.experiments["angles"].points, strict=True
+    ):
+        assert other.errors == pytest.approx(one.errors, rel=1e-3)
+        assert other.in_use == one.in_use
     view = Accuracy(PackedSource())
-    view.found = found
-    sources, _ = view.data(Results(RIG))
-    drawn = sum(sources[f"accuracy_{k}"]["error"].size for k in range(MOST_METHODS))
-    assert drawn + sources["accuracy_failed"]["error"].size == len(found.result.points)
+    view.found = Found(RIG, found)
+    assert "Pale: shipped" in view.sentence(Results(RIG))
+    assert set(view.table(Results(RIG))["experiment"]) == {"angles"}
+
+
+def test_a_scene_that_cannot_move_says_why() -> None:
+    job = Work()
+    job.started = time.monotonic()
+    assert "above 0 rad/s" in compute(job, RIG.replace(shaft_speed=0.0), "motion")
 
 
 def test_a_cancelled_job_keeps_nothing_where_nothing_was_measured() -> None:
@@ -163,7 +226,6 @@ def test_a_cancelled_job_keeps_nothing_where_nothing_was_measured() -> None:
     job.started = time.monotonic()
     job.stop()
     assert compute(job, RIG, "angles") == "Nothing was measured yet."
-    assert job.taken() == []
 
 
 def test_unknown_experiments_are_refused() -> None:

@@ -13,6 +13,7 @@ from bearingcore import equilibrium, presets
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments import (
+    Watch,
     angles_experiment,
     linear_limits,
     models_experiment,
@@ -20,7 +21,7 @@ from bearingcore.experiments import (
     stability_chart,
     statics_experiment,
 )
-from bearingcore.experiments.integrators import METHODS
+from bearingcore.experiments.integrators import HAS_CVODE, METHODS
 from bearingcore.experiments.points import Experiment
 from bearingcore.experiments.references import motion_reference
 from bearingcore.experiments.stability import DIVERGED, amplification
@@ -157,12 +158,17 @@ def check_that_all_is_given(experiment: Experiment) -> None:
 def test_statics() -> None:
     experiment = statics_experiment(LIEW_LIM, n_angles=13)
     check_that_all_is_given(experiment)
-    (compiled,) = experiment.of("compiled energy Newton")
+    scene = experiment.per_reference()[""]
+    (compiled,) = scene.of("compiled energy Newton")
+    assert compiled.in_use
     assert compiled.errors["stiffness"] < 1e-8
     for name in ("scipy hybr", "scipy lm"):
-        errors = [p.errors["stiffness"] for p in experiment.of(name)]
+        errors = [p.errors["stiffness"] for p in scene.of(name)]
         assert errors[-1] < 1e-6 * errors[0]
-        assert all(point.evaluations > compiled.evaluations for point in experiment.of(name))
+        assert all(point.evaluations > compiled.evaluations for point in scene.of(name))
+    touching = experiment.per_reference()["all balls just touching"]
+    assert not any(p.failed for p in touching.points if p.method.startswith("compiled"))
+    assert any(p.failed for p in touching.points)
 
 
 def test_angles() -> None:
@@ -176,7 +182,8 @@ def test_angles() -> None:
 
 
 def test_motion() -> None:
-    names = ("RK4", "RK4 in velocities", "scipy RK45", "scipy LSODA")
+    cvode = ("CVODE Adams", "CVODE BDF") if HAS_CVODE else ()
+    names = ("RK4", "RK4 in velocities", "scipy RK45", "scipy LSODA", *cvode)
     experiment = motion_experiment(FAN_RIG, duration=0.1, methods=names)
     check_that_all_is_given(experiment)
     assert experiment.methods == names
@@ -187,6 +194,9 @@ def test_motion() -> None:
     assert all(a.seconds < b.seconds for a, b in itertools.pairwise(frontier))
     assert all(a.errors["spectrum"] > b.errors["spectrum"] for a, b in itertools.pairwise(frontier))
     assert "RK4" in {point.method for point in frontier}
+    assert [p.method for p in experiment.points if p.in_use] == ["RK4"]
+    assert experiment.order("RK4", "acceleration") > 2.0
+    assert len(experiment.references[""].families) == 2 + bool(cvode)
 
 
 def test_models() -> None:
@@ -203,18 +213,20 @@ def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
     fast = FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0, contact_damping=130.0)
     experiment = models_experiment(fast, duration=0.1)
     (orbit,) = experiment.of("orbit")
-    assert orbit.status == "failed: unstable orbit through -1"
+    assert orbit.status == "failed: unstable orbit: period doubling"
+    assert orbit.against == "settled motion"
 
 
 def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
     shares: list[float] = []
+    found: list[Experiment] = []
     answers = iter([False, False, True])
     experiment = statics_experiment(
         FAN_RIG,
         n_angles=5,
-        progress=lambda part, doing: shares.append(part),
-        cancelled=lambda: next(answers),
+        watch=Watch(lambda part, doing: shares.append(part), lambda: next(answers), found.append),
     )
+    assert [len(one.points) for one in found] == [1, 2]
     assert len(experiment.points) == 2
     assert not experiment.completed
     assert shares == sorted(shares)

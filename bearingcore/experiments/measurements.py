@@ -1,0 +1,249 @@
+"""All experiments on a scene, with the machine they were measured on, as a value and as a file."""
+
+from __future__ import annotations
+
+import datetime
+import json
+import math
+import os
+import platform
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from importlib import metadata
+from pathlib import Path
+from typing import Any, cast
+
+import msgspec
+
+from bearingcore.common.numbers import with_prefix
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.experiments.balls import balls_experiment
+from bearingcore.experiments.integrators import usable_methods
+from bearingcore.experiments.models import models_experiment
+from bearingcore.experiments.motions import motion_experiment
+from bearingcore.experiments.points import RIGHT, Experiment, Watch
+from bearingcore.experiments.stability import (
+    OrbitAtSpeed,
+    StabilityChart,
+    orbits_over_speed,
+    stability_chart,
+)
+from bearingcore.experiments.statics import angles_experiment, statics_experiment
+from bearingcore.scene.scene import Scene
+
+PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
+
+STABILITY, ORBITS = "stability", "orbits"
+EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
+    "motion": lambda scene, watch, slow: motion_experiment(
+        scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
+    ),
+    "models": lambda scene, watch, _: models_experiment(scene, duration=0.2, watch=watch),
+    "balls": lambda scene, watch, _: balls_experiment(
+        scene, duration=0.25, steps=(2, 3, 4, 8), watch=watch
+    ),
+    "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
+    "angles": lambda scene, watch, _: angles_experiment(scene, watch=watch),
+}
+"""Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
+NAMES = (*EXPERIMENTS, STABILITY, ORBITS)
+"""Everything that can be measured."""
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Machine on which times were measured.
+
+    Attributes
+    ----------
+    processor, cores
+        its name, and how many are there.
+    versions
+        of Python and the packages, by name.
+    date
+        day of the measurement, as ISO 8601 has it.
+    c_loop
+        [s] that a plain C loop of 1.4 s of motion took in the same minute; NaN where it did not
+        run.
+    """
+
+    processor: str
+    cores: int
+    versions: Mapping[str, str]
+    date: str
+    c_loop: float = math.nan
+
+    @property
+    def sentence(self) -> str:
+        """For the foot of a chart."""
+        versions = ", ".join(f"{name} {version}" for name, version in self.versions.items())
+        loop = ""
+        if math.isfinite(self.c_loop):
+            loop = f"; a plain C loop of 1.4 s of motion took {with_prefix(self.c_loop, 's')} then"
+        return f"{self.processor}, {self.cores} cores, {self.date}; {versions}{loop}."
+
+
+def this_machine(c_loop: float = math.nan) -> Machine:
+    """The machine and the versions that this process has."""
+    versions = {"Python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            versions[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            continue
+    today = datetime.datetime.now(datetime.UTC).date().isoformat()
+    return Machine(_processor(), os.cpu_count() or 1, versions, today, c_loop)
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Measurements on one scene.
+
+    Attributes
+    ----------
+    preset
+        name of the scene, where it is a preset; empty otherwise.
+    machine
+        what it was measured on.
+    experiments
+        by their names in EXPERIMENTS.
+    stability
+        verdicts over steps, if measured.
+    orbits
+        the periodic motion over the shaft speed, if measured.
+    refused
+        why an experiment cannot be done with this scene, by its name.
+    """
+
+    preset: str
+    machine: Machine
+    experiments: dict[str, Experiment] = field(default_factory=dict)
+    stability: StabilityChart | None = None
+    orbits: tuple[OrbitAtSpeed, ...] = ()
+    refused: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Number of points in all."""
+        trials = self.stability.trials if self.stability is not None else ()
+        points = sum(len(one.points) for one in self.experiments.values())
+        return points + len(trials) + len(self.orbits)
+
+    def table(self) -> ResultTable:
+        """A row for each point of the experiments: errors under their names, NaN for the others."""
+        points = [(name, p) for name, one in self.experiments.items() for p in one.points]
+        units = {e: one.unit(e) for one in self.experiments.values() for e in one.errors}
+        return table_of(
+            ("experiment", "", [name for name, _ in points]),
+            ("reference", "", [p.against for _, p in points]),
+            ("method", "", [p.method for _, p in points]),
+            ("setting", "", [p.setting for _, p in points]),
+            *(
+                (f"{name}_error", unit, [p.errors.get(name, math.nan) for _, p in points])
+                for name, unit in units.items()
+            ),
+            ("time", "s", [p.seconds for _, p in points]),
+            ("evaluations", "", [p.evaluations for _, p in points]),
+            ("status", "", [p.status for _, p in points]),
+        )
+
+    def as_json(self) -> str:
+        """The text of a file: numbers with four digits, an experiment to a line."""
+        parts = _rounded(asdict(self))
+        experiments = ",\n".join(
+            f"{json.dumps(name)}: {json.dumps(one, ensure_ascii=False)}"
+            for name, one in parts.pop("experiments").items()
+        )
+        rest = json.dumps(parts, ensure_ascii=False)
+        return f'{rest[:-1]},\n"experiments": {{\n{experiments}\n}}}}\n'
+
+
+_AS_USUAL: tuple[tuple[str, Any], ...] = (
+    ("status", RIGHT),
+    ("against", ""),
+    ("settings", {}),
+    ("in_use", False),
+)
+"""Entries of points that files leave out."""
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float) and not value.is_integer():
+        return float(f"{value:.4g}")
+    if isinstance(value, dict):
+        return {n: _rounded(one) for n, one in value.items() if (n, one) not in _AS_USUAL}
+    return [_rounded(one) for one in value] if isinstance(value, list | tuple) else value
+
+
+def measurements_from(text: str) -> Measurements:
+    """The measurements in the text of a file; ValueError where it holds anything else."""
+    # JSON as Python writes it: with NaN, which msgspec itself refuses
+    return cast(Measurements, msgspec.convert(json.loads(text), Measurements))
+
+
+def measure(
+    scene: Scene,
+    names: Sequence[str] = NAMES,
+    *,
+    preset: str = "",
+    c_loop: float = math.nan,
+    slow: bool = True,
+    progress: Callable[[float, str], object] = lambda part, words: None,
+    cancelled: Callable[[], bool] = lambda: False,
+    shown: Callable[[Measurements], object] = lambda found: None,
+) -> Measurements:
+    """Measure a scene by experiments, one after the other.
+
+    Parameters
+    ----------
+    scene
+        at hand.
+    names
+        out of NAMES.
+    preset, c_loop
+        for `Measurements` and `Machine`.
+    slow
+        whether integrators that take longer than all others together are among them.
+    progress
+        called with the part done, 0 to 1, and what is being done.
+    cancelled
+        called before each point; True ends with what there is.
+    shown
+        called with what there is, after each point.
+    """
+    found = Measurements(preset, this_machine(c_loop))
+    for k, name in enumerate(names):
+        if cancelled():
+            break
+
+        def report(part: float, words: str, begin: int = k) -> None:
+            progress((begin + part) / len(names), words)
+
+        def show(one: Experiment, name: str = name, before: Measurements = found) -> None:
+            shown(replace(before, experiments={**before.experiments, name: one}))
+
+        watch = Watch(report, cancelled, show)
+        try:
+            found = _with(found, name, scene, watch, slow)
+        except ValueError as refused:
+            found = replace(found, refused={**found.refused, name: str(refused)})
+        shown(found)
+    return found
+
+
+def _with(found: Measurements, name: str, scene: Scene, watch: Watch, slow: bool) -> Measurements:
+    if name == STABILITY:
+        return replace(found, stability=stability_chart(scene, duration=0.1, watch=watch))
+    if name == ORBITS:
+        return replace(found, orbits=orbits_over_speed(scene, watch))
+    one = EXPERIMENTS[name](scene, watch, slow)
+    return replace(found, experiments={**found.experiments, name: one})

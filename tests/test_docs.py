@@ -10,6 +10,7 @@ import pytest
 
 import bearingcore
 from bearingcore.fields import as_markdown
+from tests.benchmarks import charts
 
 ROOT = Path(__file__).parents[1]
 DOCS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "assets/docs").glob("*.md"))]
@@ -39,6 +40,13 @@ def test_the_table_of_fields_is_that_of_the_registry() -> None:
     """CONTRIBUTING.md has the command that writes it."""
     text = (ROOT / "assets/docs/FIELDS.md").read_text(encoding="utf-8")
     assert text.rstrip("\n") == as_markdown()
+
+
+def test_the_tables_of_accuracy_are_those_of_the_files() -> None:
+    """The same files that the page draws: ``python -m tests.benchmarks.charts`` writes both."""
+    text = charts.DOCUMENT.read_text(encoding="utf-8")
+    assert charts.document(text) == text
+    assert "published edges" in text
 
 
 def test_paths_in_the_page_for_contributors_exist() -> None:

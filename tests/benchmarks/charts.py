@@ -17,9 +17,11 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+from bearing_explorer.views.work_precision import ALLOWED
+
 from bearingcore import presets
 from bearingcore.common.numbers import number, scientific, with_prefix
-from bearingcore.experiments import Experiment, Measurements, measure, measurements_from
+from bearingcore.experiments import Experiment, Measurements, Point, measure, measurements_from
 from bearingcore.experiments.measurements import NAMES
 from tests.benchmarks.machine import pace
 
@@ -50,7 +52,7 @@ def ship(preset: str, names: tuple[str, ...]) -> None:
 
 
 def tables(found: Measurements) -> str:
-    """Every experiment as Markdown: a table for each reference."""
+    """Every experiment as Markdown: a table for each reference, a row for each method."""
     parts = [found.machine.sentence]
     for name, one in found.experiments.items():
         parts += [
@@ -63,17 +65,26 @@ def tables(found: Measurements) -> str:
 
 def _table(one: Experiment) -> str:
     (reference,) = one.references.values()
-    heads = ["method", "setting", *one.errors, "time", one.evaluations]
-    rows = [heads, ["---"] * 2 + ["---:"] * (len(heads) - 2)]
-    for point in one.points:
-        errors = [_error(point.errors.get(e, math.nan), one.unit(e)) for e in one.errors]
-        if point.failed:
-            errors = [point.status, *[""] * (len(errors) - 1)]
+    error = next(iter(one.errors))
+    rows = [["method", "setting", f"error of {error}", "time", one.evaluations]]
+    rows += [["---", "---", "---:", "---:", "---:"]]
+    own = [point for method in one.methods for point in _row_of(one.of(method), one, error)]
+    for point in (p for p in one.points if any(p is known for known in own)):
+        found = _error(point.errors.get(error, math.nan), one.unit(error))
         seconds = with_prefix(point.seconds, "s") if math.isfinite(point.seconds) else ""
         method = f"**{point.method}**" if point.in_use else point.method
-        rows.append([method, point.setting, *errors, seconds, number(point.evaluations, 4)])
+        found = point.status if point.failed else found
+        rows.append([method, point.setting, found, seconds, number(point.evaluations, 4)])
     lines = "\n".join(f"| {' | '.join(row)} |" for row in rows)
     return f"{reference.sentence}.\n\n{lines}"
+
+
+def _row_of(points: tuple[Point, ...], one: Experiment, error: str) -> list[Point]:
+    """The first point of a method within the allowed error or else its best, and what is in use."""
+    good = [p for p in points if not p.failed and not math.isnan(p.errors.get(error, math.nan))]
+    within = [p for p in good if p.errors[error] <= ALLOWED[one.unit(error)]]
+    best = within[:1] or sorted(good, key=lambda p: p.errors[error])[:1] or list(points[:1])
+    return [*best, *(p for p in points if p.in_use)]
 
 
 def _error(error: float, unit: str) -> str:

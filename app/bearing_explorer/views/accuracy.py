@@ -6,7 +6,7 @@ import html
 import math
 from collections.abc import Callable, Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
@@ -16,10 +16,11 @@ from bokeh.plotting import figure
 from bearing_explorer.plots import style
 from bearing_explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
 from bearing_explorer.results.jobs import Work
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.base import Ranges, Sentence, SessionParts, Sources
+from bearing_explorer.views.base import Sentence, SessionParts
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.work_precision import SIDE_BY_SIDE, WorkPrecision
 from bearing_explorer.widgets.form import Fields, FieldSpec, button, choices, row, select
@@ -31,9 +32,6 @@ from bearingcore.experiments.references import MOTION_ERRORS
 from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
 from bearingcore.experiments.statics import ANGLE_ERRORS, STATIC_ERRORS
 from bearingcore.scene.presets import preset_labels
-
-if TYPE_CHECKING:
-    from bearing_explorer.results.results import Results
 
 
 class Chart(NamedTuple):
@@ -199,9 +197,6 @@ class Accuracy(JobView[Found]):
         base = shipped(preset_like(results.scene))
         own = {} if self.found is None else self.found.result.experiments
         return {**({} if base is None else base.experiments), **own}
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        return {}, {}
 
     def sentence(self, results: Results) -> str:
         found, preset = self.found, preset_like(results.scene)

@@ -276,13 +276,10 @@ def methods_of(parts: list[tuple[Experiment, float]]) -> tuple[str, ...]:
 
 def legend(methods: Sequence[str]) -> str:
     """Colours and markers of the methods as HTML."""
-    items = []
-    for slot, method in enumerate(methods):
-        color, marker = look(slot)
-        sign = f'<span style="color:{style.css_color(COLORS[color])}">{MARKERS[marker]}</span>'
-        items.append(f"<span>{sign} {html.escape(method)}</span>")
-    box = "display:flex;flex-wrap:wrap;gap:2px 14px;font-size:12px"
-    return f'<div style="{box}">{"".join(items)}</div>'
+    looks = [look(slot) for slot in range(len(methods))]
+    return style.legend(
+        [(COLORS[c], MARKERS[m], name) for (c, m), name in zip(looks, methods, strict=True)]
+    )
 
 
 def _paragraph(words: str) -> str:

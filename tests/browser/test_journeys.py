@@ -452,6 +452,7 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(
     visitor.reads(re.compile("fan.wav: 3 s"))
     visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
     visitor.reads(re.compile("outer race is (probably )?damaged"))
+    visitor.choose("Support is", "as in the scene")
     visitor.press("Find the size")
     visitor.reads(re.compile(r"38\.[4-8]°"))
     visitor.steady()

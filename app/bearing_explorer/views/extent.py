@@ -119,7 +119,7 @@ class SpallExtent(MeasuredView):
 
     @property
     def found(self) -> MeasuredExtent | None:
-        """What is known, for reports."""
+        """The extent that is known, for reports."""
         answer = None if self._results is None else self.answer(self._results.scene.bearing)
         return answer if isinstance(answer, MeasuredExtent) else None
 

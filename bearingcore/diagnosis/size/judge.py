@@ -41,9 +41,9 @@ LEAST_PROMINENCE = 6.0
 """Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
 
 _KNOCKS_TWICE = (ExtentStatus.MEASURED, ExtentStatus.EITHER, ExtentStatus.BOUNCES)
-"""What the envelope says where it knocks twice a ball pass."""
+"""Findings in the envelope where it knocks twice a ball pass."""
 
-_CANNOT = "The signal cannot tell the size of the defect: "
+_CANNOT = "The size of the defect is not clear: "
 
 
 class Judgement(NamedTuple):
@@ -54,7 +54,7 @@ class Judgement(NamedTuple):
 
 
 def judged(sized: Sizing) -> Judgement:
-    """What the search itself says: an answer, a bound, or why neither."""
+    """The finding of the search itself: an answer, a bound, or why neither."""
     return _refusal(sized) or _several(sized) or _answer(sized)
 
 
@@ -67,7 +67,7 @@ def _refusal(sized: Sizing) -> Judgement | None:
     """Why the best extent is not an explanation of the signal; None where it is one."""
     best, quality = sized.best, sized.quality
     unexplained = float(best.waveform_misfit.mean())
-    beside_noise = unexplained - quality.noise_share
+    without_noise = unexplained - quality.noise_share
     if sized.passes.prominence < LEAST_PROMINENCE and unexplained > 0.6:
         status = SizingStatus.NO_LINES
         words = "no lines stand out at the ball-pass frequency of an outer-race defect."
@@ -83,7 +83,7 @@ def _refusal(sized: Sizing) -> Judgement | None:
             "no extent explains it better than it would explain a signal of the same spectrum "
             "by chance. Load, speed, support or bearing may not be those of this machine."
         )
-    elif beside_noise > (MUCH_UNEXPLAINED if best.extent > PIT else PIT_UNEXPLAINED):
+    elif without_noise > (MUCH_UNEXPLAINED if best.extent > PIT else PIT_UNEXPLAINED):
         status = SizingStatus.UNEXPLAINED
         words = (
             f"the best extent leaves {100.0 * unexplained:.0f} % of the mean ball pass "
@@ -111,7 +111,7 @@ def _several(sized: Sizing) -> Judgement | None:
         each = ", ".join(
             f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
         )
-        return Judgement(SizingStatus.SEVERAL, f"The signal cannot tell these apart: {each}.")
+        return Judgement(SizingStatus.SEVERAL, f"Several extents explain the signal: {each}.")
     if sized.apart > WIDEST * best.scene.bearing.ball_spacing:
         low, high = (math.degrees(best.extent + way * sized.apart) for way in (-1.0, 1.0))
         return Judgement(
@@ -133,7 +133,7 @@ def _answer(sized: Sizing) -> Judgement:
     best, spread = sized.best, sized.extent_uncertainty
     if best.extent < max(sized.resolved, LEAST_EXTENT + 2.0 * spread):
         most = math.degrees(sized.end(AT_MOST))
-        words = f"The defect extends over {most:.1f}° at most: shorter ones are not told apart."
+        words = f"The defect extends over {most:.1f}° at most: shorter ones cannot be separated."
         return Judgement(AT_MOST, words)
     if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
         least = math.degrees(sized.end(AT_LEAST))

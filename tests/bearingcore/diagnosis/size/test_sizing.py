@@ -90,7 +90,7 @@ def test_an_answer_that_leaves_much_unexplained_is_refused(paper):
     others = [c for c in sized.candidates if c is not sized.best]
     status, words = judged(dataclasses.replace(sized, candidates=(poor, *others)))
     assert status == SizingStatus.UNEXPLAINED
-    assert words.startswith("The signal cannot tell")
+    assert words.startswith("The size of the defect is not clear")
     assert "leaves 50 % of the mean ball pass unexplained" in words
 
 
@@ -109,7 +109,7 @@ def test_an_extent_at_an_end_of_the_search_is_a_bound(paper):
     sized = paper[12.9]
     others = [c for c in sized.candidates if c is not sized.best]
     for extent, bound, words in (
-        (LEAST_EXTENT, AT_MOST, "at most: shorter ones are not"),
+        (LEAST_EXTENT, AT_MOST, "at most: shorter ones cannot"),
         (GREATEST_EXTENT, AT_LEAST, "at least"),
     ):
         edge = dataclasses.replace(sized.best, extent=extent)

@@ -22,7 +22,7 @@ def test_a_clear_signal_is_sized_to_a_degree() -> None:
 def test_a_signal_under_noise_gives_no_number() -> None:
     found = extent_error(SCENE, noise=-30.0)
     assert math.isnan(found.error)
-    assert "cannot tell" in found.sizing.sentence
+    assert "not clear" in found.sizing.sentence
 
 
 @pytest.mark.parametrize(

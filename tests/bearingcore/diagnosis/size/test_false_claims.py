@@ -1,0 +1,91 @@
+"""Sizes that were once claimed and false: of measured records, and of a made signal."""
+
+import dataclasses
+import math
+import os
+from pathlib import Path
+
+import pytest
+
+from bearingcore import Load, Recording, Scene, Support, measure_extent, presets
+from bearingcore.diagnosis.extent.measure import ExtentStatus
+from bearingcore.diagnosis.size.answer import AT_MOST, Sizing, SizingStatus
+from bearingcore.diagnosis.size.judge import confirmed, judged
+from bearingcore.diagnosis.size.sizing import size_defect
+from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal
+from tests.benchmarks.measured_records import records
+from tests.helpers import recordings
+from tests.helpers.recordings import RIG, noisy, signal_of
+
+MEASURED = os.environ.get("MEASURED_RECORDS", "")
+
+
+def guessed(bearing, speed: float, stiffness: float, damping: float, load: float) -> Scene:
+    """A scene for a machine whose support is not known."""
+    support = Support(2.0, 5.0, stiffness, stiffness, damping, damping)
+    defect = presets["fan-rig"].replace(depth=100e-6).defect
+    return Scene(bearing, defect, Load(fy=-load), speed, support, dofs=("x", "y"))
+
+
+@pytest.fixture(scope="module")
+def made() -> Sizing:
+    """A spall of 6°, knocks 5° apart; with the support as if it were known."""
+    recording = Recording(signal(), RATE, ("y",))
+    scene = guessed(MOTOR, SPEED, 1e8, 5e3, 400.0)
+    return size_defect(recording, scene, fault="outer race", support_known=True)
+
+
+def test_a_spall_is_not_called_a_pit_where_the_envelope_knocks_twice(made):
+    claim = judged(made)
+    assert claim.status == AT_MOST
+    assert made.end(AT_MOST) < math.radians(1.6)
+    assert made.status == SizingStatus.TWO_KNOCKS
+    assert not made.bound
+    assert made.status.sentence.endswith(".")
+
+
+def test_no_bound_rests_on_a_support_that_is_not_known(made):
+    claim = dataclasses.replace(made, status=AT_MOST)
+    scene = made.best.scene
+    knocks = measure_extent(made.recording, MOTOR, scene.shaft_speed, race="outer")
+    assert knocks.measured
+    silent = dataclasses.replace(knocks, status=ExtentStatus.ONE_KNOCK)
+    assert confirmed(claim, silent, support_known=True).status == AT_MOST
+    assert confirmed(claim, silent, support_known=False).status == SizingStatus.UNCONFIRMED
+
+
+def test_one_sensor_counts_no_ball_spacings_on_a_support_that_is_not_known():
+    """38.6° of the fan rig are a ball spacing and a rest."""
+    spall = RIG.replace(extent=math.radians(38.6))
+    recording = Recording(noisy(signal_of(spall), 20.0), recordings.RATE)
+    both = size_defect(recording, RIG, fault="outer race", support_known=True)
+    assert both.best.turns == 1
+    assert both.conclusive
+    one = Recording(recording.acceleration[:, 1], recordings.RATE, ("y",))
+    knocks = measure_extent(one, RIG.bearing, RIG.shaft_speed, race="outer")
+    silent = dataclasses.replace(knocks, status=ExtentStatus.ONE_KNOCK)
+    alone = dataclasses.replace(both, recording=one)
+    assert confirmed(alone, silent, False).status == SizingStatus.WHOLE_SPACINGS
+    assert confirmed(alone, silent, True).status == SizingStatus.SIZED
+    assert confirmed(both, silent, False).status == SizingStatus.SIZED
+
+
+def test_entry_and_exit_have_to_confirm_what_one_sensor_says(made):
+    recording = Recording(signal(), RATE, ("y",))
+    knocks = measure_extent(recording, MOTOR, SPEED, race="outer")
+    for extent_deg, status in ((6.0, SizingStatus.SIZED), (12.0, SizingStatus.UNCONFIRMED)):
+        best = dataclasses.replace(made.best, extent=math.radians(extent_deg), probability=1.0)
+        claim = dataclasses.replace(made, candidates=(best,), status=SizingStatus.SIZED)
+        assert confirmed(claim, knocks, support_known=False).status == status
+
+
+@pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")
+@pytest.mark.parametrize("name", ["OR2_600", "OR5_900", "OR8_900"])
+def test_measured_spalls_are_given_nothing_that_is_not_so(name):
+    """Of 2° it was 106.26° ± 0.06° with 95 %, of 5° "2.7° at most", of 8° "1.4° at most"."""
+    (one,) = (one for one in records(Path(MEASURED, "hitsm")) if one.name == name)
+    scene = guessed(one.bearing, one.shaft_speed, 3e8, 1e4, 100.0)
+    found = size_defect(one.recording, scene, fault="outer race")
+    assert len(found.supports) == 5
+    assert not found.conclusive
+    assert not found.bound

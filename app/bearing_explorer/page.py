@@ -29,6 +29,7 @@ from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.explore import ExplorePlane
 from bearing_explorer.views.extent import SpallExtent
+from bearing_explorer.views.how_sure import HowSure
 from bearing_explorer.views.life import LifeOfBearing
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.maps import StiffnessMaps
@@ -84,6 +85,7 @@ SECTIONS = (
             DefectSize,
             MeasuredSpectrum,
             MeasuredEnvelope,
+            HowSure,
         ),
     ),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels), "How sure"),

@@ -1,14 +1,16 @@
 """Which part is damaged, and how large the defect is, on records of real machines.
 
-    python -m tests.benchmarks.measured DIR [--sizes] [--by-hand] [--methods]
+    python -m tests.benchmarks.measured DIR [--sizes] [--by-hand]
     python -m tests.benchmarks.measured DIR --extents
+    python -m tests.benchmarks.measured DIR --scoreboard
 
 DIR holds records and perhaps a table of what is true of them (see `measured_records`). For each
 record and in sum: right, cannot tell, wrong. A conclusive answer that is wrong makes the command
 fail. --sizes runs the sizing too, over several plausible supports and loads; with --by-hand it is
-told that the outer race is damaged. --methods compares ways to choose the band.
+told that the outer race is damaged.
 --extents measures spalls from entry to exit, the race being known, and nothing else; an interval
-that the truth is not in makes it fail.
+that the truth is not in makes it fail. --scoreboard writes every answer, with what came of it, into
+the file that the page and the documents take their numbers from (see `scoreboard`).
 """
 
 from __future__ import annotations
@@ -18,16 +20,12 @@ import math
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
-from unittest import mock
+from typing import NamedTuple
 
 from bearingcore import (
-    Diagnosis,
     Load,
-    MeasuredExtent,
     Scene,
     Sizing,
     Support,
@@ -36,16 +34,19 @@ from bearingcore import (
     presets,
     size_defect,
 )
-from bearingcore.diagnosis.part import listened_signal
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
 from bearingcore.diagnosis.size.answer import AT_MOST
-from bearingcore.signals.filter_bank import Envelope
 from tests.benchmarks.machine import pace
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
-
-RIGHT, CANNOT, WRONG = "right", "cannot tell", "wrong"
-UNCHECKED = "size not published"
+from tests.benchmarks.scoreboard import (
+    CANNOT,
+    RIGHT,
+    UNCHECKED,
+    WRONG,
+    extent_verdict,
+    verdict,
+    write,
+)
 
 SUPPORTS = tuple(
     (inner, outer, stiffness, damping)
@@ -56,16 +57,6 @@ SUPPORTS = tuple(
 
 LOADS = (100.0, 400.0)
 """[N]"""
-
-
-def verdict(record: Record, found: Diagnosis) -> str:
-    """Whether a diagnosis is right."""
-    if found.fault == CANNOT_TELL:
-        return CANNOT
-    if record.truth == UNKNOWN:  # damage, but nobody knows of what
-        return WRONG if found.fault == NONE_SEEN else RIGHT
-    truth = NONE_SEEN if record.truth == HEALTHY else record.truth
-    return RIGHT if found.fault == truth else WRONG
 
 
 class Sized(NamedTuple):
@@ -191,83 +182,6 @@ def _extents(found: list[Record]) -> int:
     return counts[WRONG]
 
 
-def extent_verdict(record: Record, found: MeasuredExtent) -> str:
-    """Whether an extent from entry to exit is right: the truth lies in its interval."""
-    if not found.measured:
-        return CANNOT
-    if record.spall_extent_deg is None:
-        return UNCHECKED
-    true = math.radians(record.spall_extent_deg)
-    return RIGHT if found.low <= true <= found.high else WRONG
-
-
-Heard = list[tuple[str, Envelope]]
-
-
-def _every(heard: Heard, rate: float) -> Heard:
-    return heard
-
-
-def _kurtogram(heard: Heard, rate: float) -> Heard:
-    """The one band where the signal is most impulsive."""
-    return [max(heard, key=lambda pair: pair[1].kurtosis)]
-
-
-def _widest(heard: Heard, rate: float) -> Heard:
-    return [max(heard, key=lambda pair: pair[1].band.high - pair[1].band.low)]
-
-
-def _thirds(heard: Heard, rate: float) -> Heard:
-    third = rate / 6.0
-    return [p for p in heard if abs(p[1].band.high - p[1].band.low - third) < 0.02 * third]
-
-
-METHODS: dict[str, Callable[[Heard, float], Heard]] = {
-    "all bands": _every,
-    "kurtogram": _kurtogram,
-    "whole range": _widest,
-    "thirds": _thirds,
-}
-
-
-@contextmanager
-def _listening(choose: Callable[[Heard, float], Heard], whiten: bool) -> Iterator[None]:
-    """Diagnoses on other bands, of the signal whitened or as measured."""
-    of_all, filtered = listened_signal.ListenedSignal.envelopes, listened_signal.squared_envelopes
-
-    def envelopes(self: listened_signal.ListenedSignal, shaft: float, highest: float) -> Heard:
-        return choose(of_all(self, shaft, highest), self.rate)
-
-    def as_measured(*told: Any) -> list[Envelope]:
-        return filtered(*told[:5], None)
-
-    with mock.patch.object(listened_signal.ListenedSignal, "envelopes", envelopes):
-        if whiten:
-            yield
-        else:
-            with mock.patch.object(listened_signal, "squared_envelopes", as_measured):
-                yield
-
-
-def _compare_methods(found: list[Record]) -> None:
-    """The same decisions on bands chosen in other ways."""
-    damaged = [record for record in found if record.truth in PARTS]
-    healthy = [record for record in found if record.truth == HEALTHY]
-    print(f"\n{'bands':<26}{RIGHT:>8}{CANNOT:>14}{WRONG:>8}   healthy: not accused")
-    for name, choose in METHODS.items():
-        for whiten in (True, False):
-            with _listening(choose, whiten):
-                results = Counter(_result(record) for record in damaged)
-                calm = sum(_result(record) != WRONG for record in healthy)
-            row = "".join(f"{results[r]:{w}d}" for r, w in ((RIGHT, 8), (CANNOT, 14), (WRONG, 8)))
-            told = f"{name}, {'whitened' if whiten else 'as measured'}"
-            print(f"{told:<26}{row}   {calm} of {len(healthy)}")
-
-
-def _result(record: Record) -> str:
-    return verdict(record, diagnose(record.recording, record.bearing, record.shaft_speed))
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -275,18 +189,18 @@ def main() -> int:
     parser.add_argument("folder", type=Path, metavar="DIR")
     parser.add_argument("--sizes", action="store_true")
     parser.add_argument("--by-hand", action="store_true", help="size as if the outer race were")
-    parser.add_argument("--methods", action="store_true")
+    parser.add_argument("--scoreboard", action="store_true", help="write assets/scoreboard.json")
     parser.add_argument("--extents", action="store_true", help="from entry to exit")
     chosen = parser.parse_args()
     found = list(records(chosen.folder))
     if not found:
         print(f"no records in {chosen.folder}", file=sys.stderr)
         return 2
+    if chosen.scoreboard:
+        return write(found)
     if chosen.extents:
         return 1 if _extents(found) else 0
     wrong = _sum_up(_diagnosed(found))
-    if chosen.methods:
-        _compare_methods(found)
     if chosen.sizes:
         counts: Counter[str] = Counter()
         for record in found:

@@ -46,6 +46,8 @@ class Record:
     """Of a pit on the outer race, where it is known."""
     spall_extent_deg: float | None = None
     """Of a spall or pit on either race, where it is known."""
+    grade: str = ""
+    """By hand, of the drive end at 12 kHz: see `GRADES`."""
 
 
 def ball_bearing(
@@ -70,6 +72,17 @@ CWRU_EXTENT_DEG = {"007": 0.43, "014": 0.87, "021": 1.30}
 CWRU_INNER_DEG = {"007": 0.66, "014": 1.31, "021": 1.97, "028": 2.62}
 MFPT = (8, 0.235 * 25.4, 1.245 * 25.4)
 FEMTO = (13, 3.5, 25.6)
+GRADES = {
+    "Y1": "130 131 132 133 156 209 210 211 212",
+    "Y2": "105 106 107 108 121 144 145 146 147 158 159 160 169 170 171 172 197 222 223 234 235 236 "
+    "237 246 247 248 249 258 259 260 261 3005 3006 3007 3008",
+    "P1": "199",
+    "P2": "185 186 187 188 198",
+    "N1": "118 119 120 200 224 225 3001 3002 3003 3004",
+}
+"""Records of the drive end at 12 kHz, by how Smith and Randall graded them by hand (Mechanical
+Systems and Signal Processing 64-65, 2015): Y1, Y2 clear, P1, P2 probable, N1 not possible."""
+
 HITSM = re.compile(r"([IO])R(\d+)_(\d+)")
 FEMTO_RPM = {"Bearing1": 1800.0, "Bearing2": 1650.0}
 
@@ -172,10 +185,12 @@ def _cwru(path: Path) -> Record:
         extent = CWRU_EXTENT_DEG.get(kind[2]) if kind[1] == "OR" else None
         either = CWRU_INNER_DEG.get(kind[2]) if kind[1] == "IR" else extent
     signal = np.asarray(content[variable], dtype=float).reshape(-1) * UNITS["g"]
+    at_12_khz = number is not None and rate < 20_000.0 and not fan_end
+    grade = next((g for g, files in GRADES.items() if number and number[1] in files.split()), "")
     return Record(
         name, truth, "CWRU 6203" if fan_end else "CWRU 6205",
         ball_bearing(*(CWRU_FAN_END if fan_end else CWRU)), _speed(turns),
-        Recording(signal, rate, ("y",), path.name), extent, either,
+        Recording(signal, rate, ("y",), path.name), extent, either, grade if at_12_khz else "",
     )  # fmt: skip
 
 

@@ -1,0 +1,47 @@
+"""The scoreboard: documents and page say what it says, and the numbers it set are those in use."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from bearing_explorer.views.how_sure import extents, reliability
+
+from bearingcore.diagnosis.part.probability import CALIBRATION
+from tests.benchmarks.scoreboard import CANNOT, FILE, fitted, left_out, stated, tables
+
+ROOT = Path(__file__).parents[4]
+ROWS = json.loads(FILE.read_text(encoding="utf-8"))["records"]
+
+
+@pytest.mark.parametrize(
+    ("document", "names"),
+    [
+        ("README.md", ("by truth", "sure")),
+        ("assets/docs/DIAGNOSIS.md", tuple(tables(ROWS))),
+    ],
+)
+def test_documents_say_what_the_scoreboard_says(document: str, names: tuple[str, ...]) -> None:
+    text = (ROOT / document).read_text(encoding="utf-8")
+    assert f"{len(ROWS)} records" in text
+    assert [name for name in names if tables(ROWS)[name] not in text] == []
+
+
+def test_the_calibration_is_what_the_records_set() -> None:
+    assert tuple(fitted(ROWS)) == pytest.approx(tuple(CALIBRATION), rel=0.01)
+
+
+def test_stated_probabilities_hold_also_without_the_machine_they_are_of() -> None:
+    again = [dict(row) for row in ROWS]
+    left_out(again)
+    assert [row["left_out"] for row in again] == [row["left_out"] for row in ROWS]
+    for rows in (ROWS, [{**row, **row["left_out"]} for row in ROWS]):
+        count, right = stated(rows)
+        assert right >= 0.96 * count > 0
+
+
+def test_the_page_counts_every_answer_and_every_extent() -> None:
+    answered = [row for row in ROWS if row["verdict"] != CANNOT]
+    assert reliability()["count"].sum() == len(answered)
+    assert len(extents()["extent_deg"]) == tables(ROWS)["extents"].count("\n") - 1

@@ -1,0 +1,227 @@
+"""The scoreboard: answers on records of real machines beside the truth, and what they are worth.
+
+`write` puts it into `assets/scoreboard.json`, from where the page, README and DIAGNOSIS.md take
+their numbers (`tables`; a test holds them together). What measured records have set, the
+`Calibration`, was set with these records in sight; so each machine is judged once more with what
+the other machines alone would have set.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+from scipy.optimize import minimize
+
+from bearingcore import Diagnosis, MeasuredExtent, diagnose, measure_extent
+from bearingcore.diagnosis.part.decide import NAMED
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, LIKELY, NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PARTS
+from bearingcore.diagnosis.part.probability import LEAD, Calibration, probabilities
+from tests.benchmarks.measured_records import GRADES, HEALTHY, UNKNOWN, Record
+
+FILE = Path(__file__).parents[2] / "assets" / "scoreboard.json"
+
+RIGHT, CANNOT, WRONG = "right", "cannot tell", "wrong"
+VERDICTS = (RIGHT, CANNOT, WRONG)
+UNCHECKED = "size not published"
+
+BINS = (0.5, 0.7, 0.9, 1.0)
+"""Stated probabilities between which answers are counted together."""
+
+PRIOR = ((20.0 * math.log10(0.13), 3.0), (math.log(1.5), 0.4))
+"""Expected values and deviations of the swing [dB] and of the logarithm of its scale: few records
+set neither freely."""
+
+LAPSE = 0.02
+"""Share of records that no law of this kind describes."""
+
+Row = dict[str, Any]
+
+
+def verdict(record: Record, found: Diagnosis) -> str:
+    """Whether a diagnosis is right."""
+    return _verdict(record.truth, found.fault)
+
+
+def _verdict(truth: str, fault: str) -> str:
+    if fault == CANNOT_TELL:
+        return CANNOT
+    if truth == UNKNOWN:  # damage, but nobody knows of what
+        return WRONG if fault == NONE_SEEN else RIGHT
+    return RIGHT if fault == (NONE_SEEN if truth == HEALTHY else truth) else WRONG
+
+
+def extent_verdict(record: Record, found: MeasuredExtent) -> str:
+    """Whether an extent from entry to exit is right: the truth lies in its interval."""
+    if not found.measured:
+        return CANNOT
+    if record.spall_extent_deg is None:
+        return UNCHECKED
+    true = math.radians(record.spall_extent_deg)
+    return RIGHT if found.low <= true <= found.high else WRONG
+
+
+def row_of(record: Record) -> Row:
+    """One record: its truth, the answer and what it rests on; angles in degrees."""
+    found = diagnose(record.recording, record.bearing, record.shaft_speed)
+    row: Row = {
+        "record": record.name,
+        "machine": record.machine,
+        "grade": record.grade,
+        "truth": record.truth,
+        "answer": found.fault,
+        "probability": round(found.probability, 3),
+        "status": str(found.status),
+        "verdict": verdict(record, found),
+        "evidence": {
+            one.part: {
+                name: round(float(getattr(one, name)), 4)
+                for name in ("lead", "swing", "deviations")
+            }
+            for one in found.evidence
+        },
+        "true_extent_deg": record.spall_extent_deg,
+    }
+    if found.fault in (OUTER, INNER):
+        extent = measure_extent(record.recording, record.bearing, record.shaft_speed)
+        row["extent_status"] = str(extent.status)
+        row["extent_verdict"] = extent_verdict(record, extent)
+        if extent.measured:
+            degrees = np.degrees([extent.extent, extent.low, extent.high])
+            row["extent_deg"], row["low_deg"], row["high_deg"] = degrees.round(2).tolist()
+    return row
+
+
+def fitted(rows: Iterable[Row]) -> Calibration:
+    """What records set: whether a race's lines that are there are of its own damage, by swing."""
+    pairs = [
+        (20.0 * math.log10(one["swing"]), part == row["truth"])
+        for row in rows
+        if row["truth"] != UNKNOWN
+        for part, one in row["evidence"].items()
+        if part != BALL and one["lead"] >= LEAD
+    ]
+    swing = np.array([pair[0] for pair in pairs])
+    own = np.array([pair[1] for pair in pairs], dtype=float)
+    middle, width = np.transpose(PRIOR)
+
+    def loss(tried: np.ndarray) -> float:
+        curve = 1.0 / (1.0 + np.exp(-(swing - tried[0]) / math.exp(tried[1])))
+        share = 0.5 * LAPSE + (1.0 - LAPSE) * curve
+        likelihood = own * np.log(share) + (1.0 - own) * np.log1p(-share)
+        return float(-likelihood.sum() + 0.5 * (((tried - middle) / width) ** 2).sum())
+
+    best = minimize(loss, middle, method="Nelder-Mead").x
+    return Calibration(10.0 ** (best[0] / 20.0), math.exp(best[1]))
+
+
+def left_out(rows: Sequence[Row]) -> None:
+    """Add to each row the answer by what all machines but its own have set."""
+    for machine in {row["machine"] for row in rows}:
+        chosen = fitted(row for row in rows if row["machine"] != machine)
+        for row in rows:
+            if row["machine"] != machine:
+                continue
+            evidence = [SimpleNamespace(part=part, **one) for part, one in row["evidence"].items()]
+            told = probabilities(cast("list[PartEvidence]", evidence), chosen)
+            part = max(told, key=lambda name: told[name], default="")
+            answer, probability = row["answer"], row["probability"]
+            if part and told[part] >= NAMED:
+                answer, probability = part, round(told[part], 3)
+            elif answer in PARTS:
+                answer = CANNOT_TELL
+            row["left_out"] = {
+                "answer": answer,
+                "probability": probability,
+                "verdict": _verdict(row["truth"], answer),
+            }
+
+
+def write(found: Iterable[Record]) -> int:
+    """Write the scoreboard; how many answers are wrong."""
+    rows = []
+    for record in found:
+        rows.append(row_of(record))
+        print({name: rows[-1][name] for name in ("record", "truth", "answer", "probability")})
+    left_out(rows)
+    chosen = fitted(rows)
+    print(f"all machines together set {chosen}")
+    board = {"bins": BINS, "records": rows}
+    FILE.write_text(json.dumps(board, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    for words in tables(rows).values():
+        print(f"\n{words}")
+    return sum(row["verdict"] == WRONG for row in rows)
+
+
+def stated(rows: Iterable[Row]) -> tuple[int, int]:
+    """How many answers were stated with LIKELY or more, and how many of them are right."""
+    sure = [row for row in rows if row["verdict"] != CANNOT and row["probability"] >= LIKELY]
+    return len(sure), sum(row["verdict"] == RIGHT for row in sure)
+
+
+def tables(rows: Sequence[Row]) -> dict[str, str]:
+    """The tables and sentences of the documents, by name."""
+    truths = [truth for truth in (*PARTS, HEALTHY, UNKNOWN) if _of(rows, "truth", truth)]
+    machines = sorted({row["machine"] for row in rows})
+    again = [{**row, **row["left_out"]} for row in rows]
+    by_machine = [
+        f"| {name} | {_counted(_of(rows, 'machine', name))} | {_sure(_of(rows, 'machine', name))} "
+        f"| {_counted(_of(again, 'machine', name))} | {_sure(_of(again, 'machine', name))} |"
+        for name in machines
+    ]
+    graded = [row for row in rows if row["grade"] in ("Y1", "Y2")]
+    clear = sum(row["verdict"] == RIGHT for row in graded)
+    wrong = [f"{row['record']} ({row['answer']})" for row in rows if row["verdict"] == WRONG]
+    return {
+        "by truth": _table("truth", [(truth, _of(rows, "truth", truth)) for truth in truths]),
+        "by grade": _table("grade", [(grade, _of(rows, "grade", grade)) for grade in GRADES]),
+        "by machine": "\n".join((
+            "| machine | right | cannot tell | wrong | stated ≥ 90 %, right | left out: right "
+            "| cannot tell | wrong | stated ≥ 90 %, right |",
+            "| --- |" + 8 * " ---: |",
+            *by_machine,
+        )),
+        "sure": f"Of {stated(rows)[0]} answers stated with 90 % or more, {stated(rows)[1]} are "
+        f"right; judged without the machine they are of, {stated(again)[1]} of {stated(again)[0]}.",
+        "graded": f"Of the {len(graded)} records here that are graded Y1 or Y2, {clear} are right.",
+        "wrong": f"Wrong: {', '.join(wrong) or 'none'}.",
+        "extents": _extents(rows),
+    }  # fmt: skip
+
+
+def _of(rows: Iterable[Row], name: str, value: str) -> list[Row]:
+    return [row for row in rows if row[name] == value]
+
+
+def _counted(rows: Sequence[Row]) -> str:
+    counts = Counter(row["verdict"] for row in rows)
+    return " | ".join(str(counts[result]) for result in VERDICTS)
+
+
+def _sure(rows: Sequence[Row]) -> str:
+    count, right = stated(rows)
+    return f"{right} of {count}"
+
+
+def _table(heading: str, named: Sequence[tuple[str, list[Row]]]) -> str:
+    lines = [f"| {heading} | right | cannot tell | wrong |", "| --- | ---: | ---: | ---: |"]
+    return "\n".join([*lines, *(f"| {name} | {_counted(rows)} |" for name, rows in named)])
+
+
+def _extents(rows: Iterable[Row]) -> str:
+    lines = ["| record | true extent | measured | interval |", "| --- | ---: | ---: | ---: |"]
+    for row in rows:
+        if row["true_extent_deg"] and "extent_deg" in row:
+            between = f"{row['low_deg']:.1f}-{row['high_deg']:.1f}°"
+            lines.append(
+                f"| {row['record']} | {row['true_extent_deg']:g}° | {row['extent_deg']:.1f}° "
+                f"| {between} |"
+            )
+    return "\n".join(lines)

@@ -4,7 +4,8 @@ A view never computes physics. It says in `needs` which attributes of `compute.r
 reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
-stands on one line above the figure, and the rest opens on a click), and give it
+is seen above the figure with the sentences of the key, “Grey: ...”, and the rest opens on a click),
+and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
@@ -163,7 +164,7 @@ class View:
         ]
         #: the content, where that is figures alone
         self._picture = body if self.figures and not self.compact and _only_figures(body) else None
-        line, rest = first_sentence(self.caption())
+        line, rest = parts_of(self.caption())
         self._caption = Caption(
             title=self.title,
             line=line,
@@ -231,7 +232,7 @@ class View:
         if results is not None:
             bearing = results.scene.bearing
             text = with_elements_of(bearing, self.caption(results.reference_caption))
-            line, rest = first_sentence(text)
+            line, rest = parts_of(text)
             pinned = results.pinned.name if self.compares and results.pinned else ""
             title = with_elements_of(bearing, self.title)
             self._caption.put(title=title, line=line, rest=rest, pinned=pinned)
@@ -307,10 +308,19 @@ def _only_figures(body: pn.viewable.Viewable) -> bool:
     return all(isinstance(part, pn.pane.Bokeh) for part in leaves)
 
 
-def first_sentence(text: str) -> tuple[str, str]:
-    """The first sentence of a text, and the rest."""
-    found = re.match(r"(.+?[.!?])\s+(?=[A-Z“])(.+)", text, re.DOTALL)
-    return (found[1], found[2]) if found else (text, "")
+_BETWEEN = re.compile(r"(?<=[.!?])\s+(?=[A-Z“])")
+_IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
+
+
+def parts_of(text: str) -> tuple[str, str]:
+    """What is seen of a caption, and what opens on a click.
+
+    The first sentence and the key are seen: sentences such as “Grey: the healthy bearing.”
+    """
+    first, *others = _BETWEEN.split(text)
+    key = [sentence for sentence in others if _IS_KEY.match(sentence)]
+    rest = [sentence for sentence in others if sentence not in key]
+    return " ".join([first, *key]), " ".join(rest)
 
 
 def figures_in(layout: Any) -> list[Plot]:

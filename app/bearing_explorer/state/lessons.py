@@ -43,7 +43,7 @@ import html
 import json
 import re
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cache, cached_property, lru_cache
 from itertools import islice
@@ -370,10 +370,7 @@ class _Checks:
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
         """The numbers and the choices that the scene is changed by."""
         changes = {name: str(value) for name, value in self.head.scene.items()}
-        try:
-            return _changes(SceneEditor(self.head.preset), changes)
-        except _RefusedError as refused:
-            raise self.error(refused.name, str(refused)) from None
+        return _changes(SceneEditor(self.head.preset), changes, self.error)
 
     def prediction(self) -> Prediction | None:
         """The prediction; LessonError where none of its choices is right."""
@@ -409,31 +406,26 @@ def _near(name: str, known: Sequence[str]) -> str:
     return f"was {close[0]} meant?" if close else f"there are {len(known)}, as {known[0]}"
 
 
-class _RefusedError(ValueError):
-    def __init__(self, name: str, words: str) -> None:
-        super().__init__(words.rstrip("."))
-        self.name = name
-
-
 def _changes(
-    editor: SceneEditor, changes: Mapping[str, str]
+    editor: SceneEditor, changes: Mapping[str, str], error: Callable[[str, str], LessonError]
 ) -> tuple[dict[str, float], dict[str, str]]:
-    """Changes of a scene as numbers and choices, tried on `editor`; raises where one fails."""
+    """Changes of a scene as numbers and choices, tried on `editor`.
+
+    Where one fails, what `error` makes of its name and a sentence is raised.
+    """
     choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
     for name, value in choices.items():
         options = CHOICES.get(name, list(presets))
         if value not in options:
-            raise _RefusedError(name, f"{name} is “{value[:40]}”; {_near(value, options)}")
-    for name, sentence in editor.choose(choices).items():
-        raise _RefusedError(name, sentence)
+            raise error(name, f"{name} is “{value[:40]}”; {_near(value, options)}")
     numbers = {name: value for name, value in changes.items() if name not in choices}
     for name in numbers:
         if name not in FIELD_BY_KEY:
             known = _near(name, [*FIELD_BY_KEY, *CHOICES])
-            raise _RefusedError(name, f"“{name[:40]}” is no number or choice of the page; {known}")
-    refused, _ = editor.set(numbers)
+            raise error(name, f"“{name[:40]}” is no number or choice of the page; {known}")
+    refused = editor.choose(choices) or editor.set(numbers)[0]
     for name, sentence in refused.items():
-        raise _RefusedError(name, sentence)
+        raise error(name, sentence.rstrip("."))
     return {name: editor.values[name] for name in numbers}, choices
 
 
@@ -510,11 +502,8 @@ def _set(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     """The message of a button that changes the scene."""
     if not rest:
         raise LessonError(line, "set: is followed by changes, as in set:extent_deg=64")
-    try:
-        changes = dict(parse_qsl(rest, keep_blank_values=True))
-        values, choices = _changes(checks.editor(), changes)
-    except _RefusedError as refused:
-        raise LessonError(line, str(refused)) from None
+    changes = dict(parse_qsl(rest, keep_blank_values=True))
+    values, choices = _changes(checks.editor(), changes, lambda _, words: LessonError(line, words))
     return {"choose": choices, "typed": values}
 
 

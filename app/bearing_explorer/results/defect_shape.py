@@ -1,16 +1,22 @@
-"""Angular positions of the defects of a scene at a cage angle, for shading and drawing."""
+"""The races of a scene with its defects at a cage angle, for shading and drawing."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import Scene
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.statics.passes import ball_drop
 
 TWO_PI = 2.0 * math.pi
+POINTS = 721
+MARGIN = 0.35  # of the extent, on either side
+LEAST_WIDTH = math.radians(12.0)
 
 
 class Span(NamedTuple):
@@ -73,13 +79,62 @@ def race_depth(
     return depth
 
 
-def race_angles(found: list[Span], race: str, n: int = 361) -> NDArray[np.float64]:
-    """Angles [rad] from 0 to 2π that draw `race` with upright walls: a pair at every edge."""
-    edges = [
-        edge
+def _walls(found: list[Span], race: str, row: int | None = None) -> NDArray[np.float64]:
+    """A pair of angles [rad] at every edge of a race, so that walls are drawn upright."""
+    ends = [
+        at
         for span in found
-        if span.race == race
-        for at in (span.start, (span.start + span.extent) % TWO_PI)
-        for edge in (at - 1e-9, at + 1e-9)
+        if span.race == race and span.meets(row)
+        for at in (span.start, span.start + span.extent)
     ]
-    return np.sort(np.concatenate([np.linspace(0.0, TWO_PI, n), edges]))
+    return np.add.outer(ends, [-1e-9, 1e-9]).ravel()
+
+
+def race_angles(found: list[Span], race: str, n: int = 361) -> NDArray[np.float64]:
+    """Angles [rad] from 0 to 2π that draw `race` with upright walls."""
+    return np.sort(np.append(np.linspace(0.0, TWO_PI, n), _walls(found, race) % TWO_PI))
+
+
+@dataclass(frozen=True)
+class Profile:
+    """angle (n,) [rad], rising, perhaps past 2π; depth of the race and drop of the ball [m].
+
+    Of the race of one `row`, counted from 0.
+    """
+
+    race: str
+    angle: NDArray[np.float64]
+    depth: NDArray[np.float64]
+    path: NDArray[np.float64]
+    row: int = 0
+
+    def table(self) -> ResultTable:
+        """A row an angle: depth of the race, and how far the ball's centre drops."""
+        return table_of(
+            ("angle", "rad", self.angle),
+            ("race_depth", "m", self.depth),
+            ("ball_center_drop", "m", self.path),
+        )
+
+
+def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
+    """Profile around the defect `focus` of `scene` with the cage at `cage_angle` [rad]."""
+    found = spans(scene, cage_angle)
+    if not found:
+        angle = np.linspace(1.5 * math.pi - LEAST_WIDTH, 1.5 * math.pi + LEAST_WIDTH, 3)
+        return Profile("outer", angle, np.zeros(3), np.zeros(3))
+    first = found[focus]
+    middle = first.start + 0.5 * first.extent
+    row = first.row or 0
+    half = min(max((0.5 + MARGIN) * first.extent, LEAST_WIDTH), math.pi)
+    low = middle - half
+    walls = low + (_walls(found, first.race, row) - low) % TWO_PI
+    walls = walls[walls <= low + 2.0 * half]
+    angle = np.sort(np.append(np.linspace(low, low + 2.0 * half, POINTS), walls))
+    return Profile(
+        first.race,
+        angle,
+        race_depth(scene, cage_angle, first.race, angle, row),
+        ball_drop(scene, angle, cage_angle, first.race, row),
+        row,
+    )

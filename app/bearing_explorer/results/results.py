@@ -19,6 +19,7 @@ from bearing_explorer.results import endurance, motions, statics
 from bearing_explorer.results.ball_mass import BallMass
 from bearing_explorer.results.cache import cached
 from bearing_explorer.results.chain import Chain, chain
+from bearing_explorer.results.defect_shape import Profile, profile
 from bearing_explorer.results.dof_comparison import (
     DofComparison,
     other_dofs,
@@ -29,7 +30,6 @@ from bearing_explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.results.excerpt import Excerpt
 from bearing_explorer.results.executors import PICTURES
 from bearing_explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.results.profile import Profile, profile
 from bearing_explorer.state.field_values import defects_of
 from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, Settings

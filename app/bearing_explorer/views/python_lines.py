@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -57,7 +58,7 @@ def arguments(view: View, results: Results) -> dict[str, str]:
         given["focus"] = str(results.focus)
     if results.pinned is not None and view.compares:
         given["pinned"] = scene_code(results.pinned.scene)
-        given["pinned_name"] = text_code(results.pinned.name)
+        given["pinned_name"] = code_of(results.pinned.name)
     if results.before is not None and "chain_before" in view.needs:
         given["before"] = scene_code(results.before)
     for name, value, usual in (
@@ -136,7 +137,7 @@ def _field_code(name: str, value: Any) -> str:
 def code_of(value: Any) -> str:
     """A plain value as an expression, strings in double quotes."""
     if isinstance(value, str):
-        return text_code(value)
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, float):
         return short(value)
     if isinstance(value, dict):
@@ -147,12 +148,6 @@ def code_of(value: Any) -> str:
             return f"[{inner}]"
         return f"({inner},)" if len(value) == 1 else f"({inner})"
     return repr(value)
-
-
-def text_code(text: str) -> str:
-    """A string as an expression, in double quotes where it has none."""
-    code = repr(text)
-    return code if '"' in code else code.replace("'", '"')
 
 
 def short(value: float) -> str:

@@ -40,12 +40,13 @@ export function render({ model }) {
   follow(model, ["line", "rest"], () => {
     line.textContent = model.line
     rest.textContent = model.rest
+    if (model.compact) title.title = `${model.line} ${model.rest}`.trim()
   })
   follow(model, ["pinned"], () => {
     grey.hidden = !model.pinned
     grey.textContent = `Grey: ${model.pinned}`
   })
-  if (model.compact)  // the figure says the rest itself
+  if (model.compact)  // the figure says it itself; the rest is a tooltip
     return element("header", { class: "compact" }, element("div", { class: "words" }, title, grey))
   const head = element("div", { class: "title" }, title, help)
 

@@ -34,6 +34,10 @@ export function render({ model }) {
   const answers = () => Object(remembered()[key()])
   const remember_answer = (answer) => remember({ [key()]: { ...answers(), ...answer } })
 
+  // A teacher's link may keep answers back, for as long as this tab of the browser lasts.
+  if (location.hash === "#hide-answers") remember({ hides: true })
+  const hides = Boolean(remembered().hides)
+
   let open = false, listed = false  // whether the list is shown instead of a lesson
   let resumed = model.open_first  // whether the lesson that comes was open before, with its answers
   const send_event = () => {
@@ -116,8 +120,8 @@ export function render({ model }) {
     const settle = (given) => {
       const is_right = boxes.length ? given === right : Math.abs(given - right) <= within
       const said = (answer) => boxes.length ? `“${choices[answer]}”` : `${answer} ${unit}`.trim().replace("-", "−")
-      form.dataset.said = is_right ? "right" : "other"
-      verdict.textContent = is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(right)}.`
+      form.dataset.said = hides ? "" : is_right ? "right" : "other"
+      verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(right)}.`
       reveal.textContent = reveal.dataset.after
       remember_answer({ given })
       announce("predicted")
@@ -159,7 +163,7 @@ export function render({ model }) {
     part.classList.add("answer")
     part.hidden = true
     if (resumed && answers().revealed) uncover()
-    return [predict ? [prediction(predict, reveal)] : [], element("div", { class: "last" }, reveal, part)]
+    return [predict ? [prediction(predict, reveal)] : [], element("div", { class: "last" }, ...(hides ? [] : [reveal, part]))]
   }
   const show = () => {
     if (!began()) return

@@ -563,6 +563,17 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(
     expect(lesson).to_be_hidden()
 
 
+def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, "?lesson=what-a-ball-carries#hide-answers")
+    lesson = visitor.page.get_by_role("region", name="Lesson")
+    lesson.get_by_role("textbox").fill("7")
+    lesson.get_by_role("button", name="Predict").click()
+    visitor.reads("Noted: 7 N.", lesson)
+    expect(visitor.main.locator(".view.veiled")).to_have_count(0)
+    expect(lesson.get_by_role("button", name=re.compile("answer"))).to_have_count(0)
+    assert "39" not in lesson.inner_text()
+
+
 def test_the_projector_shows_larger_letters(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer, "?lesson=what-a-ball-carries")
     question = visitor.page.get_by_role("region", name="Lesson").get_by_role("paragraph").first

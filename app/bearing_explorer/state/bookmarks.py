@@ -45,14 +45,11 @@ class OpenRequest:
     text: str
 
 
-def open_request_of(message: Mapping[Any, Any]) -> OpenRequest | None:
-    """A valid request of a message to open ("open", "file") or pin ("pin") a scene, or None."""
+def open_request_of(message: Mapping[str, Any]) -> OpenRequest | None:
+    """The request of a message to open ("open", "file") or pin ("pin") a scene, or None."""
     for what in ("open", "file", "pin"):
-        given = message.get(what)
-        if isinstance(given, dict):
-            name, text = given.get("name"), given.get("text")
-            if isinstance(name, str) and isinstance(text, str):
-                return OpenRequest(what, name_of(name), text[: LONGEST_TEXT + 1])
+        if given := message.get(what):
+            return OpenRequest(what, name_of(given["name"]), given["text"][: LONGEST_TEXT + 1])
     return None
 
 
@@ -123,7 +120,7 @@ class Bookmarks:
         if message.get("turning") is True:
             self._history.amend(now)
             return message.get("released") is True
-        if not isinstance(given, dict) or any(name in message for name in _STEPS[1:]):
+        if given is None or any(name in message for name in _STEPS[1:]):
             self._history.step(now)
             return True
         if given:

@@ -388,7 +388,7 @@ class SceneEditor:
 
     # Choices
 
-    def choose(self, choice: Mapping[Any, Any]) -> Refused:
+    def choose(self, choice: Mapping[str, str]) -> Refused:
         """Take choices out of lists; what is not on a list is passed over."""
         refused: Refused = {}
         self.effects = {}
@@ -397,23 +397,24 @@ class SceneEditor:
             "numbers": self._take_numbers,
             "kind": self._take_kind,
         }
-        if (preset := _one_of(choice.get("preset"), presets)) is not None:
+        if (preset := choice.get("preset", "")) in presets:
             self.take_preset(preset)
         for known in CHOICE_LIST:
-            name = _one_of(choice.get(known.name), known.names)
-            if name is not None:
+            name = choice.get(known.name, "")
+            if name in known.names:
                 act = own.get(known.name, partial(self._take_option, known))
                 refused |= self._tried(known.name, act, name)
-        if isinstance(defect := choice.get("defect"), str):
-            refused |= self._tried("defect", self._take_defect, defect)
-        if isinstance(name := choice.get("name"), str):
-            self.own_name = one_line(name, LONGEST_NAME)
-        if isinstance(listed := choice.get("bearing"), str):
-            refused |= self._tried("bearing", self._take_listed, listed)
+        if "name" in choice:
+            self.own_name = one_line(choice["name"], LONGEST_NAME)
         if choice.get("draft") == "discard":
             self.drop_draft()
-        if isinstance(dofs := choice.get("dofs"), str):
-            refused |= self._tried("dofs", self._take_dofs, dofs[:40])
+        for one, act in (
+            ("defect", self._take_defect),
+            ("bearing", self._take_listed),
+            ("dofs", self._take_dofs),
+        ):
+            if one in choice:
+                refused |= self._tried(one, act, choice[one])
         return refused
 
     def _tried(self, name: str, act: Callable[[str], None], value: str) -> Refused:
@@ -660,10 +661,6 @@ def _freest(defects: Iterable[Defect]) -> float:
     """The whole number of degrees farthest from all defects [rad]."""
     known = tuple(defects)
     return max((math.radians(d) for d in range(360)), key=lambda angle: _gap_to(known, angle))
-
-
-def _one_of(value: Any, options: Iterable[str]) -> str | None:
-    return value if isinstance(value, str) and value in options else None
 
 
 def _close(a: float, b: float) -> bool:

@@ -164,20 +164,6 @@ def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
     assert editor.preset == "6205", "the preset whose bearing it has"
 
 
-@pytest.mark.parametrize(
-    "message",
-    [
-        {},
-        {"open": "v=1"},
-        {"open": {"name": "x"}},
-        {"pin": {"name": 5, "text": "v=1"}},
-        {"file": {"name": "x", "text": ["a"]}},
-    ],
-)
-def test_strangers_ask_for_nothing(message: dict) -> None:
-    assert open_request_of(message) is None
-
-
 @pytest.mark.parametrize("text", ["", "v=9", "utm=1", "v=1&n_balls=0", "%%%", "v=1&floor=measured"])
 def test_what_no_scene_is_gets_a_sentence(text: str) -> None:
     found = read_request(OpenRequest("open", "x", text))

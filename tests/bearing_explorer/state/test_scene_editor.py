@@ -271,8 +271,6 @@ def test_directions_are_forced_and_given_back(editor: SceneEditor) -> None:
         {"defect": "7"},
         {"defect": "9" * 5000},
         {"defect": "²"},
-        {"defect": 1},
-        {"dofs": 5},
         {"preset": "../x"},
     ],
 )

@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Callable
 
 import pytest
+from bearing_explorer.messages import LinksChange, take
 from bearing_explorer.session import Explorer
 
 from bearingcore import presets
@@ -118,7 +119,7 @@ def test_one_report_at_a_time(answers: list[dict]) -> None:
     ],
 )
 def test_strangers_change_nothing(answers: list[dict], message: object) -> None:
-    explorer = session(lambda e: e.requests.change_links(message))
+    explorer = session(lambda e: take(e.requests.change_links, LinksChange, message))
     assert explorer.scene == presets["fan-rig"]
     assert explorer.inputs.pinned is None
     assert answers == []

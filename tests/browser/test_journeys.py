@@ -524,6 +524,10 @@ def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: S
     visitor.wait(lambda: rows.count() > 4)
     for words in rows.all_inner_texts()[1:]:
         assert re.search(r"\d (dB|%)|not known", words), words
+    visitor.reads(re.compile("pays after|saves nothing"))
+    visitor.choose("Model", "half as many steps")
+    visitor.press("Take it", visitor.main)
+    visitor.reads(re.compile(r"Chosen steps: \d+ Hz"))
 
 
 # --- lessons, classes, looks ----------------------------------------------------------------------

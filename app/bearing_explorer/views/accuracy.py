@@ -292,7 +292,7 @@ class Stability:
     def _step_figure(self) -> figure:
         """Methods down, steps across."""
         plot = _figure(
-            "Steps in a period of the highest natural frequency", "", (0.8, 80.0),
+            "Steps a period of the highest frequency", "", (0.8, 80.0),
             (-0.6, len(FIXED_STEP) - 0.4), 200, x_axis_type="log",
         )  # fmt: skip
         plot.xaxis.ticker = FixedTicker(ticks=[1, 2, 5, 10, 20, 50], minor_ticks=[])

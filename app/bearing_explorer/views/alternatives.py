@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,13 +18,16 @@ from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.views.base import SessionParts
 from bearing_explorer.views.job_view import JobView
+from bearing_explorer.views.work_precision import ALLOWED
+from bearing_explorer.widgets.form import Fields, button, choices, row, select
 from bearingcore.common.numbers import decibels, percent
 from bearingcore.experiments.alternatives import SPECTRUM, Alternative, Alternatives, alternatives
 
-HEADS = ("Model", "Error", "of the", "Time", "Scene's own", "Remark")
+HEADS = ("Model", "Error", "of the", "Time", "Saves", "Remark")
 
-GOOD_ENOUGH = {True: 0.5, False: 0.01}
+GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
 
 
@@ -32,7 +35,7 @@ class OtherModels(JobView[Alternatives]):
     """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
 
     name = "alternatives"
-    title = "Would a simpler model do?"
+    title = "What would less do here?"
     about = (
         "Other models against the scene's own, each computed. Errors of stiffness hold at 99 % "
         "of the cage angles; those of spectra up to 1.25 times the highest natural frequency."
@@ -44,7 +47,25 @@ class OtherModels(JobView[Alternatives]):
     def build(self, packed: PackedSource) -> Any:
         whole = {"sizing_mode": "stretch_width", "margin": 0}
         self._table = pn.pane.HTML("", stylesheets=[asset_text("alternatives.css")], **whole)
-        return pn.Column(self.job, self._table, **whole)
+        self._models = Fields(lambda _: None)
+        self._models.add("model", select("Model", [["", "none"]]))
+        take = button("Take it", lambda: self._use(self._models.values["model"]))
+        self._taking = row(self._models.widgets["model"], take, visible=False)
+        return pn.Column(self.job, self._table, self._taking, **whole)
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self._ask, self._take_steps = parts.ask, parts.take_steps
+
+    def _use(self, name: str) -> None:
+        """Change the scene, or the steps of its motion, to those of the model with this name."""
+        rows = () if self.found is None else takeable(self.found.rows)
+        for one in rows:
+            if one.name == name and "step_rate" in one.changes:
+                self._take_steps(one.changes["step_rate"])
+            elif one.name == name:
+                words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
+                self._ask({"choose": words})
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         scene = editor.scene
@@ -70,20 +91,51 @@ class OtherModels(JobView[Alternatives]):
             for row in self.found.rows
             if row.error <= GOOD_ENOUGH[row.quantity == SPECTRUM]
         ]
-        words = "No other model comes close enough"
+        words = "No other model is within 0.1 dB or 1 % of the swing"
         if enough:
-            words = f"Within 0.5 dB or 1 % of the swing: {style.list_words(enough)}"
+            words = f"Within 0.1 dB or 1 % of the swing: {style.list_words(enough)}"
         if self.found.scene != results.scene:
             words += ". Computed for an earlier scene"
-        return f"{words}."
+        return f"{words}. {price(self.found)}"
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if self.found is not None:
             self._table.object = table_of_rows(self.found.rows)
+            names = [one.name for one in takeable(self.found.rows)]
+            chosen = self._models.values["model"]
+            chosen = chosen if chosen in names else names[0] if names else ""
+            self._models.values["model"] = chosen
+            options = choices([[name, name] for name in names])
+            self._models.widgets["model"].param.update(**options, value=chosen)
+            self._taking.visible = bool(names)
 
     def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
         return found.table().named()
+
+
+def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
+    """The models that a scene can have, each once."""
+    known = {one.name: one for one in rows if one.changes and math.isfinite(one.error)}
+    return list(known.values())
+
+
+def price(found: Alternatives) -> str:
+    """What choosing costs against what it saves."""
+    good = [
+        one
+        for one in found.rows
+        if one.error <= GOOD_ENOUGH[one.quantity == SPECTRUM] and one.saved > 0.0
+    ]
+    spent = style.with_prefix(found.seconds, "s")
+    if not good:
+        return f"Choosing took {spent} and saves nothing: no model within that is faster."
+    best = max(good, key=lambda one: one.saved)
+    pictures = math.ceil(found.seconds / best.saved)
+    return (
+        f"{best.name.capitalize()} saves most, {style.with_prefix(best.saved, 's')} a picture; "
+        f"choosing took {spent}, so it pays after {pictures} pictures."
+    )
 
 
 def table_of_rows(rows: tuple[Alternative, ...]) -> str:
@@ -98,11 +150,19 @@ def _row(row: Alternative) -> str:
         error_words(row),
         row.quantity,
         _seconds(row.seconds),
-        _seconds(row.own_seconds),
+        saved_words(row),
         row.note,
     )
     rest = "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
     return f'<tr><th scope="row">{html.escape(row.name)}</th>{rest}</tr>'
+
+
+def saved_words(row: Alternative) -> str:
+    """Time that a model saves, or costs more than the scene's own."""
+    if not math.isfinite(row.saved):
+        return ""
+    size = style.with_prefix(abs(row.saved), "s")
+    return size if row.saved >= 0.0 else f"costs {size} more"
 
 
 def error_words(row: Alternative) -> str:

@@ -15,6 +15,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence, steps_sentence
+from bearing_explorer.views.alternatives import OtherModels, price
 from bearing_explorer.views.work_precision import (
     COLORS,
     MARKERS,
@@ -35,6 +36,7 @@ from bearingcore.experiments import (
     measure,
     measurements_from,
 )
+from bearingcore.experiments.alternatives import Alternative, Alternatives
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.stability import stability_chart
 
@@ -234,3 +236,27 @@ def test_unknown_experiments_are_refused() -> None:
         view.prepare({"experiment": "../etc"}, editor)
     for name in TRIALS:
         assert callable(view.prepare({"experiment": name}, editor))
+
+
+def test_a_model_that_would_do_is_taken_with_one_button() -> None:
+    view = OtherModels(PackedSource())
+    asked: list[object] = []
+    taken: list[float | None] = []
+    view._ask, view._take_steps = asked.append, taken.append
+    rows = (
+        Alternative("directions x y", "spectrum", 0.01, 0.01, 0.05, changes={"dofs": ("x", "y")}),
+        Alternative("half as many steps", "spectrum", 2.0, 0.02, 0.05, changes={"step_rate": 8e3}),
+        Alternative("periodic orbit", "spectrum", 0.02, 0.09, 0.05),
+    )
+    view.found = Alternatives(RIG, rows, 1000, 2.0)
+    view.say(Results(RIG), words := view.sentence(Results(RIG)))
+    assert "Within 0.1 dB or 1 % of the swing: directions x y and periodic orbit" in words
+    assert "Directions x y saves most, 40 ms a picture; choosing took 2 s" in words
+    assert "pays after 50 pictures" in words
+    assert "costs 40 ms more" in view._table.object
+    assert list(view._models.widgets["model"].options) == [row.name for row in rows[:2]]
+    for row in rows:
+        view._use(row.name)
+    assert asked == [{"choose": {"dofs": "x y"}}]
+    assert taken == [8e3]
+    assert "saves nothing" in price(Alternatives(RIG, rows[2:], 1000, 2.0))
